@@ -1,0 +1,1 @@
+"""A web visualiser for URDF and xacro robots: no ROS, no X server."""

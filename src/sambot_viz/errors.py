@@ -1,0 +1,126 @@
+"""Every error and every finding that leaves this package.
+
+The tree; nothing else is raised to a caller on purpose::
+
+    SambotVizError
+    ├── RobotError        a model that cannot be shown (.problems)
+    ├── ConfigError       no .rviz document at all (.problems)
+    ├── FrameError        a transform that cannot be looked up or set
+    ├── JointError        an unknown joint, a value that is no finite number
+    ├── ServerError       a port that is taken, a browser that is missing
+    └── UsageError        a command line or an argument that makes no sense
+
+A `Problem` is a finding in a file of the user's. It never travels alone as an
+exception: an error carries the problems that caused it.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+Severity = Literal["error", "warning", "info"]
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One finding: what is wrong, where, and how to mend it.
+
+    Attributes:
+        severity: "error" (ROS or we cannot use it), "warning" (usable, but ROS or
+            a simulator will stumble), "info" (worth knowing).
+        code: stable identifier such as "xml-root-closed-early".
+        message: what is wrong and why, one sentence without a full stop at the end.
+        hint: what to write instead; may be empty.
+        file: path of the file as the user wrote it, or None.
+        line: line in that file, counted from 1, or None.
+        column: column in that line, counted from 1, or None.
+    """
+
+    severity: Severity
+    code: str
+    message: str
+    hint: str = ""
+    file: str | None = None
+    line: int | None = None
+    column: int | None = None
+
+    @property
+    def place(self) -> str:
+        """The clickable place: "file:line:column", as far as it is known."""
+        known = (part for part in (self.file, self.line, self.column))
+        return ":".join(str(part) for part in known if part is not None)
+
+    def __str__(self) -> str:
+        head = f"{self.severity}[{self.code}]: {self.message}"
+        text = f"{self.place}: {head}" if self.place else head
+        return f"{text}; {self.hint}" if self.hint else text
+
+    def as_json(self) -> dict[str, str | int | None]:
+        """The seven fields of ``check --format json``."""
+        return {
+            "severity": self.severity,
+            "code": self.code,
+            "message": self.message,
+            "hint": self.hint,
+            "file": self.file,
+            "line": self.line,
+            "column": self.column,
+        }
+
+
+class SambotVizError(Exception):
+    """Base of every error this package raises on purpose."""
+
+
+class _ErrorWithProblems(SambotVizError):
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems: tuple[Problem, ...] = tuple(problems)
+        errors = [p for p in self.problems if p.severity == "error"]
+        super().__init__("\n".join(str(p) for p in errors or self.problems))
+
+
+class RobotError(_ErrorWithProblems):
+    """The model cannot be shown; `problems` says why."""
+
+
+class ConfigError(_ErrorWithProblems):
+    """The file is no .rviz document; `problems` says why."""
+
+
+class FrameError(SambotVizError):
+    """A transform cannot be looked up or set."""
+
+
+class JointError(SambotVizError):
+    """A joint that does not exist, or a value that is no finite number."""
+
+
+class ServerError(SambotVizError):
+    """The server cannot start or cannot do what it was asked for."""
+
+
+class UsageError(SambotVizError):
+    """The caller asked for something that makes no sense."""
+
+
+def did_you_mean(name: str, names: Iterable[str]) -> str:
+    """The sentence that offers the nearest valid names.
+
+    Args:
+        name: what was asked for.
+        names: what exists.
+
+    Returns:
+        "did you mean 'base_link'?", or the list of what exists, or "there are none".
+    """
+    known: Sequence[str] = list(names)
+    if not known:
+        return "there are none"
+    near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+    if near:
+        return f"did you mean '{near[0]}'?"
+    shown = ", ".join(f"'{n}'" for n in known[:8])
+    return f"known: {shown}" + (", …" if len(known) > 8 else "")

@@ -1,0 +1,1 @@
+"""Coordinate frames: the tree, look-ups, static transforms, and their texts."""

@@ -1,0 +1,1 @@
+"""Joint positions: what joint_state_publisher and its GUI do, without ROS."""

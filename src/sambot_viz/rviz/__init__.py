@@ -1,0 +1,1 @@
+"""The .rviz document: reading, typed properties, lossless writing."""

@@ -1,0 +1,1 @@
+"""The RViz tools: one per file."""

@@ -1,0 +1,1 @@
+"""The RViz view controllers: one per file."""
