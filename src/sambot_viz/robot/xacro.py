@@ -1,0 +1,77 @@
+"""Expanding xacro with the real xacro package, in a child process.
+
+xacro evaluates Python that stands in the model (spec/ros-nodes.md §5.5), so it never
+runs in this process: a child with limits on time, memory and output does it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """A macro, property or argument that xacro had met before it failed.
+
+    Attributes:
+        kind: "macro", "property" or "arg".
+        name: its name without the prefix ``xacro:``.
+        file: the file that defines it, as the user would write it.
+        line: line of the defining element, from 1.
+        params: the parameter text of a macro, else empty.
+    """
+
+    kind: str
+    name: str
+    file: str
+    line: int
+    params: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class XacroCall:
+    """One macro call on the way to an element: what was called, and from where."""
+
+    macro: str
+    file: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class XacroFailure:
+    """Why an expansion ended, as far as xacro and the child can say.
+
+    Attributes:
+        kind: class name of the underlying exception ("NameError", "SyntaxError",
+            "ZeroDivisionError", "XacroException", "ArgException" for an argument
+            without a value, "PackageNotFoundError", "FileNotFoundError",
+            "RecursionError", "MemoryError", …), or one of our own: "Timeout",
+            "OutputLimit", "Refused" (the untrusted mode forbids it), "Crash".
+        text: the underlying exception's own text, without location lines.
+        file: the file being processed when it failed.
+        line: line of the element being processed in `file`, from 1, or None. Inside
+            a macro that is the line in the macro's body.
+        column: its column, from 1, or None.
+        expression: the innermost ``${…}`` text that failed, or None.
+        expressions: all nested ``${…}`` texts, innermost first.
+        element: tag of the element being processed ("xacro:wheell"), or None.
+        macros: macros being expanded, innermost first, as (name, file of the macro).
+        calls: the same chain as places of the calls, innermost first.
+        includes: files being read, innermost first; the last is the main file.
+        missing_package: (name, places searched) when ``$(find name)`` failed.
+        definitions: what was defined so far, for near names.
+    """
+
+    kind: str
+    text: str
+    file: str
+    line: int | None = None
+    column: int | None = None
+    expression: str | None = None
+    expressions: tuple[str, ...] = ()
+    element: str | None = None
+    macros: tuple[tuple[str, str], ...] = ()
+    calls: tuple[XacroCall, ...] = ()
+    includes: tuple[str, ...] = ()
+    missing_package: tuple[str, tuple[str, ...]] | None = None
+    definitions: tuple[Definition, ...] = ()
