@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+
+if TYPE_CHECKING:
+    from protocol_client import ProtocolClient
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -22,3 +27,24 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip("needs the collection ../shared, which is not beside this checkout")
     return folder
+
+
+@pytest.fixture
+def protocol() -> Iterator[Callable[..., ProtocolClient]]:
+    """Connect recording clients to a viser server: ``protocol(port)``.
+
+    What such a client can do is written in tests/support/protocol_client.py. The
+    clients are closed at the end of the test.
+    """
+    # Tests of the pure rooms use this file too and must not pay for viser.
+    from protocol_client import ProtocolClient
+
+    clients: list[ProtocolClient] = []
+
+    def connect(port: int, host: str = "127.0.0.1", *, camera: bool = True):
+        clients.append(ProtocolClient(port, host, camera=camera))
+        return clients[-1]
+
+    yield connect
+    for client in clients:
+        client.close()

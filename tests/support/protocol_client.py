@@ -1,0 +1,322 @@
+"""A light browser without a picture: it speaks viser's protocol and records it.
+
+    def test_one_step_is_one_message(protocol, server):
+        client = protocol(server.port)                    # connected, replay received
+        mark = client.mark()
+        client.set_value(client.uuid_of("left wheel"), 0.5)
+        client.settle(server)                             # all effects have arrived
+        assert [m.type for m in client.since(mark)] == ["SetOrientationMessage"]
+
+What it offers:
+
+    client.messages            every message so far, oldest first (`Received`)
+    client.mark(), .since(m)   a place in that list, and what came after it
+    client.types(since=m)      how many of each type, as a Counter
+    client.uuid_of(label)      the widget with this label; .widgets for all of them
+    client.value_of(label)     the widget's value as the server last told it
+    client.node(name)          the last message that created this scene node
+    client.set_value(uuid, v)  what a browser sends when a widget was moved
+    client.send(type, **f)     any other message
+    client.wait_until(cond)    until cond() is true; fails after `timeout` seconds
+    client.quiet(seconds)      True when nothing arrives for so long
+    client.settle(server)      a fence, see below
+    client.close()
+
+`settle` proves without sleeping that "nothing arrived" is final. The client writes to
+a hidden text field of its own; the server's answer takes the same way as everything
+that was queued before it, once through the buffer of all browsers and once through the
+buffer of this one. viser keeps the order in both directions, so what was sent before
+`settle` has been handled (as far as its callbacks are `async def` and wait for nothing
+outside the event loop), and every message that came of it has arrived. The messages of
+the fence itself are left out of `messages`.
+"""
+
+from __future__ import annotations
+
+import threading
+import weakref
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, cast
+
+import msgspec.msgpack
+import viser
+import zstandard
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
+
+FENCE_REQUEST = "~fence request"
+FENCE_REPLY = "~fence reply"
+_fenced: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
+
+
+@dataclass(frozen=True)
+class Received:
+    """One message.
+
+    Attributes:
+        type: its class in viser, such as "SetOrientationMessage".
+        fields: what it says, by field name; arrays as their raw bytes.
+        size: bytes of the message alone, not compressed, arrays included.
+        frame: number of the websocket frame it came in, from 0.
+        frame_size: bytes of that whole frame as it was on the wire.
+    """
+
+    type: str
+    fields: dict[str, Any]
+    size: int
+    frame: int
+    frame_size: int
+
+
+class ProtocolClient:
+    """One connection that records; see the module's text for what it offers."""
+
+    def __init__(self, port: int, host: str = "127.0.0.1", *, camera: bool = True):
+        """Connect, wait for the end of the replay, and report a camera pose.
+
+        Args:
+            port: where the server listens.
+            host: name or address of the server.
+            camera: viser hands a browser to the program when the first camera pose
+                arrives; False leaves that out.
+        """
+        self._changed = threading.Condition()
+        self._messages: list[Received] = []
+        self._fence_uuids: set[str] = set()
+        self._fence_values: dict[str, str] = {}
+        self._fence_count = 0
+        self._frames = 0
+        self.replayed = False
+        self.closed = False
+        self._socket = connect(
+            f"ws://{host}:{port}",
+            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+            max_size=None,
+            compression=None,
+        )
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+        self.wait_until(lambda: self.replayed)
+        if camera:
+            self.send_camera()
+
+    # What arrived.
+
+    @property
+    def messages(self) -> list[Received]:
+        """Every message so far, oldest first, without those of the fence."""
+        with self._changed:
+            return list(self._messages)
+
+    def mark(self) -> int:
+        """The present end of `messages`."""
+        with self._changed:
+            return len(self._messages)
+
+    def since(self, mark: int) -> list[Received]:
+        """The messages that came after `mark`."""
+        return self.messages[mark:]
+
+    def types(self, since: int = 0) -> Counter[str]:
+        """How many messages of each type came after `since`."""
+        return Counter(message.type for message in self.since(since))
+
+    @property
+    def widgets(self) -> dict[str, str]:
+        """Label → uuid of the widgets that the server created."""
+        found: dict[str, str] = {}
+        for message in self.messages:
+            label = message.fields.get("props", {}).get("label")
+            if label is not None and "uuid" in message.fields:
+                found[label] = message.fields["uuid"]
+        return found
+
+    def uuid_of(self, label: str) -> str:
+        """The uuid of the newest widget with this label."""
+        widgets = self.widgets
+        if label not in widgets:
+            raise AssertionError(f"no widget '{label}'; there are {sorted(widgets)}")
+        return widgets[label]
+
+    def value_of(self, label: str) -> Any:
+        """The value that the server last gave to the widget with this label."""
+        uuid = self.uuid_of(label)
+        value: Any = None
+        for message in self.messages:
+            if message.fields.get("uuid") != uuid:
+                continue
+            if "value" in message.fields:
+                value = message.fields["value"]
+            value = message.fields.get("updates", {}).get("value", value)
+        return value
+
+    def node(self, name: str) -> Received:
+        """The last message that created the scene node `name`."""
+        for message in reversed(self.messages):
+            if message.fields.get("name") == name and "props" in message.fields:
+                return message
+        raise AssertionError(f"no scene node '{name}'")
+
+    # What is sent.
+
+    def send(self, type: str, **fields: Any) -> None:
+        """Send the viser message `type` with these fields."""
+        self._socket.send(msgspec.msgpack.encode({"type": type, **fields}))
+
+    def send_camera(self) -> None:
+        """Report a camera 3 m in front of the origin, 640 x 480 pixels."""
+        self.send(
+            "ViewerCameraMessage",
+            wxyz=(0.5, -0.5, -0.5, 0.5),
+            position=(3.0, 0.0, 0.0),
+            fov=0.785,
+            near=0.01,
+            far=1000.0,
+            image_height=480,
+            image_width=640,
+            look_at=(0.0, 0.0, 0.0),
+            up_direction=(0.0, 0.0, 1.0),
+        )
+
+    def set_value(self, uuid: str, value: Any) -> None:
+        """Move a widget as a browser does."""
+        self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
+
+    # Waiting.
+
+    def wait_until(self, condition: Callable[[], bool], timeout: float = 10.0) -> None:
+        """Return when `condition()` is true; it is asked after every frame.
+
+        Raises:
+            AssertionError: it did not become true within `timeout` seconds.
+        """
+        with self._changed:
+            met = self._changed.wait_for(lambda: condition() or self.closed, timeout)
+            if not (met and condition()):
+                end = "the connection ended" if self.closed else f"{timeout} s passed"
+                counts = dict(Counter(m.type for m in self._messages))
+                raise AssertionError(f"{end} while waiting; received {counts}")
+
+    def quiet(self, seconds: float) -> bool:
+        """Whether no frame at all arrives during `seconds`."""
+        with self._changed:
+            before = self._frames
+            return not self._changed.wait_for(lambda: self._frames > before, seconds)
+
+    def settle(self, server: viser.ViserServer, timeout: float = 10.0) -> None:
+        """Wait until everything caused so far has arrived (see the module's text)."""
+        _build_fence(server)
+        self.wait_until(lambda: self._fence_request is not None, timeout)
+        self._fence_count += 1
+        wanted = {f"{side} {id(self)} {self._fence_count}" for side in ("all", "own")}
+        uuid = cast(str, self._fence_request)
+        self.set_value(uuid, f"{id(self)} {self._fence_count}")
+        self.wait_until(lambda: wanted <= set(self._fence_values.values()), timeout)
+
+    def close(self) -> None:
+        """End the connection and the thread that reads it."""
+        self._socket.close()
+        self._thread.join(timeout=5.0)
+
+    # The reading thread.
+
+    _fence_request: str | None = None
+
+    def _read(self) -> None:
+        try:
+            for frame in self._socket:
+                received = decode_frame(cast(bytes, frame), self._frames)
+                with self._changed:
+                    self._frames += 1
+                    for message in received:
+                        self._record(message)
+                    self._changed.notify_all()
+        except ConnectionClosed:
+            pass
+        finally:
+            with self._changed:
+                self.closed = True
+                self._changed.notify_all()
+
+    def _record(self, message: Received) -> None:
+        fields = message.fields
+        label = fields.get("props", {}).get("label")
+        if label in (FENCE_REQUEST, FENCE_REPLY):
+            self._fence_uuids.add(fields["uuid"])
+            if label == FENCE_REQUEST:
+                self._fence_request = fields["uuid"]
+            else:
+                self._fence_values[fields["uuid"]] = fields["value"]
+        elif fields.get("uuid") in self._fence_uuids:
+            if fields.get("updates", {}).get("value") is not None:
+                self._fence_values[fields["uuid"]] = fields["updates"]["value"]
+        else:
+            self._messages.append(message)
+            self.replayed = self.replayed or message.type == "ReplayDoneMessage"
+
+
+def decode_frame(data: bytes, number: int = 0) -> list[Received]:
+    """The messages in one websocket frame of viser's server.
+
+    The frame starts with two little-endian 64-bit lengths (msgpack unpacked, packed),
+    then the packed msgpack, then the arrays, each aligned to 8 bytes.
+    """
+    unpacked_size = int.from_bytes(data[:8], "little")
+    packed_end = 16 + int.from_bytes(data[8:16], "little")
+    content = zstandard.ZstdDecompressor().decompress(
+        data[16:packed_end], max_output_size=unpacked_size
+    )
+    decoded: dict[str, Any] = msgspec.msgpack.decode(content)
+    arrays: list[bytes] = []
+    position = packed_end
+    for length in decoded["binaryBufferLengths"]:
+        position += -position % 8
+        arrays.append(data[position : position + length])
+        position += length
+    received: list[Received] = []
+    for fields in decoded["messages"]:
+        size = len(msgspec.msgpack.encode(fields))
+        used: list[bytes] = []
+        filled = _fill_arrays(fields, arrays, used)
+        kind: str = filled.pop("type")
+        size += sum(len(array) for array in used)
+        received.append(Received(kind, filled, size, number, len(data)))
+    return received
+
+
+def _fill_arrays(value: Any, arrays: list[bytes], used: list[bytes]) -> Any:
+    """Put the arrays into the places kept for them; `used` collects this message's."""
+    if isinstance(value, list):
+        return [_fill_arrays(v, arrays, used) for v in cast(list[Any], value)]
+    if isinstance(value, dict):
+        fields = cast(dict[str, Any], value)
+        if "__binary_index" in fields and "dtype" in fields:
+            used.append(arrays[fields["__binary_index"]])
+            return used[-1]
+        return {k: _fill_arrays(v, arrays, used) for k, v in fields.items()}
+    return value
+
+
+def _build_fence(server: viser.ViserServer) -> None:
+    """Put the two hidden text fields of `settle` into the server's page, once."""
+    if server in _fenced:
+        return
+    _fenced.add(server)
+    reply = server.gui.add_text(FENCE_REPLY, "", visible=False)
+    request = server.gui.add_text(FENCE_REQUEST, "", visible=False)
+    own: dict[int, viser.GuiTextHandle] = {}
+
+    @request.on_update
+    async def _(event: viser.GuiEvent[viser.GuiTextHandle]) -> None:
+        client, value = event.client, event.target.value
+        if client is None or event.client_id is None:
+            return
+        reply.value = f"all {value}"
+        if event.client_id not in own:
+            own[event.client_id] = client.gui.add_text(FENCE_REPLY, "", visible=False)
+        own[event.client_id].value = f"own {value}"
+        server.flush()
+        client.flush()
