@@ -1,0 +1,337 @@
+"""Why the tags of a text do not form one tree.
+
+A stack of open tags is kept beside the tokens; where a closing tag does not fit,
+the tag that was forgotten, crossed or misspelt is named together with the place to
+mend it. expat names only the place where it noticed (spec/ros-nodes.md §6.7).
+"""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass, field
+
+from sambot_viz.errors import Problem
+from sambot_viz.robot.xml_source import Source
+from sambot_viz.robot.xml_tokens import Token
+
+_LEAVES = frozenset(
+    "axis box calibration capsule child color cylinder dynamics inertia limit mass "
+    "mesh mimic origin parent safety_controller sphere texture".split()
+)
+"""Elements that have attributes only: they are written <origin …/>."""
+
+_TOP_LEVEL = frozenset({"link", "joint", "transmission", "gazebo", "ros2_control"})
+"""Elements that never stand inside a link, a joint or a shape."""
+
+
+@dataclass
+class _Open:
+    token: Token
+    children: list[Token] = field(default_factory=list["Token"])
+
+
+def structure_problems(source: Source, file: str) -> list[Problem]:
+    """What keeps the tags from forming one tree, in document order.
+
+    Args:
+        source: the text.
+        file: its name, for the places.
+
+    Returns:
+        At most one problem per slip; empty when the tags are in order.
+    """
+    walk = _Walk(source, file)
+    walk.run()
+    return walk.problems
+
+
+@dataclass
+class _Walk:
+    source: Source
+    file: str
+    problems: list[Problem] = field(default_factory=list["Problem"])
+    stack: list[_Open] = field(default_factory=list["_Open"])
+    root: Token | None = None
+    root_end: Token | None = None
+
+    def run(self) -> None:
+        tags = self.source.tags
+        for index, token in enumerate(tags):
+            if self.root_end is not None:
+                self._behind_root(index)
+                return
+            if token.kind == "close":
+                self._close(index)
+            else:
+                self._start(token)
+        if self.stack:
+            self._end_of_file()
+        elif self.root_end is not None:
+            self._text_behind_root()
+
+    def _add(self, code: str, at: int, message: str, hint: str) -> None:
+        line, column = self.source.line(at), self.source.column(at)
+        self.problems.append(
+            Problem("error", code, message, hint, self.file, line, column)
+        )
+
+    def _line(self, token: Token) -> int:
+        return self.source.line(token.start)
+
+    def _start(self, token: Token) -> None:
+        if self.stack:
+            self.stack[-1].children.append(token)
+        elif self.root is None:
+            self.root = token
+        if token.kind == "open":
+            self.stack.append(_Open(token))
+        elif not self.stack:
+            self.root_end = token
+
+    def _close(self, index: int) -> None:
+        token = self.source.tags[index]
+        if not self.stack:
+            self._surplus(token)
+            return
+        top = self.stack[-1].token
+        if token.name != top.name:
+            self._mismatch(index)
+            return
+        self._pop(token)
+
+    def _pop(self, token: Token) -> None:
+        self.stack.pop()
+        if not self.stack:
+            self.root_end = token
+
+    def _mismatch(self, index: int) -> None:
+        token = self.source.tags[index]
+        top = self.stack[-1].token
+        names = [entry.token.name for entry in self.stack]
+        if token.name.lower() == top.name.lower():
+            self._wrong_case(top, token)
+            self._pop(token)
+        elif token.name in names:
+            self._not_closed(index, names)
+        elif difflib.SequenceMatcher(None, token.name, top.name).ratio() >= 0.7:
+            self._add(
+                "xml-closing-tag-misspelt",
+                token.start,
+                f"<{top.name}> opened on line {self._line(top)} is closed by "
+                f"</{token.name}> on line {self._line(token)}",
+                f"write </{top.name}>",
+            )
+            self._pop(token)
+        else:
+            self._surplus(token)
+
+    def _wrong_case(self, opened: Token, closed: Token) -> None:
+        wrong = closed if opened.name.islower() else opened
+        right = opened.name if opened.name.islower() else opened.name.lower()
+        self._add(
+            "xml-tag-case",
+            wrong.start,
+            f"<{opened.name}> on line {self._line(opened)} is closed by "
+            f"</{closed.name}> on line {self._line(closed)}: XML tells capital "
+            "letters from small ones",
+            f"write <{right}> and </{right}>",
+        )
+
+    def _not_closed(self, index: int, names: list[str]) -> None:
+        """The closing tag belongs further down: what lies above was not closed."""
+        tags = self.source.tags
+        token = tags[index]
+        depth = len(names) - 1 - names[::-1].index(token.name)
+        unclosed = self.stack[depth + 1 :]
+        following = tags[index + 1] if index + 1 < len(tags) else None
+        top = unclosed[-1].token
+        if len(unclosed) == 1 and following and following.closes:
+            if following.name == top.name and names.count(top.name) == 1:
+                self._crossed(top, token, following)
+                # The pair is taken as if it stood in the right order.
+                del self.stack[depth]
+                if not self.stack:
+                    self.root_end = token
+                return
+        for entry in unclosed:
+            self._unclosed(entry, token)
+        del self.stack[depth:]
+        if not self.stack:
+            self.root_end = token
+
+    def _crossed(self, inner: Token, closed: Token, following: Token) -> None:
+        self._add(
+            "xml-tags-crossed",
+            closed.start,
+            f"</{closed.name}> on line {self._line(closed)} comes before "
+            f"</{inner.name}>, though <{inner.name}> (line {self._line(inner)}) was "
+            "opened last",
+            f"close <{inner.name}> first: exchange the closing tags on lines "
+            f"{self._line(closed)} and {self._line(following)}",
+        )
+
+    def _unclosed(self, entry: _Open, closed: Token | None) -> None:
+        opened = entry.token
+        shown = self._shown(opened)
+        line = self._line(opened)
+        if opened.name in _LEAVES and not entry.children:
+            self._add(
+                "xml-tag-not-closed",
+                opened.start,
+                f"{shown} on line {line} is opened but never closed",
+                f"end it with a slash: {shown[:-1]}/>",
+            )
+            return
+        at = self._place_to_close(entry, closed)
+        before = self._last_before(at)
+        where = (
+            f"after {self._named(before)} on line {self.source.line(before.end - 1)}"
+        )
+        self._add(
+            "xml-tag-not-closed",
+            before.start,
+            f"{shown} opened on line {line} is never closed",
+            f"add </{opened.name}> {where}",
+        )
+
+    def _shown(self, token: Token) -> str:
+        name = token.get("name")
+        named = f' name="{name}"' if name and token.name != name else ""
+        return f"<{token.name}{named}>"
+
+    def _named(self, token: Token) -> str:
+        if token.kind == "comment":
+            return "the comment"
+        return f"</{token.name}>" if token.closes else f"<{token.name} …>"
+
+    def _place_to_close(self, entry: _Open, closed: Token | None) -> int:
+        """Offset before which the missing closing tag belongs."""
+        opened = entry.token
+        column = self.source.column(opened.start)
+        for child in entry.children:
+            stray = child.name in _TOP_LEVEL and opened.name != "robot"
+            if opened.name in ("gazebo", "transmission", "ros2_control", "group"):
+                stray = False
+            if opened.name.startswith("xacro:"):
+                stray = False
+            starts_line = not self.source.line_text(self._line(child))[
+                : self.source.column(child.start) - 1
+            ].strip()
+            outdented = starts_line and self.source.column(child.start) <= column
+            if (stray or outdented) and self._line(child) > self._line(opened):
+                return child.start
+        return closed.start if closed else len(self.source.text)
+
+    def _last_before(self, offset: int) -> Token:
+        tags = [t for t in self.source.tags if t.end <= offset]
+        return tags[-1]
+
+    def _surplus(self, token: Token) -> None:
+        """A closing tag that nothing opened."""
+        line = self._line(token)
+        before = [t for t in self.source.tags if t.end <= token.start]
+        twin = next((t for t in reversed(before) if t.name == token.name), None)
+        inner = self.stack[-1].token if self.stack else None
+        if twin is not None and twin.kind == "empty":
+            message = (
+                f"</{token.name}> on line {line} closes <{token.name} …/> of line "
+                f"{self._line(twin)} again: the slash before > has closed it already"
+            )
+            hint = (
+                f"take the slash away on line {self._line(twin)} if something belongs "
+                f"inside, or delete </{token.name}>"
+            )
+        else:
+            within = (
+                f" inside <{inner.name}> (line {self._line(inner)})" if inner else ""
+            )
+            message = f"</{token.name}> on line {line}{within} closes nothing"
+            hint = f"delete it, or write the <{token.name}> that is missing before it"
+        self._add("xml-closing-tag-surplus", token.start, message, hint)
+
+    def _end_of_file(self) -> None:
+        root = self.stack[0]
+        for entry in self.stack[1:]:
+            self._unclosed(entry, None)
+        if self.problems and len(self.stack) > 1:
+            return
+        line = self.source.line(max(len(self.source.text.rstrip()) - 1, 0))
+        at = max(len(self.source.text.rstrip()) - 1, 0)
+        self._add(
+            "xml-root-not-closed",
+            at,
+            f"<{root.token.name}> opened on line {self._line(root.token)} is never "
+            f"closed: the file ends on line {line}",
+            f"add </{root.token.name}> as the last line",
+        )
+
+    def _behind_root(self, index: int) -> None:
+        """Tags behind the end of the root element."""
+        if self.root is None or self.root_end is None:
+            return
+        token = self.source.tags[index]
+        name = self.root.name
+        end = self._line(self.root_end)
+        rest = self.source.tags[index:]
+        if token.name == name and not token.closes:
+            self._add(
+                "xml-two-robots",
+                token.start,
+                f"a second <{name}> begins on line {self._line(token)} after the "
+                f"first was closed on line {end}: a file holds one",
+                f"move its content into the first <{name}>, or into a file of its own",
+            )
+            return
+        if token.closes and len(rest) == 1:
+            self._add(
+                "xml-closing-tag-surplus",
+                token.start,
+                f"</{token.name}> on line {self._line(token)} closes nothing: "
+                f"</{name}> on line {end} has ended the file's one root element",
+                f"delete </{token.name}> on line {self._line(token)}",
+            )
+            return
+        self._closed_early(token, rest)
+
+    def _closed_early(self, token: Token, rest: list[Token]) -> None:
+        if self.root is None or self.root_end is None:
+            return
+        name, end = self.root.name, self._line(self.root_end)
+        last = rest[-1]
+        shown = self._named(token) if token.closes else self._shown(token)
+        begins = f"the content that starts with {shown} on line {self._line(token)}"
+        if self.root_end.kind == "empty":
+            message = (
+                f"<{name} …/> on line {end} is closed at once by its slash, before "
+                f"{begins}"
+            )
+            hint = f"write > instead of /> on line {end} and </{name}> as the last line"
+        elif last.closes and last.name == name:
+            message = f"line {end} closes </{name}> too early, before {begins}"
+            hint = (
+                f"delete </{name}> on line {end}; the one on line {self._line(last)} "
+                "is the right one"
+            )
+        else:
+            message = f"line {end} closes </{name}> too early, before {begins}"
+            hint = f"move </{name}> from line {end} to the last line of the file"
+        # The place is where the content goes on, because there the reader sees that
+        # it is outside; the line of the early tag is the first thing in the message.
+        self._add("xml-root-closed-early", token.start, message, hint)
+
+    def _text_behind_root(self) -> None:
+        if self.root is None or self.root_end is None:
+            return
+        for token in self.source.tokens:
+            text = self.source.text[token.start : token.end]
+            if token.start >= self.root_end.end and token.kind in ("text", "cdata"):
+                if text.strip():
+                    at = token.start + len(text) - len(text.lstrip())
+                    self._add(
+                        "xml-text-after-root",
+                        at,
+                        f"there is text after </{self.root.name}>: "
+                        f"“{text.strip().splitlines()[0][:40]}”",
+                        "delete it, or make it a comment: <!-- … -->",
+                    )
+                    return
