@@ -277,12 +277,13 @@ def decode_frame(data: bytes, number: int = 0) -> list[Received]:
         arrays.append(data[position : position + length])
         position += length
     received: list[Received] = []
-    for fields in decoded["messages"]:
+    messages: list[dict[str, Any]] = decoded["messages"]
+    for fields in messages:
         size = len(msgspec.msgpack.encode(fields))
         used: list[bytes] = []
         filled = _fill_arrays(fields, arrays, used)
         kind: str = filled.pop("type")
-        size += sum(len(array) for array in used)
+        size += sum(map(len, used))
         received.append(Received(kind, filled, size, number, len(data)))
     return received
 
@@ -294,8 +295,9 @@ def _fill_arrays(value: Any, arrays: list[bytes], used: list[bytes]) -> Any:
     if isinstance(value, dict):
         fields = cast(dict[str, Any], value)
         if "__binary_index" in fields and "dtype" in fields:
-            used.append(arrays[fields["__binary_index"]])
-            return used[-1]
+            array = arrays[int(fields["__binary_index"])]
+            used.append(array)
+            return array
         return {k: _fill_arrays(v, arrays, used) for k, v in fields.items()}
     return value
 
