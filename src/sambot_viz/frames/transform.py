@@ -1,0 +1,252 @@
+"""One rigid transform: the pose of a child frame in a parent frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.errors import FrameError
+from sambot_viz.frames.errors import TransformRefused
+from sambot_viz.robot.model import Matrix, Origin, Vector3
+
+Quaternion = tuple[float, float, float, float]
+"""A rotation as (x, y, z, w), the order of ROS and RViz."""
+
+_LENGTH_TOLERANCE = 0.01
+"""tf2 refuses quaternions whose squared length differs from 1 by more."""
+
+_GIMBAL_COSINE = 1e-9
+"""Below this cosine of the pitch, roll and yaw cannot be told apart."""
+
+
+@dataclass(frozen=True, eq=False)
+class Transform:
+    """The pose of a child frame in a parent frame.
+
+    It maps coordinates of the child to coordinates of the parent:
+    ``p_parent = T.matrix @ p_child``. ``T_map_odom @ T_odom_base`` is T_map_base.
+
+    Attributes:
+        matrix: (4, 4) float64, read-only; T_parent_child, translation in metres.
+
+    Raises:
+        TransformRefused: a number that is not finite (TF_NAN_INPUT).
+        FrameError: not of shape (4, 4), or no rotation and translation.
+    """
+
+    matrix: Matrix
+
+    def __post_init__(self) -> None:
+        matrix = np.array(self.matrix, dtype=np.float64)
+        if matrix.shape != (4, 4):
+            raise FrameError(f"a transform needs shape (4, 4), not {matrix.shape}")
+        if not np.isfinite(matrix).all():
+            raise TransformRefused("TF_NAN_INPUT", "a number is not finite")
+        rotation: Matrix = matrix[:3, :3]
+        rigid = np.allclose(
+            rotation @ np.transpose(rotation), np.eye(3), atol=_LENGTH_TOLERANCE
+        )
+        if not rigid or np.linalg.det(rotation) < 0 or any(matrix[3] != (0, 0, 0, 1)):
+            raise FrameError("the matrix is no rotation followed by a translation")
+        matrix.flags.writeable = False
+        object.__setattr__(self, "matrix", matrix)
+
+    @classmethod
+    def trusted(cls, matrix: Matrix) -> Transform:
+        """Wrap a matrix that is known to be good, without copying or checking.
+
+        Args:
+            matrix: (4, 4) float64, T_parent_child; nobody may change it afterwards.
+        """
+        self = object.__new__(cls)
+        object.__setattr__(self, "matrix", matrix)
+        return self
+
+    @classmethod
+    def identity(cls) -> Transform:
+        """The pose of a frame in itself."""
+        return _IDENTITY
+
+    @classmethod
+    def from_matrix(cls, matrix: npt.ArrayLike) -> Transform:
+        """From T_parent_child, (4, 4).
+
+        Raises:
+            TransformRefused: a number that is not finite (TF_NAN_INPUT).
+            FrameError: not of shape (4, 4), or no rotation and translation.
+        """
+        return cls(np.array(matrix, dtype=np.float64))
+
+    @classmethod
+    def from_xyz_rpy(
+        cls, xyz: Sequence[float] = (0, 0, 0), rpy: Sequence[float] = (0, 0, 0)
+    ) -> Transform:
+        """From a translation [m] and fixed-axis roll, pitch, yaw [rad].
+
+        Args:
+            xyz: where the child's origin is in the parent.
+            rpy: R = Rz(yaw) @ Ry(pitch) @ Rx(roll), as URDF (spec/ros-nodes.md §8).
+
+        Raises:
+            TransformRefused: a number that is not finite (TF_NAN_INPUT).
+        """
+        position, angles = _finite(xyz, 3, "xyz"), _finite(rpy, 3, "rpy")
+        origin = Origin((position[0], position[1], position[2]), _vector3(angles))
+        return cls.trusted(origin.matrix)
+
+    @classmethod
+    def from_xyz_xyzw(
+        cls, xyz: Sequence[float], xyzw: Sequence[float] = (0, 0, 0, 1)
+    ) -> Transform:
+        """From a translation [m] and a quaternion (x, y, z, w).
+
+        Raises:
+            TransformRefused: a number that is not finite (TF_NAN_INPUT), or a squared
+                length more than 0.01 away from 1 (TF_DENORMALIZED_QUATERNION).
+        """
+        position, q = _finite(xyz, 3, "xyz"), _finite(xyzw, 4, "xyzw")
+        squared = sum(c * c for c in q)
+        if abs(squared - 1.0) > _LENGTH_TOLERANCE:
+            raise TransformRefused(
+                "TF_DENORMALIZED_QUATERNION",
+                f"the quaternion ({', '.join(f'{c:g}' for c in q)}) has the length "
+                f"{math.sqrt(squared):.4g}, and a rotation needs length 1",
+            )
+        matrix = np.eye(4)
+        matrix[:3, :3] = rotation_matrix((q[0], q[1], q[2], q[3]))
+        matrix[:3, 3] = position
+        matrix.flags.writeable = False
+        return cls.trusted(matrix)
+
+    @cached_property
+    def translation(self) -> npt.NDArray[np.float64]:
+        """Where the child's origin is in the parent, (3,) [m], read-only."""
+        return self.matrix[:3, 3]
+
+    @cached_property
+    def rotation_xyzw(self) -> npt.NDArray[np.float64]:
+        """The unit quaternion (4,) as x, y, z, w, read-only.
+
+        The sign is that of tf2 and KDL: w positive when the rotation is below 120°
+        about its axis (trace above 0), else the largest of x, y, z positive.
+        """
+        xyzw = np.array(_quaternion(self.matrix))
+        xyzw.flags.writeable = False
+        return xyzw
+
+    @cached_property
+    def rpy(self) -> Vector3:
+        """Fixed-axis roll, pitch, yaw [rad], pitch within ±π/2.
+
+        At a pitch of ±90° only roll − yaw (or roll + yaw) means anything: yaw is 0
+        there and roll carries all of it (spec/ros-nodes.md §8).
+        """
+        (r00, r01, _, _), (r10, r11, _, _), (r20, r21, r22, _), _ = self.matrix.tolist()
+        pitch_cosine = math.hypot(r21, r22)
+        pitch = math.atan2(-r20, pitch_cosine)
+        if pitch_cosine < _GIMBAL_COSINE:
+            return (math.atan2(r01 if pitch > 0 else -r01, r11), pitch, 0.0)
+        return (math.atan2(r21, r22), pitch, math.atan2(r10, r00))
+
+    @property
+    def rpy_deg(self) -> Vector3:
+        """Fixed-axis roll, pitch, yaw [°]."""
+        roll, pitch, yaw = self.rpy
+        return (math.degrees(roll), math.degrees(pitch), math.degrees(yaw))
+
+    def inverse(self) -> Transform:
+        """The pose of the parent in the child, T_child_parent."""
+        return Transform.trusted(inverse_matrix(self.matrix))
+
+    def __matmul__(self, other: Transform) -> Transform:
+        """T_a_b @ T_b_c is T_a_c."""
+        matrix = self.matrix @ other.matrix
+        matrix.flags.writeable = False
+        return Transform.trusted(matrix)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Transform):
+            return NotImplemented
+        return np.array_equal(self.matrix, other.matrix)
+
+    def __hash__(self) -> int:
+        # Adding 0 makes -0.0 into 0.0, so that equal transforms have equal hashes.
+        return hash((self.matrix + 0.0).tobytes())
+
+    def is_close(self, other: Transform, tolerance: float = 1e-9) -> bool:
+        """Whether no entry of the two matrices differs by more than the tolerance."""
+        return bool(np.abs(self.matrix - other.matrix).max() <= tolerance)
+
+    def __repr__(self) -> str:
+        # Adding 0 prints -0.0 as 0.
+        xyz = ", ".join(f"{c + 0.0:g}" for c in self.matrix[:3, 3].tolist())
+        rpy = ", ".join(f"{angle + 0.0:g}" for angle in self.rpy)
+        return f"Transform(xyz=({xyz}), rpy=({rpy}))"
+
+
+def inverse_matrix(matrix: Matrix) -> Matrix:
+    """The inverse of a rigid (4, 4) transform, read-only."""
+    inverse = np.array(_IDENTITY.matrix)
+    rotation: Matrix = matrix[:3, :3]
+    transposed = np.transpose(rotation)
+    inverse[:3, :3] = transposed
+    inverse[:3, 3] = -np.dot(transposed, matrix[:3, 3])
+    inverse.flags.writeable = False
+    return inverse
+
+
+def rotation_matrix(xyzw: Quaternion) -> list[list[float]]:
+    """The (3, 3) rotation of a quaternion that need not be quite of length 1."""
+    x, y, z, w = xyzw
+    s = 2.0 / (x * x + y * y + z * z + w * w)
+    return [
+        [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+        [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+        [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
+    ]
+
+
+def _quaternion(matrix: Matrix) -> Quaternion:
+    """Divide by the largest of the four components, which keeps all digits."""
+    rows: list[list[float]] = matrix.tolist()
+    trace = rows[0][0] + rows[1][1] + rows[2][2]
+    if trace > 0:
+        root = math.sqrt(trace + 1.0)
+        s = 0.5 / root
+        return (
+            s * (rows[2][1] - rows[1][2]),
+            s * (rows[0][2] - rows[2][0]),
+            s * (rows[1][0] - rows[0][1]),
+            0.5 * root,
+        )
+    i = max(range(3), key=lambda k: rows[k][k])
+    j, k = (i + 1) % 3, (i + 2) % 3
+    root = math.sqrt(rows[i][i] - rows[j][j] - rows[k][k] + 1.0)
+    s = 0.5 / root
+    xyzw = [0.0, 0.0, 0.0, s * (rows[k][j] - rows[j][k])]
+    xyzw[i] = 0.5 * root
+    xyzw[j] = s * (rows[j][i] + rows[i][j])
+    xyzw[k] = s * (rows[k][i] + rows[i][k])
+    return (xyzw[0], xyzw[1], xyzw[2], xyzw[3])
+
+
+def _finite(values: Sequence[float], size: int, name: str) -> list[float]:
+    numbers = [float(v) for v in values]
+    if len(numbers) != size:
+        raise FrameError(f"{name} needs {size} numbers, not {len(numbers)}")
+    if not all(map(math.isfinite, numbers)):
+        shown = ", ".join(f"{v:g}" for v in numbers)
+        raise TransformRefused("TF_NAN_INPUT", f"{name} is ({shown})")
+    return numbers
+
+
+def _vector3(values: list[float]) -> Vector3:
+    return (values[0], values[1], values[2])
+
+
+_IDENTITY = Transform(np.eye(4))
