@@ -1,0 +1,220 @@
+"""Finding ROS packages without ROS (spec/real-files.md §3.1).
+
+Only the standard library is used here: the xacro child reads this module too and
+must start fast.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+MANIFESTS = ("package.xml", "manifest.xml", "model.config")
+IGNORE_MARKS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
+_SKIPPED = frozenset({"build", "log", "node_modules", "__pycache__", "site-packages"})
+_NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+_MAX_FOLDERS = 3000
+_MAX_DEPTH = 6
+_MAX_UP = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Lookup:
+    """What became of the question "where is this package?".
+
+    Attributes:
+        name: the package asked for.
+        path: its folder, or None.
+        searched: the places that were looked at, as text for a message.
+        known: names of the packages that were found on the way.
+    """
+
+    name: str
+    path: Path | None
+    searched: tuple[str, ...] = ()
+    known: tuple[str, ...] = ()
+
+
+def package_name(folder: Path) -> str | None:
+    """The name that a package folder gives itself, or None when it is no package.
+
+    It is the ``<name>`` in package.xml, not the folder's name; the older
+    manifest.xml and Gazebo's model.config count by the folder's name.
+    """
+    try:
+        text = (folder / "package.xml").read_text("utf-8", "replace")
+    except OSError:
+        old = any((folder / name).is_file() for name in MANIFESTS[1:])
+        return folder.name if old else None
+    without_comments = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
+    match = _NAME.search(without_comments)
+    return match[1] if match else folder.name
+
+
+class PackageIndex:
+    """Answers package names with folders; looks only as far as a question needs.
+
+    The order: ``name=folder`` given by the user, the user's folders, the packages
+    around the model, its workspace, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and
+    COLCON_PREFIX_PATH, and last a folder that merely has the package's name.
+    """
+
+    def __init__(
+        self,
+        start: Path | None,
+        package_path: Sequence[Path | str] = (),
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
+        """Prepare; nothing is read yet.
+
+        Args:
+            start: folder of the model, or None for a model given as text.
+            package_path: what the user gave: package folders, folders of packages,
+                or ``name=folder``.
+            environment: where to look for ROS's path variables; default os.environ.
+        """
+        self._start = start.absolute() if start is not None else None
+        self._environment = os.environ if environment is None else environment
+        self._given: dict[str, Path] = {}
+        self._folders: list[Path] = []
+        for entry in package_path:
+            name, equals, folder = str(entry).partition("=")
+            if equals and re.fullmatch(r"[\w.-]+", name):
+                self._given[name] = Path(folder).expanduser().absolute()
+            else:
+                self._folders.append(Path(entry).expanduser().absolute())
+        self._answers: dict[str, Lookup] = {}
+        self._scans: dict[Path, _Scan] = {}
+
+    def find(self, name: str) -> Lookup:
+        """Look a package up; the answer is kept."""
+        if name not in self._answers:
+            self._answers[name] = self._search(name)
+        return self._answers[name]
+
+    def ancestors(self) -> Iterator[Path]:
+        """The model's folder and the folders above it, never a home or a root."""
+        if self._start is None:
+            return
+        yield self._start
+        for folder in list(self._start.parents)[:_MAX_UP]:
+            if _too_broad(folder):
+                return
+            yield folder
+
+    def _search(self, name: str) -> Lookup:
+        if name in self._given:
+            path = self._given[name]
+            return Lookup(name, path if path.is_dir() else None, (str(path),))
+        searched: list[str] = []
+        known: dict[str, None] = dict.fromkeys(self._given)
+        by_folder: Path | None = None
+        for label, scan in self._sources():
+            searched.append(label)
+            known.update(dict.fromkeys(scan.packages))
+            if name in scan.packages:
+                return Lookup(name, scan.packages[name], tuple(searched))
+            by_folder = by_folder or scan.folders.get(name)
+        for label, path in self._installed(name):
+            searched.append(label)
+            if path is not None:
+                return Lookup(name, path, tuple(searched))
+        return Lookup(name, by_folder, tuple(searched), tuple(known))
+
+    def _sources(self) -> Iterator[tuple[str, _Scan]]:
+        for folder in self._folders:
+            yield str(folder), self._scan(folder, _MAX_FOLDERS)
+        budget = _MAX_FOLDERS
+        for folder in self.ancestors():
+            scan = self._scan(folder, budget)
+            budget -= scan.size
+            yield str(folder), scan
+            if budget <= 0 or _workspace_root(folder):
+                break
+        for entry in self._path_variable("ROS_PACKAGE_PATH"):
+            yield f"{entry} (ROS_PACKAGE_PATH)", self._scan(entry, _MAX_FOLDERS)
+
+    def _installed(self, name: str) -> Iterator[tuple[str, Path | None]]:
+        for variable in ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH"):
+            for prefix in self._path_variable(variable):
+                places = (prefix / "share" / name, prefix / name / "share" / name)
+                found = next((place for place in places if place.is_dir()), None)
+                yield f"{prefix} ({variable})", found
+
+    def _path_variable(self, variable: str) -> list[Path]:
+        text = self._environment.get(variable, "")
+        return [Path(entry) for entry in text.split(os.pathsep) if entry]
+
+    def _scan(self, folder: Path, budget: int) -> _Scan:
+        if folder not in self._scans:
+            self._scans[folder] = _Scan(folder, budget, self._scans)
+        return self._scans[folder]
+
+
+class _Scan:
+    """The packages at and below one folder, nearest first."""
+
+    def __init__(self, top: Path, budget: int, done: Mapping[Path, _Scan]) -> None:
+        self.packages: dict[str, Path] = {}
+        self.folders: dict[str, Path] = {}
+        self.size = 0
+        queue: deque[tuple[Path, int]] = deque([(top, 0)])
+        while queue and self.size < budget:
+            folder, depth = queue.popleft()
+            if folder in done:
+                self._take_over(done[folder])
+                continue
+            self.size += 1
+            children = self._enter(folder)
+            if depth < _MAX_DEPTH:
+                queue.extend((child, depth + 1) for child in children)
+
+    def _take_over(self, other: _Scan) -> None:
+        for name, path in other.packages.items():
+            self.packages.setdefault(name, path)
+        for name, path in other.folders.items():
+            self.folders.setdefault(name, path)
+
+    def _enter(self, folder: Path) -> list[Path]:
+        try:
+            with os.scandir(folder) as entries:
+                found = sorted(entries, key=lambda entry: entry.name)
+                names = {entry.name for entry in found}
+                children = [Path(e.path) for e in found if _worth_entering(e)]
+        except OSError:
+            return []
+        if names & IGNORE_MARKS or "pyvenv.cfg" in names:
+            return []
+        self.folders.setdefault(folder.name, folder)
+        if not names.isdisjoint(MANIFESTS):
+            name = package_name(folder)
+            if name is not None:
+                self.packages.setdefault(name, folder)
+        return children
+
+
+def _worth_entering(entry: os.DirEntry[str]) -> bool:
+    if entry.name.startswith(".") or entry.name in _SKIPPED:
+        return False
+    return entry.is_dir(follow_symlinks=False) or (
+        entry.is_symlink() and os.path.isfile(os.path.join(entry.path, "package.xml"))
+    )
+
+
+def _too_broad(folder: Path) -> bool:
+    """Whether a search below this folder would wander through the whole machine."""
+    return len(folder.parts) <= 2 or folder in (Path.home(), Path.home().parent)
+
+
+def _workspace_root(folder: Path) -> bool:
+    """Whether neighbours end here: a colcon workspace, or a checkout outside one."""
+    if (folder / "src").is_dir() and (
+        (folder / "install").is_dir() or (folder / "build").is_dir()
+    ):
+        return True
+    in_workspace = any(parent.name == "src" for parent in folder.parents)
+    return (folder / ".git").exists() and not in_workspace
