@@ -1,0 +1,294 @@
+"""The positions of a robot's joints, as joint_state_publisher keeps them.
+
+The rules are those of spec/ros-nodes.md §1 and §2, without the faults listed there:
+values are exact (no 10000 steps), a reload keeps them, a bad mimic stops nothing.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+
+from sambot_viz.errors import JointError, Problem, did_you_mean
+from sambot_viz.joints.mimic import Follower, find_followers
+from sambot_viz.robot.model import Joint, Mimic, Robot
+
+JointListener = Callable[[tuple[str, ...]], None]
+"""Is called with the names of the joints that moved, followers included."""
+
+
+class JointState:
+    """The free joints of a robot, their positions, and what follows from them.
+
+    Positions are in radians (revolute, continuous) or metres (prismatic). Not
+    thread-safe: the session that owns it holds the lock.
+
+    Args:
+        robot: the robot whose joints these are.
+        zeros: joint → start value, also outside the limits (``--zeros``).
+        dependent_joints: joint → what it mimics, instead of what the file says.
+        use_mimic_tags: False makes the mimic joints of the file free joints.
+        use_smallest_joint_limits: False leaves soft limits out.
+
+    Attributes:
+        version: grows when joints appear or disappear.
+        revision: grows at every change of a position.
+        listeners: called after every change with the names of the joints that moved.
+
+    Raises:
+        JointError: `zeros` or `dependent_joints` name a joint that is not there, or
+            hold a number that is not finite.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        *,
+        zeros: Mapping[str, float] | None = None,
+        dependent_joints: Mapping[str, Mimic] | None = None,
+        use_mimic_tags: bool = True,
+        use_smallest_joint_limits: bool = True,
+    ) -> None:
+        self.version = 0
+        self.revision = 0
+        self.listeners: list[JointListener] = []
+        self._use_mimic_tags = use_mimic_tags
+        self._use_soft_limits = use_smallest_joint_limits
+        self._dependent = dict(dependent_joints or {})
+        self._zeros: dict[str, float] = {}
+        self._positions: dict[str, float] = {}
+        self._take(robot)
+        for name in self._dependent:
+            self._require(name, self._joints)
+        for name, value in (zeros or {}).items():
+            self._require(name, self._free)
+            self._zeros[name] = _number(name, value)
+        self._positions = {name: self.start(name) for name in self._free}
+
+    # Which joints there are
+
+    @property
+    def joints(self) -> Mapping[str, Joint]:
+        """The joints that have a position, in document order, as the options say."""
+        return MappingProxyType(self._joints)
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The joints that take a value, in document order."""
+        return tuple(self._free)
+
+    @property
+    def sliders(self) -> tuple[str, ...]:
+        """The free joints that get a slider: not those with a range of one point."""
+        return tuple(n for n, j in self._free.items() if j.range[0] != j.range[1])
+
+    @property
+    def followers(self) -> Mapping[str, Follower]:
+        """The mimic joints and how they follow, in document order; read-only."""
+        return MappingProxyType(self._followers)
+
+    @property
+    def skipped(self) -> Mapping[str, str]:
+        """The joints without a position: name → why, for a panel to show."""
+        return MappingProxyType(self._skipped)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """Mimic joints that cannot follow; they stay at their start values."""
+        return self._problems
+
+    # Their positions
+
+    @property
+    def positions(self) -> Mapping[str, float]:
+        """Free joint → position [rad or m], exactly as it was set."""
+        return MappingProxyType(self._positions)
+
+    def all_positions(self) -> dict[str, float]:
+        """Joint → position [rad or m] in document order, followers included.
+
+        These are the names and positions of joint_state_publisher's message.
+        """
+        positions: dict[str, float] = {}
+        for name, joint in self._joints.items():
+            if name in self._positions:
+                positions[name] = self._positions[name]
+            elif (follower := self._followers.get(name)) is not None:
+                positions[name] = follower.position(self._positions[follower.leader])
+            else:
+                positions[name] = joint.start
+        return positions
+
+    def set(self, name: str, value: float) -> bool:
+        """Set one free joint; values outside its range pass (see `over_limit`).
+
+        Args:
+            name: the joint.
+            value: position [rad or m].
+
+        Returns:
+            Whether the position changed.
+
+        Raises:
+            JointError: an unknown joint, one that cannot be set, no finite number.
+        """
+        return bool(self.set_all({name: value}))
+
+    def set_all(self, values: Mapping[str, float]) -> tuple[str, ...]:
+        """Set several free joints at once: all of them or, after an error, none.
+
+        Returns:
+            The names of all joints that moved, followers included.
+
+        Raises:
+            JointError: an unknown joint, one that cannot be set, no finite number.
+        """
+        numbers: dict[str, float] = {}
+        for name, value in values.items():
+            self._require(name, self._free)
+            numbers[name] = _number(name, value)
+        changed = [n for n, v in numbers.items() if v != self._positions[n]]
+        self._positions.update(numbers)
+        return self._moved(changed)
+
+    def start(self, name: str) -> float:
+        """The start value [rad or m]: `zeros`, else 0, else the middle of the range.
+
+        Raises:
+            JointError: an unknown joint.
+        """
+        self._require(name, self._joints)
+        return self._zeros.get(name, self._joints[name].start)
+
+    def center(self) -> tuple[str, ...]:
+        """Set every free joint to its start value, as the button Center does.
+
+        Returns:
+            The names of all joints that moved, followers included.
+        """
+        return self.set_all({name: self.start(name) for name in self._free})
+
+    def randomize(self, seed: int | None = None) -> tuple[str, ...]:
+        """Set every free joint to a random value of its range, evenly distributed.
+
+        Args:
+            seed: the same seed gives the same positions for the same robot.
+
+        Returns:
+            The names of all joints that moved, followers included.
+        """
+        # Not for secrets: a seed has to give the same pose again.
+        source = random.Random(seed)
+        return self.set_all(
+            {n: source.uniform(*j.range) for n, j in self._free.items()}
+        )
+
+    def over_limit(self) -> tuple[str, ...]:
+        """The joints that stand outside their range, followers included.
+
+        A continuous joint has no limit (its range is the slider's), and neither has a
+        mimic joint whose file gives none.
+        """
+        over: list[str] = []
+        for name, value in self.all_positions().items():
+            joint = self._joints[name]
+            if joint.type == "continuous" or joint.limit is None:
+                continue
+            lower, upper = sorted(joint.range)
+            if not lower <= value <= upper:
+                over.append(name)
+        return tuple(over)
+
+    def reload(self, robot: Robot) -> tuple[str, ...]:
+        """Take another robot, or the same after an edit.
+
+        A joint that still exists with the same type keeps its value; if it stood at
+        its start value it stands at the new one.
+
+        Returns:
+            The names of all joints whose position is new or other than before.
+        """
+        former, types = self.all_positions(), self._joints
+        at_start = {n for n, v in self._positions.items() if v == self.start(n)}
+        old = dict(self._positions)
+        self._take(robot)
+        self._positions = {
+            name: old[name]
+            if name in old and types[name].type == j.type and name not in at_start
+            else self.start(name)
+            for name, j in self._free.items()
+        }
+        self.version += 1
+        now = self.all_positions()
+        changed = tuple(n for n, v in now.items() if former.get(n) != v)
+        self._tell(changed)
+        return changed
+
+    # Inside
+
+    def _take(self, robot: Robot) -> None:
+        effective = {name: self._effective(j) for name, j in robot.joints.items()}
+        self._joints = {n: j for n, j in effective.items() if j.movable}
+        self._followers, self._problems = find_followers(effective)
+        self._free = {n: j for n, j in self._joints.items() if j.mimic is None}
+        self._skipped = {
+            n: f"{j.type}: has no position in ROS"
+            for n, j in effective.items()
+            if not j.movable
+        }
+        self._led: dict[str, list[str]] = {}
+        for name, follower in self._followers.items():
+            self._led.setdefault(follower.leader, []).append(name)
+
+    def _effective(self, joint: Joint) -> Joint:
+        mimic = self._dependent.get(
+            joint.name, joint.mimic if self._use_mimic_tags else None
+        )
+        soft_limit = joint.soft_limit if self._use_soft_limits else None
+        return replace(joint, mimic=mimic, soft_limit=soft_limit)
+
+    def _require(self, name: str, among: Iterable[str]) -> None:
+        if name in among:
+            return
+        if name in self._followers:
+            leader = self._followers[name].leader
+            raise JointError(
+                f"joint '{name}' mimics '{leader}' and cannot be set; set '{leader}'"
+            )
+        if name in self._skipped:
+            raise JointError(f"joint '{name}' cannot be set; {self._skipped[name]}")
+        if name in self._joints:
+            mimic = self._joints[name].mimic
+            raise JointError(
+                f"joint '{name}' cannot be set, because it mimics "
+                f"'{mimic.joint if mimic else ''}', which it cannot follow"
+            )
+        raise JointError(f"no joint '{name}'; {did_you_mean(name, among)}")
+
+    def _moved(self, changed: Iterable[str]) -> tuple[str, ...]:
+        moved: list[str] = []
+        for name in changed:
+            moved.append(name)
+            moved.extend(self._led.get(name, ()))
+        self._tell(tuple(moved))
+        return tuple(moved)
+
+    def _tell(self, moved: tuple[str, ...]) -> None:
+        if not moved:
+            return
+        self.revision += 1
+        for listener in tuple(self.listeners):
+            listener(moved)
+
+
+def _number(name: str, value: float) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise JointError(f"joint '{name}' cannot be set to {value!r}: no finite number")
+    return number
