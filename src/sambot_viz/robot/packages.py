@@ -123,20 +123,46 @@ class PackageIndex:
             searched.append(label)
             if path is not None:
                 return Lookup(name, path, tuple(searched))
+        by_folder = by_folder or self._beside(name)
         return Lookup(name, by_folder, tuple(searched), tuple(known))
 
     def _sources(self) -> Iterator[tuple[str, _Scan]]:
         for folder in self._folders:
             yield str(folder), self._scan(folder, _MAX_FOLDERS)
         budget = _MAX_FOLDERS
-        for folder in self.ancestors():
+        for folder in self._neighbourhood():
             scan = self._scan(folder, budget)
             budget -= scan.size
             yield str(folder), scan
-            if budget <= 0 or _workspace_root(folder):
+            if budget <= 0:
                 break
         for entry in self._path_variable("ROS_PACKAGE_PATH"):
             yield f"{entry} (ROS_PACKAGE_PATH)", self._scan(entry, _MAX_FOLDERS)
+
+    def _neighbourhood(self) -> Iterator[Path]:
+        """The folders to search, from the model's own up to its workspace.
+
+        Without a sign of a workspace the search ends two folders above the model's
+        package, or in the model's folder when it belongs to no package: what lies
+        further up has nothing to do with the model.
+        """
+        folders = list(self.ancestors())
+        marked = [n for n, folder in enumerate(folders) if _workspace_root(folder)]
+        packages = [n for n, folder in enumerate(folders) if package_name(folder)]
+        if marked:
+            end = marked[0]
+        else:
+            end = packages[-1] + 2 if packages else 0
+        yield from folders[: end + 1]
+
+    def _beside(self, name: str) -> Path | None:
+        """A folder of that name above the model, or beside a folder above it."""
+        for folder in self.ancestors():
+            if folder.name == name:
+                return folder
+            if (folder.parent / name).is_dir() and not _too_broad(folder.parent):
+                return folder.parent / name
+        return None
 
     def _installed(self, name: str) -> Iterator[tuple[str, Path | None]]:
         for variable in ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH"):

@@ -1,0 +1,73 @@
+"""The child process that runs xacro on somebody's file (spec/ros-nodes.md §5.5).
+
+Started as a script by `robot/xacro.py`: a job as JSON on standard input, the outcome
+as JSON on standard output. Only what this needs is imported, never the package's own
+`__init__` files, so that the start stays cheap.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import types
+from typing import Any
+
+
+def limit_resources(megabytes: int, seconds: int) -> None:
+    """Bound this process where the platform can; the parent has its own clock."""
+    try:
+        import resource
+    except ImportError:
+        return
+    for kind, amount in (
+        (resource.RLIMIT_AS, megabytes * 1024 * 1024),
+        (resource.RLIMIT_CPU, seconds + 1),
+        (resource.RLIMIT_CORE, 0),
+    ):
+        _, hard = resource.getrlimit(kind)
+        soft = amount if hard == resource.RLIM_INFINITY else min(amount, hard)
+        try:
+            resource.setrlimit(kind, (soft, hard))
+        except (OSError, ValueError):
+            continue
+
+
+def make_package(name: str, folder: str) -> None:
+    """Let submodules of a package be imported without running its `__init__`."""
+    module = types.ModuleType(name)
+    module.__path__ = [folder]
+    sys.modules[name] = module
+
+
+def keep_result_channel() -> int:
+    """Move standard output away, so that nothing but the outcome is written there."""
+    channel = os.dup(1)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.dup2(nowhere, 2)
+    return channel
+
+
+def main() -> None:
+    """Read the job, expand, write the outcome."""
+    job: dict[str, Any] = json.loads(sys.stdin.buffer.read())
+    channel = keep_result_channel()
+    limit_resources(job["megabytes"], job["seconds"])
+    os.environ.clear()
+    os.environ.update(job["environment"])
+    sys.path.extend(job["import_path"])
+    here = os.path.dirname(os.path.abspath(__file__))
+    make_package("sambot_viz", os.path.dirname(here))
+    make_package("sambot_viz.robot", here)
+    from sambot_viz.robot.xacro_run import run
+
+    outcome = json.dumps(run(job)).encode("utf-8", "surrogatepass")
+    with os.fdopen(channel, "wb") as stream:
+        stream.write(outcome)
+    # Nothing is left to do; a model's leftovers (threads, hooks at exit) do not run.
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()
