@@ -1,0 +1,106 @@
+"""One door to every mesh format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from sambot_viz.robot.mesh.assembly import Findings, Piece, assemble
+from sambot_viz.robot.mesh.model import Mesh, MeshError, mesh_error
+from sambot_viz.robot.mesh.textures import TextureStore
+
+LARGEST = 500 * 1024 * 1024
+"""Files above this size [bytes] are refused unless somebody asks for more."""
+
+_Reader = Callable[[bytes, Findings, TextureStore], list[Piece]]
+
+
+def read_mesh(
+    path: Path, *, images: TextureStore | None = None, largest: int = LARGEST
+) -> Mesh:
+    """Read a mesh file: STL, COLLADA, OBJ, glTF, GLB or PLY.
+
+    Args:
+        path: the file; its ending tells the format, as in RViz.
+        images: where textures are kept; give the same one for meshes that may share
+            them.
+        largest: refuse files above this size [bytes].
+
+    Raises:
+        MeshError: missing, broken, empty, a git-LFS pointer, an unknown format, …;
+            its one problem is a sentence that says so.
+    """
+    data = _read_bytes(path, largest)
+    reader = _reader(path, data)
+    findings = Findings(path)
+    try:
+        pieces = reader(data, findings, images or TextureStore())
+        return assemble(pieces, findings)
+    except MeshError:
+        raise
+    except (MemoryError, RecursionError) as error:
+        raise mesh_error(
+            path, "mesh-too-large", "the mesh is too large or too deep to be read"
+        ) from error
+
+
+def _read_bytes(path: Path, largest: int) -> bytes:
+    try:
+        size = path.stat().st_size
+        if not path.is_file():
+            raise mesh_error(path, "mesh-missing", "this is not a file")
+        if size > largest:
+            raise mesh_error(
+                path,
+                "mesh-too-large",
+                f"the mesh has {size / 2**20:.0f} MB, more than the "
+                f"{largest / 2**20:.0f} MB that a browser can be expected to show",
+                "reduce its triangles",
+            )
+        data = path.read_bytes()
+    except FileNotFoundError as error:
+        raise mesh_error(
+            path, "mesh-missing", "there is no such file", "check name and folder"
+        ) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise mesh_error(
+            path, "mesh-unreadable", f"the file cannot be read: {reason}"
+        ) from error
+    if data.startswith(b"version https://git-lfs"):
+        raise mesh_error(
+            path,
+            "mesh-lfs-pointer",
+            "this is a git-LFS pointer, not the mesh itself",
+            "run 'git lfs pull' in its repository",
+        )
+    if not data:
+        raise mesh_error(path, "mesh-empty", "the file is empty")
+    return data
+
+
+def _reader(path: Path, data: bytes) -> _Reader:
+    suffix = path.suffix.lower()
+    if suffix in (".stl", ".stlb"):
+        return _stl
+    if suffix == ".dae":
+        return _collada
+    known = ".dae, .stl, .obj, .glb, .gltf, .ply"
+    raise mesh_error(
+        path,
+        "mesh-format-unknown",
+        f"meshes of the kind '{suffix or path.name}' cannot be read",
+        f"convert it to one of {known}",
+    )
+
+
+def _stl(data: bytes, findings: Findings, images: TextureStore) -> list[Piece]:
+    from sambot_viz.robot.mesh.stl import read_stl
+
+    return read_stl(data, findings)
+
+
+def _collada(data: bytes, findings: Findings, images: TextureStore) -> list[Piece]:
+    from sambot_viz.robot.mesh.collada import read_collada
+
+    return read_collada(data, findings, images)

@@ -1,0 +1,91 @@
+"""Every mesh file is read once, whoever asks for it and however often."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz.robot.mesh.model import Mesh, MeshError, Texture
+from sambot_viz.robot.mesh.reader import LARGEST, read_mesh
+from sambot_viz.robot.mesh.textures import LONGEST_SIDE, TextureStore
+
+_Stamp = tuple[tuple[Path, int, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """What came of a file, and the state of all files that were read for it."""
+
+    stamp: _Stamp
+    outcome: Mesh | MeshError
+
+
+class MeshStore:
+    """Meshes and textures by file; safe to use from several threads.
+
+    A file is read again when it, or an image or material file it names, was saved
+    since (time of change or size differ).
+    """
+
+    def __init__(
+        self, *, longest_side: int = LONGEST_SIDE, largest: int = LARGEST
+    ) -> None:
+        """Limits for everything read through this store.
+
+        Args:
+            longest_side: textures are made this small [pixels].
+            largest: meshes above this size are refused [bytes].
+        """
+        self.images = TextureStore(longest_side)
+        self._largest = largest
+        self._entries: dict[Path, _Entry] = {}
+        self._locks: dict[Path, threading.Lock] = {}
+        self._guard = threading.Lock()
+
+    def get(self, path: Path) -> Mesh:
+        """The mesh in a file, the same object as long as the file does not change.
+
+        Raises:
+            MeshError: it cannot be drawn; see `read_mesh`.
+        """
+        # Two threads that want the same file wait for one reading; other files
+        # are read at the same time.
+        with self._guard:
+            lock = self._locks.setdefault(path, threading.Lock())
+        with lock:
+            entry = self._entries.get(path)
+            if entry is None or entry.stamp != _stamp(
+                tuple(p for p, *_ in entry.stamp)
+            ):
+                entry = self._entries[path] = self._read(path)
+        if isinstance(entry.outcome, MeshError):
+            raise MeshError(entry.outcome.problem)
+        return entry.outcome
+
+    def texture(self, path: Path) -> Texture:
+        """The image of a URDF <texture>.
+
+        Raises:
+            TextureError: it cannot be used; the text says why.
+        """
+        return self.images.from_file(path)
+
+    def _read(self, path: Path) -> _Entry:
+        before = _stamp((path,))
+        try:
+            mesh = read_mesh(path, images=self.images, largest=self._largest)
+        except MeshError as error:
+            return _Entry(before, error)
+        return _Entry(before + _stamp(mesh.files[1:]), mesh)
+
+
+def _stamp(files: tuple[Path, ...]) -> _Stamp:
+    stamps: list[tuple[Path, int, int]] = []
+    for path in files:
+        try:
+            stat = path.stat()
+            stamps.append((path, stat.st_mtime_ns, stat.st_size))
+        except (OSError, ValueError):
+            stamps.append((path, 0, -1))
+    return tuple(stamps)
