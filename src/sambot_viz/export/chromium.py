@@ -1,0 +1,273 @@
+"""A Chromium or Chrome of this machine, started as a child and ended with its tree.
+
+Nothing here downloads a browser. The child gets a fresh profile, draws with software
+OpenGL so that pictures are the same on every machine, and can reach no name but those
+of this machine.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import IO
+
+from sambot_viz.export.browser_page import BrowserPage
+from sambot_viz.export.devtools import BrowserError, DevTools
+from sambot_viz.export.find_browser import (
+    ENVIRONMENT_VARIABLE,
+    find_browser,
+    how_to_get_a_browser,
+)
+
+_FLAGS = (
+    "--headless=new",
+    # The same software renderer everywhere, also where there is no GPU.
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--force-color-profile=srgb",
+    "--hide-scrollbars",
+    # No traffic of the browser's own, and none to other machines.
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-default-apps",
+    "--disable-domain-reliability",
+    "--disable-extensions",
+    "--disable-quic",
+    "--disable-sync",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE localhost, EXCLUDE 127.0.0.1",
+    "--no-default-browser-check",
+    "--no-first-run",
+    "--no-service-autorun",
+    "--no-startup-window",
+    "--password-store=basic",
+    "--use-mock-keychain",
+    # A page must go on drawing while another one is in front of it.
+    "--disable-background-timer-throttling",
+    "--disable-backgrounding-occluded-windows",
+    "--disable-renderer-backgrounding",
+    # Crash reports would be written by a process that outlives the browser.
+    "--disable-breakpad",
+    "--disable-crash-reporter",
+    # Containers often have too little /dev/shm for one page.
+    "--disable-dev-shm-usage",
+    "--remote-debugging-port=0",
+)
+_ADDRESS_MARK = "DevTools listening on "
+
+
+class Chromium:
+    """A running browser; use it in a ``with`` block.
+
+    with Chromium() as browser:
+        page = browser.open(url, width=800, height=600)
+        png = page.screenshot()
+    """
+
+    def __init__(
+        self,
+        executable: Path | None = None,
+        *,
+        timeout: float = 30.0,
+        flags: Sequence[str] = (),
+    ) -> None:
+        """Remember what to start; `__enter__` starts it.
+
+        Args:
+            executable: the browser's program; None to look for one.
+            timeout: how long its start, and later each call, may take [s].
+            flags: further command line flags.
+        """
+        self._executable = executable
+        self._timeout = timeout
+        self._flags = tuple(flags)
+        self._process: subprocess.Popen[str] | None = None
+        self._profile: Path | None = None
+        self._output: _Output | None = None
+        self._devtools: DevTools | None = None
+
+    def __enter__(self) -> Chromium:
+        """Start the browser.
+
+        Raises:
+            BrowserError: there is none, or it ends at once or does not answer.
+        """
+        executable = self._executable or find_browser()
+        if executable is None:
+            raise BrowserError(
+                f"no Chromium or Chrome found on this machine; {how_to_get_a_browser()}"
+            )
+        try:
+            self._start(executable)
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """End the browser, whatever happened."""
+        self.close()
+
+    @property
+    def devtools(self) -> DevTools:
+        """The connection to the browser.
+
+        Raises:
+            BrowserError: the browser is not running.
+        """
+        if self._devtools is None:
+            raise BrowserError("the browser is not running; use it in a 'with' block")
+        return self._devtools
+
+    def open(
+        self,
+        url: str = "about:blank",
+        *,
+        width: int = 1280,
+        height: int = 720,
+        scale: float = 1.0,
+    ) -> BrowserPage:
+        """Open a window of its own, with its own cookies and storage.
+
+        Args:
+            url: the page to go to.
+            width: of the page's content [CSS pixels].
+            height: of the page's content [CSS pixels].
+            scale: device pixels per CSS pixel.
+
+        Raises:
+            BrowserError: the page does not load.
+        """
+        page = BrowserPage.create(self.devtools, timeout=self._timeout)
+        page.set_viewport(width, height, scale=scale)
+        if url != "about:blank":
+            page.goto(url)
+        return page
+
+    def close(self) -> None:
+        """End the browser with its whole process tree; remove its profile.
+
+        Closing twice is fine.
+        """
+        devtools, self._devtools = self._devtools, None
+        if devtools is not None:
+            with suppress(BrowserError):
+                devtools.call("Browser.close", timeout=2.0)
+            devtools.close()
+        process, self._process = self._process, None
+        if process is not None:
+            _end_tree(process)
+        output, self._output = self._output, None
+        if output is not None:
+            output.wait_for_end(timeout=5.0)
+        profile, self._profile = self._profile, None
+        if profile is not None:
+            shutil.rmtree(profile, ignore_errors=True)
+
+    def _start(self, executable: Path) -> None:
+        self._profile = Path(tempfile.mkdtemp(prefix="sambot-viz-browser-"))
+        command = [str(executable), *_FLAGS, f"--user-data-dir={self._profile}"]
+        # Chromium refuses to start its sandbox for root, which is who runs containers.
+        if hasattr(os, "geteuid") and os.geteuid() == 0:
+            command.append("--no-sandbox")
+        try:
+            self._process = subprocess.Popen(
+                [*command, *self._flags],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                encoding="utf-8",
+                errors="replace",
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise BrowserError(
+                f"the browser {executable} cannot be started: {error.strerror}; "
+                f"{how_to_get_a_browser()}"
+            ) from error
+        pipe = self._process.stderr
+        if pipe is None:
+            raise BrowserError(f"the browser {executable} has no error output")
+        self._output = _Output(pipe)
+        address = self._output.wait_for_address(self._timeout)
+        if address is None:
+            raise BrowserError(
+                f"the browser {executable} ended or did not answer in "
+                f"{self._timeout:g} s; it said: {self._output.last_lines()}; "
+                f"name another one in {ENVIRONMENT_VARIABLE}"
+            )
+        self._devtools = DevTools(address, self._timeout)
+
+
+class _Output:
+    """What the browser writes to its error output, read until all its processes end."""
+
+    def __init__(self, pipe: IO[str]) -> None:
+        self._pipe = pipe
+        self._changed = threading.Condition()
+        self._lines: deque[str] = deque(maxlen=4)
+        self._address: str | None = None
+        self._ended = False
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def wait_for_address(self, timeout: float) -> str | None:
+        """The debugging address, or None when the browser ended or time is up."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._address or self._ended, timeout)
+            return self._address
+
+    def wait_for_end(self, timeout: float) -> None:
+        """Wait until no process of the browser holds its error output any more."""
+        self._thread.join(timeout)
+
+    def last_lines(self) -> str:
+        with self._changed:
+            return " | ".join(self._lines) or "nothing"
+
+    def _read(self) -> None:
+        with self._pipe:
+            for line in self._pipe:
+                with self._changed:
+                    self._lines.append(line.strip())
+                    if line.startswith(_ADDRESS_MARK):
+                        self._address = line[len(_ADDRESS_MARK) :].strip()
+                    self._changed.notify_all()
+        with self._changed:
+            self._ended = True
+            self._changed.notify_all()
+
+
+def _end_tree(process: subprocess.Popen[str]) -> None:
+    """End a process that was started in a session of its own, and its children."""
+    if sys.platform == "win32":
+        subprocess.run(
+            ["taskkill", "/PID", str(process.pid), "/T", "/F"],
+            check=False,
+            capture_output=True,
+        )
+        process.wait()
+        return
+    # The children are in the leader's process group, and only they are.
+    with suppress(subprocess.TimeoutExpired):
+        process.wait(timeout=3.0)
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, number)
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=2.0)
