@@ -1,0 +1,61 @@
+"""A real Chromium for the tests that look at the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from viewer_page import ViewerPage
+
+    from sambot_viz.export.chromium import Chromium
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Chromium]:
+    """The browser, one for all tests; each page has storage of its own."""
+    from sambot_viz.export.chromium import Chromium
+    from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
+
+    if find_browser() is None:
+        pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
+    with Chromium(timeout=60.0) as browser:
+        yield browser
+
+
+@pytest.fixture
+def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
+    """Open a viewer in a page of its own: ``open_viewer(url_or_port)``.
+
+    The pages are closed at the end of the test. The test fails there when a page had
+    an error or asked another server for anything, unless it set `expects_errors`.
+    """
+    from viewer_page import ViewerPage, viewer_url
+
+    viewers: list[ViewerPage] = []
+
+    def open_one(
+        address: str | int,
+        *,
+        width: int = 1280,
+        height: int = 720,
+        touch: bool = False,
+        dark: bool = False,
+    ) -> ViewerPage:
+        page = chromium.open(width=width, height=height)
+        page.set_viewport(width, height, touch=touch)
+        page.set_dark(dark)
+        url = viewer_url(address)
+        page.goto(url)
+        viewers.append(ViewerPage(page, url))
+        return viewers[-1]
+
+    yield open_one
+    for viewer in viewers:
+        viewer.page.close()
+    for viewer in viewers:
+        assert viewer.foreign_requests() == []
+        if not viewer.expects_errors:
+            assert viewer.errors() == []

@@ -1,0 +1,265 @@
+"""A browser page that shows a viser server, with what tests want to know about it.
+
+    def test_the_wheel_turns(open_viewer, server):
+        viewer = open_viewer(server.url)
+        viewer.wait_for_nodes("/fixed/wheel")
+        before = viewer.pixels()
+        viewer.press_slider("wheel_joint", "ArrowRight", times=5)
+        viewer.wait_until_drawn()
+
+`ViewerPage.page` is the page of the browser itself: mouse, keyboard, console, requests.
+The three.js objects are reached through `__viserMutable`, which viser keeps for its own
+tests (spec/viser.md §6).
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from typing import Any, Literal, cast
+from urllib.parse import urlsplit
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from sambot_viz.export.browser_page import BrowserPage
+
+Pixels = npt.NDArray[np.uint8]
+Matrix = npt.NDArray[np.float64]
+SliderKey = Literal["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"]
+
+_TWO_FRAMES = (
+    "new Promise(done => {{ __viserMutable.requestRender();"
+    " requestAnimationFrame(() => requestAnimationFrame(() => done({0}))); }})"
+)
+_PICTURE = """(() => {
+  const shown = __viserMutable.canvas;
+  const copy = document.createElement("canvas");
+  copy.width = shown.width; copy.height = shown.height;
+  copy.getContext("2d").drawImage(shown, 0, 0);
+  return copy.toDataURL("image/png").split(",")[1];
+})()"""
+_WIDGET = """(() => {
+  const labels = [...document.querySelectorAll("label")];
+  const label = labels.find(l => l.textContent === LABEL);
+  return label ? document.getElementById(label.htmlFor) : null;
+})()"""
+_PROJECT = """(() => {
+  const { camera, canvas, nodeRefFromName } = __viserMutable;
+  const node = nodeRefFromName[NAME];
+  node.updateWorldMatrix(true, false);
+  camera.updateMatrixWorld();
+  const point = camera.position.clone().setFromMatrixPosition(node.matrixWorld);
+  point.project(camera);
+  return [(point.x + 1) / 2 * canvas.width, (1 - point.y) / 2 * canvas.height];
+})()"""
+_POSE = """(() => {
+  const nodes = __viserMutable.nodeRefFromName;
+  for (const name of [PARENT, NAME]) nodes[name].updateWorldMatrix(true, false);
+  const inverse = nodes[PARENT].matrixWorld.clone().invert();
+  return inverse.multiply(nodes[NAME].matrixWorld).elements;
+})()"""
+
+
+def viewer_url(address: str | int) -> str:
+    """The address to open: a port or URL, with viser's resolution held still.
+
+    Without ``fixedDpr`` viser lowers its resolution when the machine is busy.
+    """
+    url = f"http://127.0.0.1:{address}" if isinstance(address, int) else address
+    return f"{url.rstrip('/')}/{'&' if '?' in url else '?'}fixedDpr=1".replace(
+        "/&", "&"
+    )
+
+
+class ViewerPage:
+    """One page with a viser viewer in it.
+
+    Attributes:
+        page: the browser's page.
+        url: where it is.
+        expects_errors: set this in a test that provokes errors, or else the fixture
+            fails at the end when there were any.
+    """
+
+    def __init__(self, page: BrowserPage, url: str) -> None:
+        """Wait until `page`, which is at `url`, is connected and has drawn."""
+        self.page = page
+        self.url = url
+        self.expects_errors = False
+        page.wait_for(
+            "__viserMutable.canvas && __viserMutable.scene && "
+            "!__viserMutable.firstMessageBatch",
+            timeout=30.0,
+        )
+        self.wait_for_frames()
+
+    # Waiting.
+
+    def wait_for(self, condition: str, timeout: float = 10.0) -> None:
+        """Wait until a JavaScript expression is true."""
+        self.page.wait_for(condition, timeout)
+
+    def wait_for_frames(self) -> None:
+        """Ask for a picture and wait until two frames have been drawn."""
+        self.page.evaluate(_TWO_FRAMES.format("null"))
+
+    def wait_for_nodes(self, *names: str, timeout: float = 20.0) -> None:
+        """Wait until scene nodes exist in three.js and have been drawn."""
+        wanted = json.dumps(names)
+        self.page.wait_for(
+            f"{wanted}.every(n => n in __viserSceneTree.getState()"
+            " && __viserMutable.nodeRefFromName[n])",
+            timeout,
+        )
+        self.wait_until_drawn(timeout)
+
+    def wait_until_drawn(self, timeout: float = 10.0) -> None:
+        """Wait until every pose that has reached the page is in the picture."""
+        self.page.wait_for(
+            "__viserMutable.messageQueue.length === 0 && "
+            "Object.values(__viserMutable.nodePoseData)"
+            ".every(pose => !pose || pose.poseUpdateState !== 'needsUpdate')",
+            timeout,
+        )
+        self.wait_for_frames()
+
+    def wait_for_pose(
+        self, name: str, T_parent_node: Matrix, parent: str = "", atol: float = 1e-4
+    ) -> None:
+        """Wait until a node stands in three.js where it should."""
+        # three.js keeps matrices column by column.
+        wanted = [
+            float(T_parent_node[row, col]) for col in range(4) for row in range(4)
+        ]
+        pose = self._pose_script(name, parent)
+        self.page.wait_for(
+            f"{pose}.every((v, i) => Math.abs(v - {wanted}[i]) < {atol})"
+        )
+        self.wait_for_frames()
+
+    def wait_for_slider(self, label: str, value: float, atol: float = 1e-6) -> None:
+        """Wait until a slider shows `value`."""
+        self.page.wait_for(
+            f"Math.abs({self._slider(label)}.ariaValueNow - {value}) <= {atol}"
+        )
+
+    # Looking.
+
+    @property
+    def nodes(self) -> list[str]:
+        """The names of the scene nodes that three.js has."""
+        return cast(
+            list[str],
+            self.page.evaluate(
+                "Object.entries(__viserMutable.nodeRefFromName)"
+                ".filter(([_, node]) => node).map(([name]) => name)"
+            ),
+        )
+
+    def pose(self, name: str, parent: str = "") -> Matrix:
+        """T_parent_node in three.js, (4, 4); the parent "" is viser's world."""
+        elements: Any = self.page.evaluate(self._pose_script(name, parent))
+        columns = [elements[start : start + 4] for start in range(0, 16, 4)]
+        return np.array(list(zip(*columns, strict=True)), np.float64)
+
+    def pixels(self) -> Pixels:
+        """The 3D view alone, without panels: (height, width, 4), RGBA, 0 to 255."""
+        self.wait_for_frames()
+        png = base64.b64decode(str(self.page.evaluate(_PICTURE)))
+        return _decode(png)
+
+    def screenshot(self) -> Pixels:
+        """The whole page as it is seen: (height, width, 4), RGBA, 0 to 255."""
+        return _decode(self.page.screenshot())
+
+    def project(self, name: str) -> tuple[int, int]:
+        """Where the origin of a node is in `pixels`: (column, row)."""
+        x, y = cast(
+            tuple[float, float],
+            self.page.evaluate(_PROJECT.replace("NAME", json.dumps(name))),
+        )
+        return round(x), round(y)
+
+    @property
+    def text(self) -> str:
+        """All text that the page shows."""
+        return str(self.page.evaluate("document.body.innerText"))
+
+    def slider_value(self, label: str) -> float:
+        """What the slider with this label shows."""
+        return float(
+            cast(str, self.page.evaluate(f"{self._slider(label)}.ariaValueNow"))
+        )
+
+    # Acting.
+
+    def press_slider(self, label: str, key: SliderKey, times: int = 1) -> None:
+        """Press a key while the slider with this label has the focus."""
+        slider = self._slider(label)
+        self.page.wait_for(slider)
+        self.page.evaluate(f"{slider}.focus()")
+        for _ in range(times):
+            self.page.keyboard.press(key)
+
+    def enter(self, label: str, text: str) -> None:
+        """Replace what stands in the input field with this label, then leave it."""
+        widget = self._widget(label)
+        self.page.wait_for(widget)
+        self.page.evaluate(f"(w => {{ w.focus(); w.select(); }})({widget})")
+        self.page.keyboard.type(text)
+        self.page.keyboard.press("Tab")
+
+    def click_checkbox(self, label: str) -> None:
+        """Click the checkbox with this label."""
+        self.page.wait_for(self._widget(label))
+        self.page.evaluate(f"{self._widget(label)}.click()")
+
+    def click_button(self, text: str) -> None:
+        """Click the button with this text with the mouse."""
+        button = (
+            "[...document.querySelectorAll('button')]"
+            f".find(b => b.innerText.trim() === {json.dumps(text)})"
+        )
+        self.page.wait_for(button)
+        x, y = cast(
+            tuple[float, float],
+            self.page.evaluate(
+                f"(b => {{ b.scrollIntoView({{block: 'center'}});"
+                " const r = b.getBoundingClientRect();"
+                f" return [r.x + r.width / 2, r.y + r.height / 2]; }})({button})"
+            ),
+        )
+        self.page.mouse.click(x, y)
+
+    # Judging.
+
+    def errors(self) -> list[str]:
+        """What went wrong in the page: exceptions, console errors, failed requests."""
+        lines = [m for m in self.page.console if m.level in ("error", "assert")]
+        return [
+            *self.page.exceptions,
+            *(f"{line.text} {line.url}".strip() for line in lines),
+            *(f"{url}: {reason}" for url, reason in self.page.failures),
+        ]
+
+    def foreign_requests(self) -> list[str]:
+        """The addresses asked for that are not on the viewer's own server."""
+        own = urlsplit(self.url).netloc
+        return [url for url in self.page.requests if urlsplit(url).netloc != own]
+
+    def _widget(self, label: str) -> str:
+        return _WIDGET.replace("LABEL", json.dumps(label))
+
+    def _slider(self, label: str) -> str:
+        return f"{self._widget(label)}.querySelector('[role=slider]')"
+
+    def _pose_script(self, name: str, parent: str) -> str:
+        script = _POSE.replace("PARENT", json.dumps(parent))
+        return script.replace("NAME", json.dumps(name))
+
+
+def _decode(png: bytes) -> Pixels:
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"), np.uint8)
