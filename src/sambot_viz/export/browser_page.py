@@ -62,9 +62,12 @@ class BrowserPage:
         touch: fingers on it.
     """
 
-    def __init__(self, devtools: DevTools, session: str, timeout: float) -> None:
+    def __init__(
+        self, devtools: DevTools, context: str, session: str, timeout: float
+    ) -> None:
         """Only for `create`."""
         self._devtools = devtools
+        self._context = context
         self._session = session
         self._timeout = timeout
         self._loads = 0
@@ -92,7 +95,7 @@ class BrowserPage:
         session = devtools.call(
             "Target.attachToTarget", {"targetId": target, "flatten": True}
         )["sessionId"]
-        page = cls(devtools, session, timeout)
+        page = cls(devtools, context, session, timeout)
         devtools.listen(session, page._on_event)
         for domain in ("Page", "Runtime", "Network", "Log"):
             page.call(f"{domain}.enable")
@@ -212,8 +215,10 @@ class BrowserPage:
         return base64.b64decode(self.call("Page.captureScreenshot", params)["data"])
 
     def close(self) -> None:
-        """Close the window."""
-        self.call("Page.close")
+        """Close the window and forget its storage."""
+        self._devtools.call(
+            "Target.disposeBrowserContext", {"browserContextId": self._context}
+        )
 
     # What the page does by itself. These run on the reading thread.
 

@@ -165,13 +165,16 @@ class Chromium:
         Closing twice is fine.
         """
         devtools, self._devtools = self._devtools, None
+        patience = 0.0
         if devtools is not None:
+            # A browser that is asked to end puts away its helpers by itself.
             with suppress(BrowserError):
                 devtools.call("Browser.close", timeout=2.0)
+                patience = 3.0
             devtools.close()
         process, self._process = self._process, None
         if process is not None:
-            _end_tree(process)
+            _end_tree(process, patience)
         output, self._output = self._output, None
         if output is not None:
             output.wait_for_end(timeout=5.0)
@@ -253,8 +256,15 @@ class _Output:
             self._changed.notify_all()
 
 
-def _end_tree(process: subprocess.Popen[str]) -> None:
-    """End a process that was started in a session of its own, and its children."""
+def _end_tree(process: subprocess.Popen[str], patience: float) -> None:
+    """End a process that was started in a session of its own, and its children.
+
+    Args:
+        process: the leader.
+        patience: how long it may take to end by itself [s].
+    """
+    with suppress(subprocess.TimeoutExpired):
+        process.wait(patience)
     if sys.platform == "win32":
         subprocess.run(
             ["taskkill", "/PID", str(process.pid), "/T", "/F"],
@@ -264,8 +274,6 @@ def _end_tree(process: subprocess.Popen[str]) -> None:
         process.wait()
         return
     # The children are in the leader's process group, and only they are.
-    with suppress(subprocess.TimeoutExpired):
-        process.wait(timeout=3.0)
     for number in (signal.SIGTERM, signal.SIGKILL):
         with suppress(ProcessLookupError):
             os.killpg(process.pid, number)
