@@ -20,7 +20,6 @@ _BUILT_IN = (
 )
 _ELSEWHERE = {
     "abs": "write python.abs(…): xacro keeps it under python",
-    "math": "write the function without math: sin(…), pi",
     "np": "numpy is not there; sin, cos, sqrt, pi are, without a prefix",
     "numpy": "numpy is not there; sin, cos, sqrt, pi are, without a prefix",
     "PI": "write pi",

@@ -58,9 +58,7 @@ def explain_xml(text: str, file: str, fault: Fault) -> list[Problem]:
     whole = whole_file_problem(source, file)
     if whole is not None:
         return [whole]
-    problems = prolog_problems(source, file)
-    slips = _slip_problems(source, file)
-    problems += slips
+    problems = prolog_problems(source, file) + _slip_problems(source, file)
     if not any(slip.kind in _MISLEADING for slip in source.slips):
         problems += structure_problems(source, file)
     problems += _prefix_problems(source, file)
@@ -70,16 +68,46 @@ def explain_xml(text: str, file: str, fault: Fault) -> list[Problem]:
 
 
 def _plain(fault: Fault, file: str) -> Problem:
-    return Problem(
-        "error",
-        "xml-not-well-formed",
-        f"this is no XML from line {fault.line} on ({fault.message})",
-        "look at this line and the one before it: every tag closed, every value in "
-        "quotes",
-        file,
-        fault.line,
-        fault.column,
-    )
+    known = (row for row in _FROM_EXPAT if fault.message.startswith(row[0]))
+    _, code, message, hint = next(known, _UNKNOWN)
+    message = message.format(fault.message, fault.line)
+    return Problem("error", code, message, hint, file, fault.line, fault.column)
+
+
+_FROM_EXPAT = (
+    (
+        "unknown encoding",
+        "xml-encoding",
+        "the first line names an encoding that does not exist ({})",
+        'save the file as UTF-8 and write <?xml version="1.0"?>',
+    ),
+    (
+        "bytes that are not",
+        "xml-encoding",
+        "the file is not in the encoding that its first line names ({})",
+        'save the file as UTF-8 and write <?xml version="1.0"?>',
+    ),
+    (
+        "external entities",
+        "xml-external-entity",
+        "the document type would read other files, which is not done",
+        "delete <!DOCTYPE …> and write the content itself, or use xacro:include",
+    ),
+    (
+        "limit on input amplification",
+        "xml-external-entity",
+        "the entities of the document type grow without end, which is not done",
+        "delete <!DOCTYPE …>",
+    ),
+)
+"""Faults that expat or the reader names well enough: (beginning, code, what, mend)."""
+
+_UNKNOWN = (
+    "",
+    "xml-not-well-formed",
+    "this is no XML from line {1} on ({0})",
+    "look at this line and the one before it: every tag closed, every value in quotes",
+)
 
 
 def _slip_problems(source: Source, file: str) -> list[Problem]:

@@ -21,7 +21,12 @@ _LEAVES = frozenset(
 """Elements that have attributes only: they are written <origin …/>."""
 
 _TOP_LEVEL = frozenset({"link", "joint", "transmission", "gazebo", "ros2_control"})
-"""Elements that never stand inside a link, a joint or a shape."""
+"""Elements that never stand inside one of these:"""
+
+_HOLDS_NO_LINKS = frozenset({"link", "visual", "collision", "inertial", "geometry"})
+
+_MOST = 12
+"""More findings than this come from one cause."""
 
 
 @dataclass
@@ -59,6 +64,8 @@ class _Walk:
         for index, token in enumerate(tags):
             if self.root_end is not None:
                 self._behind_root(index)
+                return
+            if len(self.problems) > _MOST:
                 return
             if token.kind == "close":
                 self._close(index)
@@ -153,7 +160,7 @@ class _Walk:
                 if not self.stack:
                     self.root_end = token
                 return
-        for entry in unclosed:
+        for entry in unclosed[:_MOST]:
             self._unclosed(entry, token)
         del self.stack[depth:]
         if not self.stack:
@@ -205,22 +212,18 @@ class _Walk:
         return f"</{token.name}>" if token.closes else f"<{token.name} …>"
 
     def _place_to_close(self, entry: _Open, closed: Token | None) -> int:
-        """Offset before which the missing closing tag belongs."""
+        """Offset before which the missing closing tag belongs; 0 when unknown."""
         opened = entry.token
         column = self.source.column(opened.start)
         for child in entry.children:
-            stray = child.name in _TOP_LEVEL and opened.name != "robot"
-            if opened.name in ("gazebo", "transmission", "ros2_control", "group"):
-                stray = False
-            if opened.name.startswith("xacro:"):
-                stray = False
+            stray = child.name in _TOP_LEVEL and opened.name in _HOLDS_NO_LINKS
             starts_line = not self.source.line_text(self._line(child))[
                 : self.source.column(child.start) - 1
             ].strip()
             outdented = starts_line and self.source.column(child.start) <= column
             if (stray or outdented) and self._line(child) > self._line(opened):
                 return child.start
-        return closed.start if closed else len(self.source.text)
+        return closed.start if closed else 0
 
     def _last_before(self, offset: int) -> Token:
         tags = [t for t in self.source.tags if t.end <= offset]
@@ -250,19 +253,24 @@ class _Walk:
         self._add("xml-closing-tag-surplus", token.start, message, hint)
 
     def _end_of_file(self) -> None:
-        root = self.stack[0]
-        for entry in self.stack[1:]:
+        """The text ends with tags open: one was forgotten, or the file is cut off."""
+        forgotten = [e for e in self.stack[1:] if self._place_to_close(e, None)]
+        for entry in forgotten[:_MOST]:
             self._unclosed(entry, None)
-        if self.problems and len(self.stack) > 1:
+        if forgotten:
             return
-        line = self.source.line(max(len(self.source.text.rstrip()) - 1, 0))
         at = max(len(self.source.text.rstrip()) - 1, 0)
+        names = [entry.token.name for entry in self.stack]
+        root = self.stack[0].token
+        inner = f", inside {self._shown(self.stack[-1].token)}" if names[1:] else ""
+        ends = "".join(f"</{name}>" for name in reversed(names[:4]))
         self._add(
             "xml-root-not-closed",
             at,
-            f"<{root.token.name}> opened on line {self._line(root.token)} is never "
-            f"closed: the file ends on line {line}",
-            f"add </{root.token.name}> as the last line",
+            f"<{root.name}> opened on line {self._line(root)} is never closed: the "
+            f"file ends on line {self.source.line(at)}{inner}",
+            f"add {ends} at the end"
+            + ("; perhaps the file was cut off" if names[1:] else ""),
         )
 
     def _behind_root(self, index: int) -> None:
