@@ -19,12 +19,11 @@ _DECIMAL = _WHOLE + b".eE"
 def parse_floats(text: bytes) -> npt.NDArray[np.float32] | None:
     """Numbers separated by blanks, or None when something else is among them."""
     try:
-        with np.errstate(over="ignore"):
-            # Numpy's own reader is quicker, but older releases only warn about what
-            # they do not understand ("nan" included).
-            if text.translate(None, _DECIMAL):
-                return np.fromiter(map(float, text.split()), dtype=np.float32)
-            return _numpy_reader(text, np.float32)
+        # Numpy's own reader is quicker, but older releases only warn about what
+        # they do not understand ("nan" included).
+        if text.translate(None, _DECIMAL):
+            return np.fromiter(map(float, text.split()), dtype=np.float32)
+        return _numpy_reader(text, np.float32)
     except ValueError:
         return None
 

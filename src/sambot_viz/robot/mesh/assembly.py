@@ -92,8 +92,7 @@ def assemble(pieces: Iterable[Piece], findings: Findings) -> Mesh:
 
 def _clean(piece: Piece, findings: Findings) -> Piece | None:
     """The piece without triangles that cannot be drawn; None when none is left."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        vertices = piece.vertices.astype(np.float32, copy=False)
+    vertices = piece.vertices.astype(np.float32, copy=False)
     faces = piece.faces
     if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
         inside = np.all((faces >= 0) & (faces < len(vertices)), axis=1)
@@ -104,8 +103,7 @@ def _clean(piece: Piece, findings: Findings) -> Piece | None:
             "export the mesh again",
         )
         faces = faces[inside]
-    with np.errstate(over="ignore", invalid="ignore"):
-        finite = np.isfinite(np.sum(vertices, axis=1))
+    finite = np.isfinite(np.sum(vertices, axis=1))
     if not np.all(finite):
         a, b, c = faces[:, 0], faces[:, 1], faces[:, 2]
         usable = finite[a] & finite[b] & finite[c]
@@ -131,9 +129,8 @@ def _clean(piece: Piece, findings: Findings) -> Piece | None:
 
 
 def _unit(normals: Floats) -> Floats:
-    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.nan_to_num(normals / lengths, posinf=0.0, neginf=0.0)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.nan_to_num(normals / lengths, posinf=0.0, neginf=0.0)
 
 
 def _join(group: list[Piece]) -> Piece:

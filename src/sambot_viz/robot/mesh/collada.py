@@ -15,9 +15,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from sambot_viz.robot.mesh.assembly import Findings, Piece
-from sambot_viz.robot.mesh.collada_geometry import Geometry, Primitives, read_geometry
+from sambot_viz.robot.mesh.collada_geometry import Geometry, read_geometry
 from sambot_viz.robot.mesh.collada_material import Materials
 from sambot_viz.robot.mesh.collada_xml import Document, parse_document
+from sambot_viz.robot.mesh.placing import placed
 from sambot_viz.robot.mesh.textures import TextureStore
 from sambot_viz.robot.model import Matrix
 
@@ -122,34 +123,17 @@ class _Scene:
         bound = self.materials.bindings(instance)
         for primitives in geometry:
             look = self.materials.look(primitives.symbol, bound)
-            piece = _placed(primitives, T)
-            piece.rgba, piece.texture = look.rgba, look.texture
-            yield piece
-
-
-def _placed(primitives: Primitives, T: Matrix) -> Piece:
-    """The triangles where the node puts them."""
-    linear = T[:3, :3]
-    normals, faces = primitives.normals, primitives.faces
-    if normals is not None:
-        # The cofactor matrix turns normals rightly and exists for every transform.
-        cofactors = np.array(
-            [
-                np.cross(linear[1], linear[2]),
-                np.cross(linear[2], linear[0]),
-                np.cross(linear[0], linear[1]),
-            ]
-        )
-        normals = normals @ np.transpose(cofactors)
-    if np.linalg.det(linear) < 0:
-        faces = faces[:, ::-1]
-        normals = None if normals is None else -normals
-    return Piece(
-        vertices=primitives.vertices @ np.transpose(linear) + T[:3, 3],
-        faces=faces,
-        normals=normals,
-        uv=primitives.uv,
-    )
+            yield placed(
+                Piece(
+                    vertices=primitives.vertices,
+                    faces=primitives.faces,
+                    normals=primitives.normals,
+                    rgba=look.rgba,
+                    uv=primitives.uv,
+                    texture=look.texture,
+                ),
+                T,
+            )
 
 
 def _unit(document: Document, findings: Findings) -> float:

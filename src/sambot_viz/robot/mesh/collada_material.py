@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
 
 from sambot_viz.robot.mesh.assembly import Findings
 from sambot_viz.robot.mesh.collada_xml import Document
+from sambot_viz.robot.mesh.looks import Look, load_texture
 from sambot_viz.robot.mesh.model import GREY, WHITE, Texture
-from sambot_viz.robot.mesh.textures import TextureError, TextureStore, find_beside
-from sambot_viz.robot.model import Rgba
+from sambot_viz.robot.mesh.textures import TextureStore
 
 _SHADERS = ("phong", "lambert", "blinn", "constant")
-
-
-@dataclass(frozen=True, slots=True)
-class Look:
-    """Colour and texture of a surface."""
-
-    rgba: Rgba
-    texture: Texture | None = None
 
 
 class Materials:
@@ -142,29 +133,6 @@ def _image_file(image: ET.Element) -> str:
     if start is None:
         return ""
     return (start.findtext("ref") or start.text or "").strip()
-
-
-def load_texture(name: str, findings: Findings, images: TextureStore) -> Texture | None:
-    """The image that a mesh names; None, with a warning, when it cannot be had."""
-    path = find_beside(findings.path, name)
-    if path is None:
-        findings.warn(
-            "mesh-texture-missing",
-            f"the texture '{name}' is not there; the surface is shown without it",
-            "put the image beside the mesh",
-        )
-        return None
-    try:
-        texture = images.from_file(path)
-    except TextureError as error:
-        findings.warn(
-            "mesh-texture-broken",
-            f"the texture '{name}' cannot be used: {error}; the surface is shown "
-            "without it",
-        )
-        return None
-    findings.read(path)
-    return texture
 
 
 def _colour(element: ET.Element | None) -> tuple[float, float, float] | None:

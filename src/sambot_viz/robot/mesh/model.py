@@ -53,8 +53,8 @@ class MeshPart:
         normals: (N, 3) float32 unit normals; None means flat shaded. Vertices are
             shared exactly where position and normal (and uv) agree, so computing
             smooth normals from the faces gives much the same.
-        rgba: the file's own colour, 0 to 1 as RViz shows it face on; None (STL) means that the
-            URDF's material decides.
+        rgba: the file's own colour, 0 to 1 as RViz shows it face on; None (STL) means
+            that the URDF's material decides.
         uv: (N, 2) float32, v upwards (0 is the bottom of the image); None without a
             texture.
         texture: multiplies the colour, or None.

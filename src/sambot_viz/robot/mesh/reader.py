@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from sambot_viz.robot.mesh.assembly import Findings, Piece, assemble
-from sambot_viz.robot.mesh.model import Mesh, MeshError, mesh_error
+from sambot_viz.robot.mesh.model import Mesh, mesh_error
 from sambot_viz.robot.mesh.textures import TextureStore
 
 LARGEST = 500 * 1024 * 1024
@@ -31,13 +33,13 @@ def read_mesh(
             its one problem is a sentence that says so.
     """
     data = _read_bytes(path, largest)
-    reader = _reader(path, data)
+    reader = _reader(path)
     findings = Findings(path)
     try:
-        pieces = reader(data, findings, images or TextureStore())
-        return assemble(pieces, findings)
-    except MeshError:
-        raise
+        # What is no number, or too large for one, is dealt with in `assemble`.
+        with np.errstate(all="ignore"):
+            pieces = reader(data, findings, images or TextureStore())
+            return assemble(pieces, findings)
     except (MemoryError, RecursionError) as error:
         raise mesh_error(
             path, "mesh-too-large", "the mesh is too large or too deep to be read"
@@ -79,18 +81,17 @@ def _read_bytes(path: Path, largest: int) -> bytes:
     return data
 
 
-def _reader(path: Path, data: bytes) -> _Reader:
+def _reader(path: Path) -> _Reader:
+    """The reader for a file; each is imported when the first such file comes."""
     suffix = path.suffix.lower()
-    if suffix in (".stl", ".stlb"):
-        return _stl
-    if suffix == ".dae":
-        return _collada
-    known = ".dae, .stl, .obj, .glb, .gltf, .ply"
+    reader = _READERS.get(suffix)
+    if reader is not None:
+        return reader
     raise mesh_error(
         path,
         "mesh-format-unknown",
         f"meshes of the kind '{suffix or path.name}' cannot be read",
-        f"convert it to one of {known}",
+        "convert it to one of .stl, .dae, .obj, .glb, .gltf, .ply",
     )
 
 
@@ -104,3 +105,32 @@ def _collada(data: bytes, findings: Findings, images: TextureStore) -> list[Piec
     from sambot_viz.robot.mesh.collada import read_collada
 
     return read_collada(data, findings, images)
+
+
+def _obj(data: bytes, findings: Findings, images: TextureStore) -> list[Piece]:
+    from sambot_viz.robot.mesh.obj import read_obj
+
+    return read_obj(data, findings, images)
+
+
+def _gltf(data: bytes, findings: Findings, images: TextureStore) -> list[Piece]:
+    from sambot_viz.robot.mesh.gltf import read_gltf
+
+    return read_gltf(data, findings, images)
+
+
+def _ply(data: bytes, findings: Findings, images: TextureStore) -> list[Piece]:
+    from sambot_viz.robot.mesh.ply import read_ply
+
+    return read_ply(data, findings)
+
+
+_READERS: dict[str, _Reader] = {
+    ".stl": _stl,
+    ".stlb": _stl,
+    ".dae": _collada,
+    ".obj": _obj,
+    ".glb": _gltf,
+    ".gltf": _gltf,
+    ".ply": _ply,
+}
