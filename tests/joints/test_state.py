@@ -188,7 +188,7 @@ def test_a_ring_of_mimic_joints_is_told_once_and_stops_nothing(
         Joint("w", "continuous", "d", "e"),
     )
     state = JointState(robot)
-    assert [p.code for p in state.problems] == ["mimic-cycle", "mimic-cycle"]
+    assert [p.code for p in state.problems] == ["mimic-ring", "mimic-ring"]
     assert [p.message for p in state.problems] == [
         "the joints j → k → j mimic each other in a ring",
         "joint 'm' mimics itself",

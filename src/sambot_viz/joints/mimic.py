@@ -86,10 +86,10 @@ def _no_leader(joint: Joint, last: Joint, joints: Mapping[str, Joint]) -> Proble
     leader = joints.get(name)
     if leader is None:
         movable = [j.name for j in joints.values() if j.movable and j.name != last.name]
-        code, fault = "mimic-unknown-joint", "which does not exist"
+        code, fault = "mimic-joint-unknown", "which does not exist"
         hint = did_you_mean(name, movable)
     else:
-        code, fault = "mimic-immovable-joint", f"which is {leader.type}"
+        code, fault = "mimic-joint-immovable", f"which is {leader.type}"
         hint = "name a revolute, continuous or prismatic joint"
     message = f"joint '{joint.name}' mimics '{name}'{through}, {fault}"
     return _problem(joint, code, message, hint)
@@ -100,7 +100,7 @@ def _ring(joint: Joint, ring: tuple[str, ...]) -> Problem:
         message = f"joint '{joint.name}' mimics itself"
     else:
         message = f"the joints {' → '.join(ring)} mimic each other in a ring"
-    return _problem(joint, "mimic-cycle", message, "one of them must be free")
+    return _problem(joint, "mimic-ring", message, "one of them must be free")
 
 
 def _problem(joint: Joint, code: str, message: str, hint: str) -> Problem:

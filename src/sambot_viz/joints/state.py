@@ -64,8 +64,7 @@ class JointState:
         for name in self._dependent:
             self._require(name, self._joints)
         for name, value in (zeros or {}).items():
-            self._require(name, self._free)
-            self._zeros[name] = _number(name, value)
+            self._zeros[name] = self.checked(name, value)
         self._positions = {name: self.start(name) for name in self._free}
 
     # Which joints there are
@@ -146,13 +145,19 @@ class JointState:
         Raises:
             JointError: an unknown joint, one that cannot be set, no finite number.
         """
-        numbers: dict[str, float] = {}
-        for name, value in values.items():
-            self._require(name, self._free)
-            numbers[name] = _number(name, value)
+        numbers = {name: self.checked(name, v) for name, v in values.items()}
         changed = [n for n, v in numbers.items() if v != self._positions[n]]
         self._positions.update(numbers)
         return self._moved(changed)
+
+    def checked(self, name: str, value: float) -> float:
+        """The value as a number, if it is finite and the joint can be set.
+
+        Raises:
+            JointError: an unknown joint, one that cannot be set, no finite number.
+        """
+        self._require(name, self._free)
+        return _number(name, value)
 
     def start(self, name: str) -> float:
         """The start value [rad or m]: `zeros`, else 0, else the middle of the range.

@@ -1,0 +1,130 @@
+"""Named poses of a robot, kept in one small yaml file beside it."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import cast
+
+import yaml
+
+from sambot_viz.errors import JointError, did_you_mean
+
+Pose = dict[str, float]
+"""Joint → position [rad or m]."""
+
+
+class Presets:
+    """Named poses, and the file they are saved in.
+
+    Args:
+        path: the yaml file; it need not exist yet. None keeps the poses in memory.
+
+    Raises:
+        JointError: the file exists and holds something else than poses.
+    """
+
+    def __init__(self, path: Path | None = None) -> None:
+        self.path = path
+        self._poses: dict[str, Pose] = {}
+        if path is not None and path.exists():
+            self._poses = _load(path)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the poses in the order in which they were saved."""
+        return tuple(self._poses)
+
+    def get(self, name: str) -> Pose:
+        """A copy of one pose.
+
+        Raises:
+            JointError: there is no pose of that name.
+        """
+        if name not in self._poses:
+            raise JointError(f"no pose '{name}'; {did_you_mean(name, self._poses)}")
+        return dict(self._poses[name])
+
+    def save(self, name: str, positions: Mapping[str, float]) -> None:
+        """Keep a pose under a name, in place of an older one, and write the file.
+
+        Raises:
+            JointError: an empty name, a value that is no finite number, or a file that
+                cannot be written (then nothing changes).
+        """
+        name = name.strip()
+        if not name:
+            raise JointError("a pose needs a name")
+        for joint, value in positions.items():
+            if not math.isfinite(value):
+                raise JointError(f"joint '{joint}' has {value!r}: no finite number")
+        self._replace({**self._poses, name: dict(positions)})
+
+    def remove(self, name: str) -> None:
+        """Forget a pose and write the file.
+
+        Raises:
+            JointError: there is no such pose, or the file cannot be written.
+        """
+        self.get(name)
+        self._replace({n: pose for n, pose in self._poses.items() if n != name})
+
+    def _replace(self, poses: dict[str, Pose]) -> None:
+        if self.path is not None:
+            _write(self.path, poses)
+        self._poses = poses
+
+
+def _load(path: Path) -> dict[str, Pose]:
+    try:
+        document: object = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise JointError(f"cannot read the poses in {path}: {error}") from error
+    except yaml.YAMLError as error:
+        reason = " ".join(str(error).split())
+        raise JointError(f"{path} is no yaml: {reason}") from error
+    if document is None:
+        return {}
+    if not isinstance(document, dict):
+        raise JointError(f"{path} holds no poses: expected 'pose: {{joint: value}}'")
+    poses = cast("dict[object, object]", document)
+    return {str(name): _pose(str(name), pose, path) for name, pose in poses.items()}
+
+
+def _pose(name: str, pose: object, path: Path) -> Pose:
+    if not isinstance(pose, dict):
+        raise JointError(f"{path}: pose '{name}' is no list of 'joint: value'")
+    values: Pose = {}
+    for joint, value in cast("dict[object, object]", pose).items():
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if not number or not math.isfinite(cast("float", value)):
+            raise JointError(
+                f"{path}: pose '{name}' has {value!r} for joint '{joint}', which is no "
+                "finite number"
+            )
+        values[str(joint)] = float(cast("float", value))
+    return values
+
+
+def _write(path: Path, poses: dict[str, Pose]) -> None:
+    """Write beside the file and swap, so that a crash leaves the old or the new one."""
+    text = yaml.safe_dump(poses, sort_keys=False, allow_unicode=True)
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    except OSError as error:
+        raise JointError(f"cannot save the poses in {path}: {error}") from error
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        # mkstemp makes files that nobody else may read; poses are no secret.
+        mode = path.stat().st_mode & 0o777 if path.exists() else 0o644
+        os.chmod(name, mode)
+        os.replace(name, path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            os.unlink(name)
+        raise JointError(f"cannot save the poses in {path}: {error}") from error

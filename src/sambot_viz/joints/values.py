@@ -1,0 +1,144 @@
+"""Joint values as text: arguments, sensor_msgs/JointState files, ros2 commands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import cast
+
+import yaml
+
+from sambot_viz.errors import JointError, UsageError
+
+
+def parse_assignments(texts: Iterable[str], option: str) -> dict[str, float]:
+    """Read the arguments of ``--joint`` or ``--zeros``.
+
+    Args:
+        texts: each "NAME=VALUE", VALUE in radians or metres. The last one of a name
+            counts.
+        option: the name of the option, for the message.
+
+    Raises:
+        UsageError: a text that has no name, no '=' or no finite number.
+    """
+    values: dict[str, float] = {}
+    for text in texts:
+        # A joint's name may hold '=', a number cannot.
+        name, equals, number = text.rpartition("=")
+        if not equals or not name.strip():
+            raise UsageError(
+                f"{option} {text}: expected NAME=VALUE, such as "
+                f"{option} drivewhl_l_joint=1.57"
+            )
+        values[name.strip()] = _argument(number, f"{option} {text}")
+    return values
+
+
+def _argument(text: str, label: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise UsageError(f"{label}: '{text}' is no finite number of radians or metres")
+    return number
+
+
+def load_joint_state(path: Path) -> dict[str, float]:
+    """Read joint positions from a yaml file.
+
+    Args:
+        path: either the lists `name` and `position` of a sensor_msgs/JointState, as
+            ``ros2 topic echo`` prints it (of several messages the first), or a plain
+            mapping of joint names to positions [rad or m].
+
+    Raises:
+        JointError: the file cannot be read or is neither of the two.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+        # ros2 topic echo ends each message with a document mark.
+        document: object = next(iter(yaml.safe_load_all(text)), None)
+    except (OSError, UnicodeDecodeError) as error:
+        raise JointError(f"cannot read {path}: {_reason(error)}") from error
+    except yaml.YAMLError as error:
+        raise JointError(f"{path} is no yaml: {_one_line(error)}") from error
+    if not isinstance(document, dict):
+        raise JointError(
+            f"{path} holds no joint state: expected the lists 'name' and 'position', "
+            "or one 'joint: value' per line"
+        )
+    mapping = cast("dict[object, object]", document)
+    if isinstance(mapping.get("name"), list):
+        mapping = _paired(mapping, path)
+    return {str(name): _value(name, v, path) for name, v in mapping.items()}
+
+
+def _paired(message: dict[object, object], path: Path) -> dict[object, object]:
+    names = cast("list[object]", message["name"])
+    positions = message.get("position")
+    count = len(cast("list[object]", positions)) if isinstance(positions, list) else 0
+    if count != len(names):
+        raise JointError(
+            f"{path} names {len(names)} joints and gives {count} positions; "
+            "there must be one position for each name"
+        )
+    paired: dict[object, object] = {}
+    for name, position in zip(names, cast("list[object]", positions), strict=True):
+        # robot_state_publisher takes the first of a name that stands there twice.
+        paired.setdefault(name, position)
+    return paired
+
+
+def _value(name: object, value: object, path: Path) -> float:
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if math.isfinite(value):
+            return float(value)
+    raise JointError(f"{path}: joint '{name}' has {value!r}, which is no finite number")
+
+
+def as_yaml(positions: Mapping[str, float]) -> str:
+    """Positions as the yaml of a sensor_msgs/JointState, exact; ends with a newline."""
+    lines = ["name:", *(f"- {_word(name)}" for name in positions)]
+    lines += ["position:", *(f"- {_exact(value)}" for value in positions.values())]
+    return "\n".join(lines) + "\n" if positions else "name: []\nposition: []\n"
+
+
+def as_topic_pub(positions: Mapping[str, float], topic: str = "/joint_states") -> str:
+    """The shell command that publishes the positions once, with the time of then.
+
+    robot_state_publisher drops messages with the stamp 0 (spec/ros-nodes.md §3.3), so
+    the header asks for the present time.
+    """
+    names = ", ".join(_word(name) for name in positions)
+    values = ", ".join(_exact(value) for value in positions.values())
+    message = f"{{header: {{stamp: now}}, name: [{names}], position: [{values}]}}"
+    quoted = message.replace("'", "'\"'\"'")
+    return f"ros2 topic pub --once {topic} sensor_msgs/msg/JointState '{quoted}'"
+
+
+def _word(name: str) -> str:
+    """A name as a flow scalar of yaml, in quotes where it needs them."""
+    text = yaml.safe_dump(
+        [name], default_flow_style=True, allow_unicode=True, width=10**9
+    )
+    return text.strip()[1:-1]
+
+
+def _exact(value: float) -> str:
+    # yaml 1.1 reads 1e-07 as text; with a dot in it, it is a number.
+    text = repr(float(value) + 0.0)
+    mantissa, e, exponent = text.partition("e")
+    return f"{mantissa}.0e{exponent}" if e and "." not in mantissa else text
+
+
+def _reason(error: OSError | UnicodeDecodeError) -> str:
+    if isinstance(error, OSError):
+        return (error.strerror or str(error)).lower()
+    return "it is not UTF-8 text"
+
+
+def _one_line(error: yaml.YAMLError) -> str:
+    return " ".join(str(error).split())
