@@ -1,1 +1,64 @@
-"""The .rviz document: reading, typed properties, lossless writing."""
+"""The .rviz document: reading, typed properties, lossless writing.
+
+`RvizConfig` is a file; `ConfigItem` (a display, a view, a tool, Global Options) gives
+typed values by path; the classes of `properties` declare what values there are.
+"""
+
+from __future__ import annotations
+
+from sambot_viz.rviz.config import RvizConfig
+from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.entries import DisplayConfig, ToolConfig, ViewConfig
+from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
+from sambot_viz.rviz.item import ConfigItem, Declared, UnknownPropertyError
+from sambot_viz.rviz.properties import (
+    FILTER_SIZE,
+    FIXED_FRAME,
+    QOS_PROPERTIES,
+    BoolProperty,
+    ColorProperty,
+    EditableEnumProperty,
+    EnumProperty,
+    FileProperty,
+    FloatProperty,
+    GroupProperty,
+    IntProperty,
+    QuaternionProperty,
+    RegexProperty,
+    StringProperty,
+    TfFrameProperty,
+    TopicProperty,
+    VectorProperty,
+)
+from sambot_viz.rviz.property import Property, PropertyError
+
+__all__ = [
+    "FILTER_SIZE",
+    "FIXED_FRAME",
+    "GLOBAL_OPTIONS",
+    "QOS_PROPERTIES",
+    "BoolProperty",
+    "ColorProperty",
+    "ConfigItem",
+    "Declarations",
+    "Declared",
+    "DisplayConfig",
+    "EditableEnumProperty",
+    "EnumProperty",
+    "FileProperty",
+    "FloatProperty",
+    "GroupProperty",
+    "IntProperty",
+    "Property",
+    "PropertyError",
+    "QuaternionProperty",
+    "RegexProperty",
+    "RvizConfig",
+    "StringProperty",
+    "TfFrameProperty",
+    "ToolConfig",
+    "TopicProperty",
+    "UnknownPropertyError",
+    "VectorProperty",
+    "ViewConfig",
+]

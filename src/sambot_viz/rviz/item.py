@@ -1,0 +1,375 @@
+"""A map of the document seen through a list of declared properties."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+from sambot_viz.errors import Problem, UsageError, did_you_mean
+from sambot_viz.rviz.nodes import Entry, List, Map, Node, Plain, Scalar, copied, plain
+from sambot_viz.rviz.number import float_text
+from sambot_viz.rviz.properties import EnumProperty, VectorProperty, checked_text
+from sambot_viz.rviz.property import Property
+
+Path = str | Sequence[str]
+
+
+class UnknownPropertyError(UsageError):
+    """A property that is not declared.
+
+    Attributes:
+        path: what was asked for.
+    """
+
+    def __init__(self, owner: str, path: str, known: Sequence[str]):
+        self.path = path
+        super().__init__(f"{owner} has no '{path}'; {did_you_mean(path, known)}")
+
+
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """A property with its place in the file.
+
+    Attributes:
+        path: keys from the item on, joined by "/".
+        keys: the same keys.
+        property: the declaration.
+        above: the one whose child it is.
+    """
+
+    path: str
+    keys: tuple[str, ...]
+    property: Property
+    above: Declared | None = None
+
+
+class Findings:
+    """Collects what is doubtful in a file.
+
+    Attributes:
+        problems: in the order they were found.
+    """
+
+    def __init__(self, file: str | None):
+        self.file = file
+        self.problems: list[Problem] = []
+
+    def add(self, code: str, node: Node | None, message: str, hint: str = "") -> None:
+        """Note a warning at a node."""
+        span = node.span if node is not None else None
+        line, column = (span.line, span.column) if span else (None, None)
+        problem = Problem("warning", code, message, hint, self.file, line, column)
+        self.problems.append(problem)
+
+
+class ConfigItem:
+    """Typed values of one map: Global Options, a display, a view, a tool.
+
+    Values are read once, kept typed, and written into the document when they are set.
+    Keys that are not declared stay untouched and can be reached as text with `raw`,
+    `dynamic` and `set_dynamic`.
+    """
+
+    _own_keys: frozenset[str] = frozenset()
+    """Keys with a meaning of their own, which are no properties."""
+
+    def __init__(
+        self,
+        node: Map,
+        declared: Sequence[Property],
+        findings: Findings,
+        *,
+        ros1: bool = False,
+        attach: Callable[[Map], None] | None = None,
+    ):
+        """Read the properties of a map.
+
+        Args:
+            node: the map; one that is not in the document is attached when needed.
+            declared: the properties.
+            findings: takes what is doubtful.
+            ros1: the map is written in ROS 1's names, whose defaults differ.
+            attach: puts the map into the document.
+        """
+        self._node = node
+        self._attach = attach
+        self._ros1 = ros1
+        self._findings = findings
+        self._values: dict[str, Any] = {}
+        self._declared: dict[str, Declared] = {}
+        self._given: set[str] = set()
+        self._take(declared)
+
+    def _take(self, declared: Sequence[Property]) -> None:
+        self._values.clear()
+        self._declared.clear()
+        self._given.clear()
+        self._top = tuple(p for p in declared if self._ros1 or not p.ros1_only)
+        for prop in self._top:
+            self._read(prop, (), self._node, None)
+
+    def _read(
+        self,
+        prop: Property,
+        above: tuple[str, ...],
+        node: Node | None,
+        parent: Declared | None,
+    ) -> None:
+        key = prop.name
+        found = node.get(key) if isinstance(node, Map) else None
+        for alias in prop.aliases:
+            if found is None and isinstance(node, Map):
+                key, found = alias, node.get(alias)
+        if found is None:
+            key = prop.name
+        path = "/".join((*above, prop.name))
+        declared = Declared(path, (*above, key), prop, parent)
+        self._declared[path] = declared
+        if prop.has_value and not prop.read_only:
+            value = prop.read(found, self._report)
+            if value is not None:
+                self._given.add(path)
+            default = prop.default_in(self._ros1)
+            self._values[path] = default if value is None else value
+        for child in prop.children:
+            self._read(child, declared.keys, found, declared)
+
+    def _report(self, node: Node, message: str, hint: str) -> None:
+        self._findings.add("config-value", node, message, hint)
+
+    @property
+    def label(self) -> str:
+        """What it is called in messages."""
+        return "this item"
+
+    @property
+    def properties(self) -> Mapping[str, Any]:
+        """Every value, by its path, such as "Line Style/Line Width"."""
+        return MappingProxyType(self._values)
+
+    @property
+    def declared(self) -> Mapping[str, Declared]:
+        """Every declared property, containers too, by its path."""
+        return MappingProxyType(self._declared)
+
+    def is_given(self, path: str) -> bool:
+        """Whether the value comes from the file or was set, and is no default."""
+        return path in self._given
+
+    def get(self, path: str) -> Any:
+        """The value of a property: bool, int, float, str, or a tuple of numbers.
+
+        Raises:
+            UnknownPropertyError: no such property with a value is declared.
+        """
+        try:
+            return self._values[path]
+        except KeyError:
+            raise self._unknown(path) from None
+
+    def set(self, path: str, value: object) -> Any:
+        """Change a property here and in the document.
+
+        Args:
+            path: keys from this item on, joined by "/".
+            value: what a program or a browser gives.
+
+        Returns:
+            The value it has now: clamped, and of the property's own type.
+
+        Raises:
+            UnknownPropertyError: no such property is declared.
+            PropertyError: the value cannot be meant.
+        """
+        if path not in self._values:
+            raise self._unknown(path)
+        declared = self._declared[path]
+        prop, new = declared.property, declared.property.coerce(value)
+        if prop.agrees(new, self._values[path]):
+            self._values[path] = new
+            return new
+        self._write(declared, new)
+        self._values[path] = new
+        self._given.add(path)
+        return new
+
+    def is_shown(self, path: str) -> bool:
+        """Whether the row of a property is to be seen, as its siblings stand."""
+        declared: Declared | None = self._declared.get(path)
+        if declared is None:
+            raise self._unknown(path)
+        while declared is not None:
+            condition = declared.property.hidden_unless
+            if condition is not None and not self._holds(*condition):
+                return False
+            declared = declared.above
+        return True
+
+    def _holds(self, path: str, wanted: object) -> bool:
+        value, prop = self.get(path), self._declared[path].property
+        if isinstance(prop, EnumProperty):
+            value = prop.meaning(value)
+        return value in wanted if isinstance(wanted, tuple) else value == wanted
+
+    def _unknown(self, path: str) -> UnknownPropertyError:
+        return UnknownPropertyError(self.label, path, list(self._values))
+
+    def _write(self, declared: Declared, value: Any) -> None:
+        above, key = self._map_at(declared.keys[:-1]), declared.keys[-1]
+        prop, old = declared.property, above.get(key)
+        parts = prop.components(value)
+        if parts is not None:
+            self._write_parts(above, key, parts, prop)
+        elif isinstance(old, Map):
+            old.put_text("Value", prop.write(value))
+        elif old is None and prop.children:
+            above.put(key, self._fresh(declared, value))
+        else:
+            above.put_text(key, prop.write(value))
+
+    def _write_parts(
+        self, above: Map, key: str, parts: dict[str, str], prop: Property
+    ) -> None:
+        old = above.get(key)
+        if not isinstance(old, Map):
+            above.put(key, Map([Entry(k, Scalar(text)) for k, text in parts.items()]))
+            return
+        before = prop.read(old)
+        known = prop.components(before) if before is not None else None
+        for part, text in parts.items():
+            # The file may say "0.1" where RViz writes all digits of it; that stays.
+            if known is None or known[part] != text:
+                old.put_text(part, text)
+
+    def _map_at(self, keys: Sequence[str]) -> Map:
+        """The map at some keys, made of what stands there."""
+        if self._attach is not None:
+            self._attach(self._node)
+            self._attach = None
+        node = self._node
+        for depth, key in enumerate(keys, 1):
+            found = node.get(key)
+            if not isinstance(found, Map):
+                found = self._map_from(tuple(keys[:depth]), found)
+                node.put(key, found)
+            node = found
+        return node
+
+    def _map_from(self, keys: tuple[str, ...], old: Node | None) -> Map:
+        """A map in the place of a flat value ("Line Style: Lines") or of nothing."""
+        declared = next((d for d in self._declared.values() if d.keys == keys), None)
+        made = Map()
+        if declared is not None and not isinstance(declared.property, VectorProperty):
+            made = self._fresh(declared, self._values.get(declared.path))
+        if isinstance(old, Scalar):
+            made.remove("Value")
+            made.put("Value", copied(old))
+        return made
+
+    def _fresh(self, declared: Declared, value: Any) -> Map:
+        """A property with children as RViz saves it: all of them, in order."""
+        made = Map()
+        if declared.property.has_value:
+            made.put("Value", Scalar(declared.property.write(value)))
+        for child in declared.property.children:
+            if not child.read_only:
+                path = f"{declared.path}/{child.name}"
+                made.put(child.name, self._fresh_node(path))
+        return made
+
+    def _fresh_node(self, path: str) -> Node:
+        declared, value = self._declared[path], self._values.get(path)
+        prop = declared.property
+        parts = prop.components(value) if prop.has_value else None
+        if parts is not None:
+            return Map([Entry(key, Scalar(text)) for key, text in parts.items()])
+        if prop.children or not prop.has_value:
+            return self._fresh(declared, value)
+        return Scalar(prop.write(value))
+
+    def fill(self) -> None:
+        """Write every property into the map, as RViz saves a new item."""
+        for prop in self._top:
+            if not prop.read_only and self._node.get(prop.name) is None:
+                self._node.put(prop.name, self._fresh_node(prop.name))
+
+    @property
+    def raw(self) -> dict[str, Plain]:
+        """All of the map as text: dicts, lists, str, None."""
+        found = plain(self._node)
+        return found if isinstance(found, dict) else {}
+
+    def dynamic(self, path: Path) -> dict[str, Plain]:
+        """What stands below a key, declared or not, such as "Links" or "Frames".
+
+        Args:
+            path: one key, or a sequence of keys (which may contain slashes).
+
+        Returns:
+            Nested dicts of text; empty when there is no map.
+        """
+        node: Node | None = self._node
+        for key in _keys(path):
+            node = node.get(key) if isinstance(node, Map) else None
+        found = plain(node)
+        return found if isinstance(found, dict) else {}
+
+    def set_dynamic(self, path: Sequence[str], value: str | bool | float) -> None:
+        """Write a text, a number or a box below keys that need not be declared.
+
+        Args:
+            path: the keys, such as ("Links", "base_link", "Value").
+            value: what to write.
+        """
+        keys = _keys(path)
+        if isinstance(value, bool):
+            text = "true" if value else "false"
+        elif isinstance(value, str):
+            text = checked_text(keys[-1], value)
+        else:
+            text = float_text(value)
+        above = self._map_at(keys[:-1])
+        old = above.get(keys[-1])
+        if isinstance(old, Map):
+            old.put_text("Value", text)
+        else:
+            above.put_text(keys[-1], text)
+
+    @property
+    def unknown_keys(self) -> tuple[str, ...]:
+        """Paths in the file that nothing declares, in the order of the file."""
+        return tuple(self._unknown_in(self._node, (), None))
+
+    def _unknown_in(
+        self, node: Map, above: tuple[str, ...], owner: Declared | None
+    ) -> Iterator[str]:
+        known = {d.keys: d for d in self._declared.values()}
+        for key in node.keys():
+            keys = (*above, key)
+            declared, value = known.get(keys), node.get(key)
+            if declared is None:
+                if not self._is_own(key, owner):
+                    yield "/".join(keys)
+            elif isinstance(value, Map):
+                yield from self._unknown_in(value, keys, declared)
+
+    def _is_own(self, key: str, owner: Declared | None) -> bool:
+        if owner is None:
+            return key in self._own_keys
+        prop = owner.property
+        if isinstance(prop, VectorProperty):
+            return key in prop.keys
+        return prop.open_keys or (key == "Value" and prop.has_value)
+
+
+def _keys(path: Path) -> tuple[str, ...]:
+    return (path,) if isinstance(path, str) else tuple(path)
+
+
+def items_of(node: Node | None) -> list[tuple[Entry, Map]]:
+    """The maps in a list of the file, with their entries."""
+    if not isinstance(node, List):
+        return []
+    return [(e, e.value) for e in node.entries if isinstance(e.value, Map)]

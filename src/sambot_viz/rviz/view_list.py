@@ -1,0 +1,166 @@
+"""The current view and the saved ones (spec/rviz-core.md §1.8)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from sambot_viz.errors import UsageError
+from sambot_viz.rviz.class_name import (
+    is_ros1,
+    kind_of,
+    row_text,
+    short_name,
+    written_in_ros1,
+)
+from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.entries import ViewConfig, new_map
+from sambot_viz.rviz.item import Findings, items_of
+from sambot_viz.rviz.nodes import Entry, List, Map, copied
+
+CURRENT = "Current View"
+ORBIT = "rviz_default_plugins/Orbit"
+
+
+class ViewList:
+    """The views of a config."""
+
+    def __init__(
+        self,
+        manager: Map,
+        attached_manager: Callable[[], Map],
+        findings: Findings,
+        declarations: Declarations,
+    ):
+        """Read the views.
+
+        Args:
+            manager: the map of the Visualization Manager.
+            attached_manager: the same, put into the document if need be.
+            findings: takes what is doubtful.
+            declarations: the view classes.
+        """
+        self._attached_manager = attached_manager
+        self._view_findings = findings
+        self._view_classes = declarations.views
+        views = manager.get("Views")
+        current = views.get("Current") if isinstance(views, Map) else None
+        saved = views.get("Saved") if isinstance(views, Map) else None
+        given = isinstance(current, Map) and current.text("Class") is not None
+        self._view = self._read_view(
+            current if isinstance(current, Map) and given else None
+        )
+        self._saved_views = [self._read_view(node) for _, node in items_of(saved)]
+
+    def _read_view(self, node: Map | None) -> ViewConfig:
+        found = node
+        if found is None:
+            # RViz starts with an Orbit view (spec/rviz-views-tools.md §1.1).
+            found = new_map(ORBIT, CURRENT)
+            found.put_text("Value", row_text(ORBIT))
+        kind = kind_of(found.text("Class") or "")
+        return ViewConfig(
+            found,
+            self._view_classes.get(kind),
+            self._view_findings,
+            self._attach_current if node is None else None,
+        )
+
+    def _views_map(self) -> Map:
+        manager = self._attached_manager()
+        views = manager.get("Views")
+        if isinstance(views, Map):
+            return views
+        made = Map()
+        manager.put("Views", made)
+        return made
+
+    def _attach_current(self, node: Map) -> None:
+        self._views_map().put("Current", node)
+
+    def _saved_list(self) -> List:
+        views = self._views_map()
+        saved = views.get("Saved")
+        if isinstance(saved, List):
+            return saved
+        made = List()
+        views.put("Saved", made)
+        return made
+
+    @property
+    def view(self) -> ViewConfig:
+        """The current view."""
+        return self._view
+
+    @property
+    def saved_views(self) -> tuple[ViewConfig, ...]:
+        """The saved views, in order."""
+        return tuple(self._saved_views)
+
+    def set_view_class(self, kind: str) -> ViewConfig:
+        """Make the current view one of another class.
+
+        Keys that both classes have keep their values; where the camera stands then is
+        for the caller to set.
+
+        Args:
+            kind: ROS 2 class id.
+
+        Returns:
+            The new current view.
+        """
+        old = self._view
+        ros1 = is_ros1(old.class_id)
+        node = new_map(written_in_ros1(kind) if ros1 else kind, CURRENT)
+        node.put_text("Value", row_text(node.text("Class") or ""))
+        view = ViewConfig(node, self._view_classes.get(kind), self._view_findings)
+        view.fill()
+        for path in view.properties:
+            if path in old.properties and old.is_given(path):
+                view.set(path, old.get(path))
+        self._put_current(view)
+        return view
+
+    def save_view(self, name: str | None = None) -> ViewConfig:
+        """Copy the current view to the end of the saved ones.
+
+        Args:
+            name: its label; the class's short name when not given, as in RViz.
+        """
+        kind = self._view.kind
+        node = _copy(self._view)
+        node.put_text("Name", short_name(kind) if name is None else name)
+        self._saved_list().entries.append(Entry(None, node))
+        view = ViewConfig(node, self._view_classes.get(kind), self._view_findings)
+        self._saved_views.append(view)
+        return view
+
+    def use_view(self, saved: ViewConfig) -> ViewConfig:
+        """Copy a saved view into the current one."""
+        node = _copy(saved)
+        node.put_text("Name", CURRENT)
+        view = ViewConfig(node, self._view_classes.get(saved.kind), self._view_findings)
+        self._put_current(view)
+        return view
+
+    def remove_view(self, saved: ViewConfig) -> None:
+        """Take a saved view out.
+
+        Raises:
+            UsageError: it is none of them.
+        """
+        if saved not in self._saved_views:
+            raise UsageError(f"{saved.label} is none of the saved views")
+        self._saved_views.remove(saved)
+        listed = self._saved_list()
+        listed.entries[:] = [e for e in listed.entries if e.value is not saved.node]
+
+    def _put_current(self, view: ViewConfig) -> None:
+        self._views_map().put("Current", view.node)
+        self._view = view
+
+
+def _copy(view: ViewConfig) -> Map:
+    node = copied(view.node)
+    if not isinstance(node, Map):
+        raise AssertionError("a view is a map")
+    return node
