@@ -1,0 +1,276 @@
+"""Forward kinematics as robot_state_publisher computes it (spec/ros-nodes.md §8)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.errors import JointError, did_you_mean
+from sambot_viz.robot.model import Joint, Matrix, Robot
+
+_Ints = npt.NDArray[np.int64]
+_Floats = npt.NDArray[np.float64]
+_SPINNING = ("revolute", "continuous")
+
+
+def forward_kinematics(
+    robot: Robot, positions: Mapping[str, float]
+) -> dict[str, Matrix]:
+    """Poses of all links in the root link.
+
+    Whoever asks more than once keeps a `Kinematics` instead.
+
+    Args:
+        robot: the robot.
+        positions: joint name → position [rad or m].
+
+    Returns:
+        Link name → (4, 4) float64, T_root_link.
+
+    Raises:
+        JointError: an unknown joint, or a value that is not finite.
+    """
+    return Kinematics(robot).forward(positions)
+
+
+@dataclass(frozen=True, slots=True)
+class _Level:
+    """The links at one depth: a slice of the order, and their parents' rows."""
+
+    rows: slice
+    parents: _Ints
+
+
+@dataclass(frozen=True, slots=True)
+class _Follow:
+    """One mimic joint: row = multiplier · leader + offset."""
+
+    row: int
+    leader: int
+    multiplier: float
+    offset: float
+
+
+class Kinematics:
+    """What of a robot's kinematics can be worked out once.
+
+    Attributes:
+        links: link names, the root first, then by depth.
+        joints: joint names; the joint at `joints[i]` holds the link at
+            ``links[i + 1]``.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        order, parents, starts = _by_depth(robot)
+        self.links: tuple[str, ...] = (robot.root, *(j.child for j in order))
+        self.joints: tuple[str, ...] = tuple(joint.name for joint in order)
+        self._order = order
+        self._row = {name: row for row, name in enumerate(self.joints)}
+        ends = [*starts[1:], len(order)]
+        self._levels = [
+            _Level(slice(a + 1, b + 1), np.array(parents[a:b], np.int64))
+            for a, b in zip(starts, ends, strict=True)
+        ]
+        count = len(order)
+        self._origins: _Floats = np.empty((count, 4, 4))
+        for row, joint in enumerate(order):
+            self._origins[row] = joint.origin.matrix
+        self._start: _Floats = np.array([_start(joint) for joint in order], np.float64)
+        self._follows = _follows(order, self._row)
+        self._spin = _rows(order, _SPINNING)
+        self._slide = _rows(order, ("prismatic",))
+        axes: _Floats = np.zeros((count, 3))
+        for row, joint in enumerate(order):
+            axes[row] = joint.axis
+        self._outer = axes[self._spin, :, None] * axes[self._spin, None, :]
+        self._cross = _cross_matrices(axes[self._spin])
+        self._slides = axes[self._slide]
+
+    def positions(self, given: Mapping[str, float]) -> dict[str, float]:
+        """The position of every joint [rad or m].
+
+        Args:
+            given: joint name → position. A joint that is not given stands at its
+                start value, a mimic joint follows its leader.
+
+        Raises:
+            JointError: an unknown joint, or a value that is not finite.
+        """
+        values: list[float] = self._filled(given).tolist()
+        return dict(zip(self.joints, values, strict=True))
+
+    def forward(self, given: Mapping[str, float]) -> dict[str, Matrix]:
+        """Poses of all links in the root link: link name → (4, 4), T_root_link.
+
+        Raises:
+            JointError: an unknown joint, or a value that is not finite.
+        """
+        return dict(zip(self.links, self.poses(given), strict=True))
+
+    def poses(self, given: Mapping[str, float]) -> Matrix:
+        """Like `forward`, as one (N, 4, 4) array in the order of `links`."""
+        T_parent_child = self._transforms(self._filled(given))
+        T_root_link = np.empty((len(self.links), 4, 4))
+        T_root_link[0] = np.eye(4)
+        for level in self._levels:
+            own = slice(level.rows.start - 1, level.rows.stop - 1)
+            np.matmul(
+                T_root_link[level.parents],
+                T_parent_child[own],
+                out=T_root_link[level.rows],
+            )
+        return T_root_link
+
+    def joint_transform(self, joint: str, position: float) -> Matrix:
+        """T_parent_child (4, 4) of one joint, without the rest of the robot.
+
+        Args:
+            joint: its name.
+            position: its position [rad or m]; of no effect on joints that ROS does
+                not move (fixed, floating, planar).
+
+        Raises:
+            JointError: an unknown joint, or a position that is not finite.
+        """
+        row = self._row_of(joint)
+        q = _finite(joint, position)
+        this = self._order[row]
+        T = self._origins[row].copy()
+        x, y, z = this.axis
+        if this.type == "prismatic":
+            T[:3, 3] += T[:3, :3] @ np.array([x * q, y * q, z * q])
+        elif this.type in _SPINNING and (x or y or z):
+            c, s = math.cos(q), math.sin(q)
+            k = 1.0 - c
+            T[:3, :3] = T[:3, :3] @ np.array(
+                [
+                    [c + k * x * x, k * x * y - s * z, k * x * z + s * y],
+                    [k * x * y + s * z, c + k * y * y, k * y * z - s * x],
+                    [k * x * z - s * y, k * y * z + s * x, c + k * z * z],
+                ]
+            )
+        return T
+
+    def moved_by(self, joint: str) -> tuple[str, ...]:
+        """The joint itself and every mimic joint that follows it, through chains.
+
+        Raises:
+            JointError: an unknown joint.
+        """
+        moved = {self._row_of(joint)}
+        for follow in self._follows:
+            if follow.leader in moved:
+                moved.add(follow.row)
+        return tuple(self.joints[row] for row in sorted(moved))
+
+    def _row_of(self, joint: str) -> int:
+        row = self._row.get(joint)
+        if row is None:
+            near = did_you_mean(joint, self.joints)
+            raise JointError(f"no joint '{joint}'; {near}")
+        return row
+
+    def _filled(self, given: Mapping[str, float]) -> _Floats:
+        q = self._start.copy()
+        rows: set[int] = set()
+        for name, value in given.items():
+            row = self._row_of(name)
+            q[row] = _finite(name, value)
+            rows.add(row)
+        for follow in self._follows:
+            if follow.row not in rows:
+                q[follow.row] = follow.multiplier * q[follow.leader] + follow.offset
+        return q
+
+    def _transforms(self, q: _Floats) -> Matrix:
+        T = self._origins.copy()
+        if self._spin.size:
+            angle = q[self._spin]
+            cos = np.cos(angle)[:, None, None]
+            sin = np.sin(angle)[:, None, None]
+            turned = cos * np.eye(3) + (1.0 - cos) * self._outer + sin * self._cross
+            T[self._spin, :3, :3] = T[self._spin, :3, :3] @ turned
+        if self._slide.size:
+            shift = self._slides * q[self._slide, None]
+            R = T[self._slide, :3, :3]
+            T[self._slide, :3, 3] += np.einsum("nij,nj->ni", R, shift)
+        return T
+
+
+def _by_depth(robot: Robot) -> tuple[list[Joint], list[int], list[int]]:
+    """Joints by depth, the row of each one's parent link, where each depth begins."""
+    children: dict[str, list[Joint]] = {}
+    for joint in robot.joints.values():
+        children.setdefault(joint.parent, []).append(joint)
+    order: list[Joint] = []
+    parents: list[int] = []
+    starts: list[int] = []
+    level = [(robot.root, 0)]
+    while True:
+        found = [(j, row) for link, row in level for j in children.get(link, ())]
+        if not found:
+            return order, parents, starts
+        starts.append(len(order))
+        level = []
+        for joint, row in found:
+            order.append(joint)
+            parents.append(row)
+            level.append((joint.child, len(order)))
+
+
+def _follows(order: Iterable[Joint], rows: Mapping[str, int]) -> list[_Follow]:
+    """The mimic joints, leaders first; rings and unknown leaders stay where they are.
+
+    ROS stops at those (spec/ros-nodes.md §1.6); a Problem tells of them.
+    """
+    waiting = {
+        rows[joint.name]: (rows[joint.mimic.joint], joint.mimic)
+        for joint in order
+        if joint.mimic is not None and joint.mimic.joint in rows
+    }
+    follows: list[_Follow] = []
+    while True:
+        ready = [row for row, (leader, _) in waiting.items() if leader not in waiting]
+        if not ready:
+            return follows
+        for row in ready:
+            leader, mimic = waiting.pop(row)
+            follows.append(_Follow(row, leader, mimic.multiplier, mimic.offset))
+
+
+def _start(joint: Joint) -> float:
+    return joint.start if joint.movable else 0.0
+
+
+def _rows(order: Iterable[Joint], types: Iterable[str]) -> _Ints:
+    wanted = frozenset(types)
+    found = [
+        row
+        for row, joint in enumerate(order)
+        if joint.type in wanted and any(joint.axis)
+    ]
+    return np.array(found, np.int64)
+
+
+def _cross_matrices(axes: _Floats) -> _Floats:
+    """[a]× for each row a: (N, 3, 3)."""
+    result = np.zeros((len(axes), 3, 3))
+    x, y, z = axes.T
+    result[:, 0, 1], result[:, 0, 2] = -z, y
+    result[:, 1, 0], result[:, 1, 2] = z, -x
+    result[:, 2, 0], result[:, 2, 1] = -y, x
+    return result
+
+
+def _finite(joint: str, value: float) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise JointError(f"joint '{joint}': {value!r} is not a finite number")
+    return number
