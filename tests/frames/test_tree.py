@@ -279,3 +279,22 @@ def test_listeners_hear_which_children_changed(tree: FrameTree) -> None:
     tree.update({"wheel": np.eye(4)})
     tree.remove("wheel")
     assert heard == [("wheel",), ("wheel",)]
+
+
+def test_a_frame_can_be_declared_before_any_transform_names_it() -> None:
+    tree = FrameTree()
+    tree.declare("/base_link")
+    version = tree.version
+    tree.declare("base_link")
+    assert (tree.frames, tree.roots, tree.version) == (
+        ("base_link",),
+        ("base_link",),
+        version,
+    )
+    tree.set("base_link", "wheel", at())
+    tree.remove("wheel")
+    assert tree.frames == ("base_link",)
+    with pytest.raises(TransformRefused, match="TF_NO_FRAME_ID"):
+        tree.declare("")
+    tree.clear()
+    assert tree.frames == ()

@@ -41,7 +41,22 @@ class FrameHierarchy:
         self.version = 0
         self._edges: dict[str, Edge] = {}
         self._children: dict[str, dict[str, None]] = {}
+        self._declared: set[str] = set()
         self._paths: dict[tuple[str, str], Path] = {}
+
+    def declare(self, frame: str) -> None:
+        """Make a frame known that no transform names: the root of a lone link.
+
+        Raises:
+            TransformRefused: an empty name.
+        """
+        frame = plain_name(frame)
+        if not frame:
+            raise TransformRefused("TF_NO_FRAME_ID", "the frame has no name")
+        self._declared.add(frame)
+        if frame not in self._children:
+            self._children[frame] = {}
+            self._restructured()
 
     @property
     def frames(self) -> tuple[str, ...]:
@@ -138,7 +153,8 @@ class FrameHierarchy:
         del self._edges[edge.child]
         del self._children[edge.parent][edge.child]
         for name in (edge.child, edge.parent):
-            if not self._children[name] and name not in self._edges:
+            needed = self._children[name] or name in self._edges
+            if not needed and name not in self._declared:
                 del self._children[name]
         self._restructured()
 

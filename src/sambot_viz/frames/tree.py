@@ -146,6 +146,7 @@ class FrameTree(FrameHierarchy):
         children = tuple(self._edges)
         self._edges.clear()
         self._children.clear()
+        self._declared.clear()
         self._recent.clear()
         self._restructured()
         self._removed_at = self.revision + 1
