@@ -1,0 +1,219 @@
+"""Faults of a package that no model shows: launch files and setup.py.
+
+They are read as Python text and never run (spec/ros-nodes.md §7.1, §7.4).
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from sambot_viz.checks.rule import listed
+from sambot_viz.errors import Problem
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.packages import package_name
+
+LAUNCH_CODES = {
+    "launch-no-joint-states": "Nobody publishes joint states",
+    "launch-package-unknown": "A launch file that asks for a package by a wrong name",
+    "setup-py-name": "setup.py and package.xml name the package differently",
+}
+
+_SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
+_TRUE = frozenset({"true", "1"})
+
+
+def check_package(folder: Path | str, robot: Robot | None = None) -> list[Problem]:
+    """Say what of a package's launch files and setup.py will not work in ROS.
+
+    Args:
+        folder: the package, with its package.xml.
+        robot: its robot; its movable joints are named in the messages.
+    """
+    root = Path(folder)
+    problems = check_setup_py(root / "setup.py")
+    for path in sorted(root.glob("launch/*launch.py"))[:50]:
+        problems += check_launch_file(path, package_name(root), robot)
+    return problems
+
+
+def check_launch_file(
+    path: Path | str, package: str | None = None, robot: Robot | None = None
+) -> list[Problem]:
+    """Say what of a Python launch file will not work.
+
+    Args:
+        path: the launch file.
+        package: the name of the package it belongs to, if known.
+        robot: the robot it shows, if known.
+
+    Returns:
+        Nothing when the file cannot be read as Python: that is ROS's to say.
+    """
+    calls = _calls(Path(path))
+    return [
+        *_no_joint_states(calls, str(path), robot),
+        *_unknown_package(calls, str(path), package),
+    ]
+
+
+def check_setup_py(path: Path | str) -> list[Problem]:
+    """Compare the name in setup.py with the one in the package.xml beside it."""
+    file = Path(path)
+    package = package_name(file.parent)
+    tree = _python(file)
+    if package is None or tree is None:
+        return []
+    for node in ast.walk(tree):
+        named = _assigned_name(node)
+        if named is None or named[0] == package:
+            continue
+        return [
+            Problem(
+                "error",
+                "setup-py-name",
+                f"setup.py calls the package {named[0]}, package.xml calls it "
+                f"{package}: colcon and ros2 launch will not find it",
+                f"make both the same: write {package} here",
+                str(path),
+                named[1],
+            )
+        ]
+    return []
+
+
+def _assigned_name(node: ast.AST) -> tuple[str, int] | None:
+    """The text and line of ``package_name = "…"`` or ``setup(name="…")``."""
+    if isinstance(node, ast.Assign) and len(node.targets) == 1:
+        target = node.targets[0]
+        if isinstance(target, ast.Name) and target.id == "package_name":
+            text = _text(node.value)
+            return (text, node.lineno) if text is not None else None
+    if isinstance(node, ast.Call) and _name(node.func) == "setup":
+        for keyword in node.keywords:
+            text = _text(keyword.value)
+            if keyword.arg == "name" and text is not None:
+                return text, keyword.value.lineno
+    return None
+
+
+def _python(path: Path) -> ast.Module | None:
+    try:
+        return ast.parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError):
+        return None
+
+
+def _calls(path: Path) -> list[ast.Call]:
+    tree = _python(path)
+    found = [n for n in ast.walk(tree) if isinstance(n, ast.Call)] if tree else []
+    return sorted(found, key=lambda call: (call.lineno, call.col_offset))
+
+
+def _name(function: ast.expr) -> str:
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ""
+
+
+def _text(node: ast.expr | None) -> str | None:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    return None
+
+
+def _keyword(call: ast.Call, name: str) -> ast.expr | None:
+    return next((k.value for k in call.keywords if k.arg == name), None)
+
+
+def _no_joint_states(
+    calls: list[ast.Call], file: str, robot: Robot | None
+) -> Iterator[Problem]:
+    """A joint state publisher that the default of gui keeps from starting."""
+    nodes = [c for c in calls if _name(c.func) == "Node"]
+    started = {_text(_keyword(n, "executable")) for n in nodes}
+    if "joint_state_publisher_gui" in started:
+        return
+    for node in nodes:
+        if _text(_keyword(node, "executable")) != "joint_state_publisher":
+            continue
+        argument = _unless(_keyword(node, "condition"))
+        if argument is None or not _is_true_by_default(calls, argument):
+            continue
+        joints = [j.name for j in robot.joints.values() if j.movable] if robot else []
+        stays = listed(joints) or "every movable joint"
+        verb = "stay" if len(joints) > 1 else "stays"
+        yield Problem(
+            "warning",
+            "launch-no-joint-states",
+            f"nobody publishes joint states here: {argument} is true, so "
+            "joint_state_publisher does not start, and no joint_state_publisher_gui "
+            f"node is listed; {stays} {verb} without a transform",
+            f"add the joint_state_publisher_gui node, or run with {argument}:=False",
+            file,
+            node.lineno,
+            node.col_offset + 1,
+        )
+
+
+def _unless(condition: ast.expr | None) -> str | None:
+    """The argument in ``UnlessCondition(LaunchConfiguration("gui"))``."""
+    if (
+        not isinstance(condition, ast.Call)
+        or _name(condition.func) != "UnlessCondition"
+    ):
+        return None
+    inner = condition.args[0] if condition.args else None
+    if isinstance(inner, ast.Call) and _name(inner.func) == "LaunchConfiguration":
+        return _text(inner.args[0]) if inner.args else None
+    return None
+
+
+def _is_true_by_default(calls: list[ast.Call], argument: str) -> bool:
+    for call in calls:
+        if _name(call.func) != "DeclareLaunchArgument" or not call.args:
+            continue
+        if _text(call.args[0]) == argument:
+            default = _text(_keyword(call, "default_value")) or ""
+            return default.strip().lower() in _TRUE
+    return False
+
+
+def _unknown_package(
+    calls: list[ast.Call], file: str, package: str | None
+) -> Iterator[Problem]:
+    """A name that is nearly that of the package, which is asked for nowhere."""
+    if package is None:
+        return
+    asked = [
+        (text, call)
+        for call in calls
+        if _name(call.func) in _SHARE_CALLS
+        and call.args
+        and (text := _text(call.args[0])) is not None
+    ]
+    if any(text == package for text, _ in asked):
+        return
+    for text, call in asked:
+        if _alike(text, package):
+            yield Problem(
+                "error",
+                "launch-package-unknown",
+                f"the launch file asks for the package {text}, but the package here "
+                f"is called {package} (package.xml)",
+                f"write {package}",
+                file,
+                call.lineno,
+                call.col_offset + 1,
+            )
+            return
+
+
+def _alike(name: str, package: str) -> bool:
+    """Whether two package names look like one with a slip in it."""
+    first = re.split(r"[_\-]", name)[0] == re.split(r"[_\-]", package)[0]
+    ratio = difflib.SequenceMatcher(None, name, package).ratio()
+    return ratio > 0.8 or (first and ratio > 0.5)
