@@ -20,7 +20,7 @@ def check(
     path: str | os.PathLike[str],
     *,
     xacro_args: Mapping[str, str] | None = None,
-    package_path: Sequence[str | os.PathLike[str]] = (),
+    package_path: Sequence[Path | str] = (),
 ) -> list[Problem]:
     """Say everything that is wrong with a model.
 

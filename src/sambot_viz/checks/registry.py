@@ -14,6 +14,7 @@ from sambot_viz.checks.launch_text import LAUNCH_TEXT_AS_YAML
 from sambot_viz.checks.macros import UNUSED_MACRO
 from sambot_viz.checks.mesh_size import MESH_SIZE
 from sambot_viz.checks.names import NAME_WITH_BLANK, NAMES_DIFFER_IN_CASE
+from sambot_viz.checks.plain_name import XACRO_IN_URDF
 from sambot_viz.checks.rule import Rule
 from sambot_viz.checks.shapes import ALPHA_ZERO, SIZE_NOT_POSITIVE
 
@@ -25,6 +26,7 @@ RULES: tuple[Rule, ...] = (
     WHEEL_NOT_ON_GROUND,
     NAMES_DIFFER_IN_CASE,
     NAME_WITH_BLANK,
+    XACRO_IN_URDF,
     UNUSED_MACRO,
     LAUNCH_TEXT_AS_YAML,
     INERTIA_ON_ROOT,

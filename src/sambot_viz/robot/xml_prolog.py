@@ -182,11 +182,10 @@ def _not_first(source: Source, file: str, at: int, start: int) -> Problem:
         message = f"{blank} stands before <?xml …?>, which must be the very first thing"
         hint = "delete it: <?xml …?> begins at line 1, column 1"
     else:
-        what = "the comment" if before.lstrip().startswith("<!--") else "what stands"
+        what = "the comment" if before.lstrip().startswith("<!--") else "the text"
         message = (
-            f"<?xml …?> stands on line {line}, but it must be the very first thing in "
-            "the file"
+            f"<?xml …?> stands on line {line}, behind {what}, but it must be the very "
+            "first thing in the file"
         )
-        above = f"{what} above it" if what != "the comment" else "the comment above it"
-        hint = f"move {above} below it, or delete <?xml …?>"
+        hint = f"put {what} behind it, or delete <?xml …?>"
     return _problem(source, file, "xml-declaration-not-first", at, message, hint)
