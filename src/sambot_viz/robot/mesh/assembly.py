@@ -76,10 +76,13 @@ def assemble(pieces: Iterable[Piece], findings: Findings) -> Mesh:
             look = (clean.rgba, id(clean.texture), clean.normals is None)
             groups.setdefault(look, []).append(clean)
     if not groups:
+        reasons = [problem.message for problem in findings.problems]
         raise mesh_error(
             findings.path,
-            "mesh-empty",
-            "the mesh has no triangles, so there is nothing to draw",
+            "mesh-broken" if reasons else "mesh-empty",
+            f"nothing of the mesh can be drawn: {reasons[0]}"
+            if reasons
+            else "the mesh has no triangles, so there is nothing to draw",
             "export it again and check that the part was selected",
         )
     return Mesh(

@@ -90,6 +90,15 @@ def _recover(data: bytes) -> ET.Element | None:
     )
     try:
         tree = lenient.fromstring(data, parser)
-        return None if tree is None else ET.fromstring(lenient.tostring(tree))
-    except (lenient.LxmlError, ET.ParseError, ValueError):
+    except (lenient.LxmlError, ValueError):
         return None
+    return None if tree is None else _copy(tree)
+
+
+def _copy(found: Any) -> ET.Element:
+    """The lenient parser's element as one of the strict parser's."""
+    element = ET.Element(str(found.tag), {str(k): str(v) for k, v in found.items()})
+    element.text = found.text
+    # Comments and unknown entities have no name.
+    element.extend(_copy(child) for child in found if isinstance(child.tag, str))
+    return element

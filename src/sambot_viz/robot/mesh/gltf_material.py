@@ -9,7 +9,7 @@ from sambot_viz.robot.mesh.gltf_accessor import Accessors
 from sambot_viz.robot.mesh.gltf_json import Broken, Json, entry, section
 from sambot_viz.robot.mesh.gltf_resource import Resources
 from sambot_viz.robot.mesh.looks import Look
-from sambot_viz.robot.mesh.model import GREY, WHITE, Texture
+from sambot_viz.robot.mesh.model import WHITE, Texture
 from sambot_viz.robot.mesh.textures import TextureError, TextureStore
 from sambot_viz.robot.model import Rgba
 
@@ -38,11 +38,10 @@ class GltfMaterials:
     def look(self, number: object) -> tuple[Look, int]:
         """Colour and texture of a material, and the uv set of the texture.
 
-        Without a material glTF says white; a file with no materials at all is grey,
-        as every format is in RViz.
+        Without a material glTF says white.
         """
         if number is None:
-            return Look(WHITE if self.document.get("materials") else GREY), 0
+            return Look(WHITE), 0
         material = entry(self.document, "materials", number)
         known = self._looks.get(id(material))
         if known is None:

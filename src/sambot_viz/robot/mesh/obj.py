@@ -53,6 +53,8 @@ def read_obj(data: bytes, findings: Findings, images: TextureStore) -> list[Piec
     )
     pieces: list[Piece] = []
     for group in lines.groups:
+        if not group.lines:
+            continue
         look = looks.get(group.material)
         if look is None and group.material and looks:
             findings.warn(
@@ -72,29 +74,44 @@ def read_obj(data: bytes, findings: Findings, images: TextureStore) -> list[Piec
 def _sort(data: bytes) -> _Lines:
     data = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").replace(b"\t", b" ")
     lines = _Lines()
-    material = ""
-    group: _Group | None = None
+    positions, uvs, normals = lines.positions, lines.uvs, lines.normals
+    group = _Group("", (0, 0, 0))
+    lines.groups.append(group)
     for line in data.splitlines():
-        keyword, _, rest = line.lstrip().partition(b" ")
-        if keyword == b"v":
-            lines.positions.append(rest)
-        elif keyword == b"f":
-            seen = (len(lines.positions), len(lines.uvs), len(lines.normals))
-            # Negative indices count back from here, so such faces stay together
-            # only as long as nothing is listed between them.
-            if group is None or (b"-" in rest and group.seen != seen):
-                group = _Group(material, seen)
+        # Files have hundreds of thousands of lines, so the common ones come first.
+        start = line[:2]
+        if start == b"v ":
+            positions.append(line[2:])
+        elif start == b"f ":
+            if b"-" in line:
+                group = _recounted(group, lines)
+            group.lines.append(line[2:])
+        elif start == b"vn":
+            normals.append(line[3:])
+        elif start == b"vt":
+            uvs.append(line[3:])
+        else:
+            keyword, _, rest = line.strip().partition(b" ")
+            if keyword == b"usemtl":
+                group = _Group(_text(rest), group.seen)
                 lines.groups.append(group)
-            group.lines.append(rest)
-        elif keyword == b"vt":
-            lines.uvs.append(rest)
-        elif keyword == b"vn":
-            lines.normals.append(rest)
-        elif keyword == b"usemtl":
-            material, group = _text(rest), None
-        elif keyword == b"mtllib":
-            lines.libraries.append(_text(rest))
+            elif keyword == b"mtllib":
+                lines.libraries.append(_text(rest))
+            elif keyword in (b"v", b"vn", b"vt", b"f") and line[:1] == b" ":
+                # Indented: rare enough to begin again.
+                stripped = [text.lstrip() for text in data.splitlines()]
+                return _sort(b"\n".join(stripped))
     return lines
+
+
+def _recounted(group: _Group, lines: _Lines) -> _Group:
+    """The group for a face that counts backwards from the lines so far."""
+    seen = (len(lines.positions), len(lines.uvs), len(lines.normals))
+    if group.seen == seen:
+        return group
+    following = _Group(group.material, seen)
+    lines.groups.append(following)
+    return following
 
 
 def _text(line: bytes) -> str:
