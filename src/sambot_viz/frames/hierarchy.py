@@ -95,19 +95,6 @@ class FrameHierarchy:
             name = self._edges[name].parent
         return name
 
-    def declare(self, frame: str) -> None:
-        """Make a frame known that no transform names: a robot of one link.
-
-        Raises:
-            TransformRefused: an empty name.
-        """
-        name = plain_name(frame)
-        if not name:
-            raise TransformRefused("TF_NO_FRAME_ID", "the frame has no name")
-        if name not in self._children:
-            self._children[name] = {}
-            self._restructured()
-
     def _edge_for(self, parent: str, child: str) -> Edge:
         parent, child = plain_name(parent), plain_name(child)
         edge = self._edges.get(child)

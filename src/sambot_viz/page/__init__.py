@@ -1,1 +1,29 @@
 """The script that makes viser's page look like RViz, and its delivery."""
+
+from __future__ import annotations
+
+import html
+from functools import cache
+from importlib import resources
+
+
+@cache
+def script() -> str:
+    """The text of rviz_look.js."""
+    return resources.files(__name__).joinpath("rviz_look.js").read_text("utf-8")
+
+
+def script_element() -> str:
+    """HTML that runs the script once, for viser's public `gui.add_html`.
+
+    A script element inserted as HTML does not run, so the script stands in the
+    error handler of an image whose data is empty; nothing is fetched for it.
+    """
+    source = html.escape(script(), quote=True)
+    return f'<img alt="" src="data:," style="display:none" onerror="{source}">'
+
+
+def style_element() -> str:
+    """HTML that carries the page's style sheet (page/rviz_look.css)."""
+    sheet = resources.files(__name__).joinpath("rviz_look.css").read_text("utf-8")
+    return f"<style>{sheet}</style>"

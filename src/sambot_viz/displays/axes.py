@@ -1,0 +1,56 @@
+"""Axes: the axes of one frame, larger than TF's (spec/rviz-core.md §7)."""
+
+from __future__ import annotations
+
+from sambot_viz.displays.display import Display, Handle, remove_all
+from sambot_viz.displays.solids import add_axes
+from sambot_viz.rviz import FIXED_FRAME, FloatProperty, TfFrameProperty
+
+
+class AxesDisplay(Display):
+    """Axes at the origin of its reference frame."""
+
+    kind = "rviz_default_plugins/Axes"
+    help = "The axes of a frame."
+    properties = (
+        TfFrameProperty(
+            "Reference Frame",
+            default=FIXED_FRAME,
+            help="The frame whose axes are drawn.",
+        ),
+        FloatProperty(
+            "Length",
+            default=1.0,
+            minimum=0.0001,
+            unit="m",
+            help="Length of each axis.",
+        ),
+        FloatProperty(
+            "Radius",
+            default=0.1,
+            minimum=0.0001,
+            unit="m",
+            help="Thickness of each axis; as in RViz this is its diameter.",
+        ),
+    )
+
+    _nodes: tuple[Handle, ...] = ()
+
+    def draw(self) -> None:
+        """Draw the axes anew."""
+        self.clear()
+        frame = self.context.frame(self.config.get("Reference Frame"))
+        problem = self.context.lookup_problem(frame)
+        if problem is not None:
+            self.status.set("Transform", "Error", problem)
+            return
+        self.status.set("Transform", "Ok", "Transform OK")
+        name = f"{self.context.above(frame)}/{self.key}"
+        length = float(self.config.get("Length"))
+        diameter = float(self.config.get("Radius"))
+        self._nodes = (add_axes(self.context.scene, name, length, diameter),)
+
+    def clear(self) -> None:
+        """Take the axes out of the scene."""
+        remove_all(self._nodes)
+        self._nodes = ()

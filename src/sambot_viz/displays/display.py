@@ -1,0 +1,136 @@
+"""What every RViz display is: properties, statuses, and nodes in the scene.
+
+A display lists its properties once (`properties`); reading, saving, the rows of the
+panel, clamping and live change all come from that list (DESIGN §4.1). Its values live
+in the `DisplayConfig` of the document, so what is on the screen is what a save writes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import viser
+
+from sambot_viz.displays.frame_nodes import FrameNodes
+from sambot_viz.displays.status import StatusList
+from sambot_viz.frames import FrameTree, LookupRefused
+from sambot_viz.robot.meshes import MeshStore
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
+
+
+@dataclass
+class DisplayContext:
+    """What displays draw with and from; one per session.
+
+    Attributes:
+        scene: where to draw (of the server, or of one client).
+        tree: the frames.
+        nodes: the frames as scene nodes.
+        meshes: mesh files, each read once.
+        fixed_frame: the frame everything is drawn in.
+        background: colour behind the scene, 0 to 255.
+        robot: the robot that was opened, or None.
+        moving: child frame → the joint type that moves it.
+        load_file: reads another model, for a RobotModel from a file.
+    """
+
+    scene: viser.SceneApi
+    tree: FrameTree
+    nodes: FrameNodes
+    meshes: MeshStore
+    fixed_frame: str = "map"
+    background: tuple[int, int, int] = (48, 48, 48)
+    robot: Robot | None = None
+    moving: Mapping[str, str] = field(default_factory=dict[str, str])
+    load_file: Callable[[str], Robot] | None = None
+
+    def frame(self, name: object) -> str:
+        """The frame a Reference Frame property means."""
+        return self.fixed_frame if name == FIXED_FRAME else str(name)
+
+    def above(self, frame: str) -> str:
+        """The name of the node at a frame; the world ("") for the fixed frame."""
+        if frame == self.fixed_frame:
+            return ""
+        return self.nodes.path(frame) or ""
+
+    def lookup_problem(self, frame: str) -> str | None:
+        """RViz's long text when the frame cannot be placed, None when it can."""
+        if frame == self.fixed_frame:
+            return None
+        try:
+            self.tree.lookup(self.fixed_frame, frame)
+        except LookupRefused as refused:
+            return refused.rviz_text
+        return None
+
+
+class Display:
+    """Base of all displays.
+
+    Attributes:
+        kind: the ROS 2 class id, such as "rviz_default_plugins/Grid".
+        help: one sentence for the list of displays.
+        properties: the declaration of everything a user can set.
+        config: this display in the document: name, enabled, values.
+        status: the rows RViz shows under "Status".
+    """
+
+    kind: ClassVar[str]
+    help: ClassVar[str]
+    properties: ClassVar[tuple[Property, ...]]
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`.
+
+        Args:
+            context: what to draw with.
+            config: its place in the document.
+            key: short text that no other display's node names begin with.
+        """
+        self.context = context
+        self.config = config
+        self.key = key
+        self.status = StatusList()
+        self.shown = False
+
+    def show(self, shown: bool) -> None:
+        """Switch it on or off (its own box and those of its groups)."""
+        if shown == self.shown:
+            return
+        self.shown = shown
+        if shown:
+            self.draw()
+        else:
+            self.clear()
+            self.status.clear()
+
+    def draw(self) -> None:
+        """Bring the scene in line with properties, robot and frames."""
+        raise NotImplementedError
+
+    def clear(self) -> None:
+        """Take everything out of the scene."""
+        raise NotImplementedError
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value."""
+        del path
+        if self.shown:
+            self.draw()
+
+    def frames_moved(self, frames: Iterable[str]) -> None:
+        """Some frames have a new pose in their parents; the nodes are moved already."""
+        del frames
+
+
+Handle = viser.SceneNodeHandle
+
+
+def remove_all(handles: Iterable[Handle]) -> None:
+    """Take nodes out of the scene, also when their parent is gone already."""
+    for handle in handles:
+        handle.remove()

@@ -1,0 +1,183 @@
+"""Grid: lines in a plane of a frame (spec/rviz-core.md §4)."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.display import Display, Handle, remove_all
+from sambot_viz.displays.lines import lines_glb
+from sambot_viz.displays.poses import Wxyz
+from sambot_viz.displays.solids import Rgb
+from sambot_viz.rviz import (
+    FIXED_FRAME,
+    ColorProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    TfFrameProperty,
+    VectorProperty,
+)
+
+_HALF = 0.5**0.5
+_PLANES: dict[str, Wxyz] = {
+    "XY": (_HALF, -_HALF, 0.0, 0.0),
+    "XZ": (1.0, 0.0, 0.0, 0.0),
+    "YZ": (0.5, 0.5, -0.5, 0.5),
+}
+"""Turns the grid's own axes (normal along y) into the plane (§4.2)."""
+
+
+def grid_segments(cells: int, layers: int, size: float) -> npt.NDArray[np.float32]:
+    """The lines of a grid in its own axes: in-plane x and z, normal y.
+
+    Args:
+        cells: cells along each side, N.
+        layers: cells along the normal, H; the layers are centred on the plane.
+        size: edge of a cell [m].
+
+    Returns:
+        (2·(N+1)·(H+1), plus (N+1)² with layers, 2, 3) float32 [m].
+    """
+    extent = cells * size / 2
+    at = extent - np.arange(cells + 1) * size
+    heights = (layers / 2 - np.arange(layers + 1)) * size
+    y, c = (grid.ravel() for grid in np.meshgrid(heights, at, indexing="ij"))
+    edge = np.full_like(c, extent)
+    along_z = np.stack([np.stack([c, y, -edge], 1), np.stack([c, y, edge], 1)], 1)
+    along_x = np.stack([np.stack([-edge, y, c], 1), np.stack([edge, y, c], 1)], 1)
+    parts = [along_z, along_x]
+    if layers > 0:
+        x, z = (grid.ravel() for grid in np.meshgrid(at, at, indexing="ij"))
+        top = np.full_like(x, layers * size / 2)
+        parts.append(np.stack([np.stack([x, -top, z], 1), np.stack([x, top, z], 1)], 1))
+    return np.concatenate(parts).astype(np.float32)
+
+
+class GridDisplay(Display):
+    """A grid around the origin of its reference frame."""
+
+    kind = "rviz_default_plugins/Grid"
+    help = "A grid in a plane through the origin of a frame."
+    properties = (
+        TfFrameProperty(
+            "Reference Frame",
+            default=FIXED_FRAME,
+            help="The frame at whose origin the grid is drawn.",
+        ),
+        IntProperty(
+            "Plane Cell Count",
+            default=10,
+            minimum=1,
+            help="How many cells the grid has along each side.",
+        ),
+        IntProperty(
+            "Normal Cell Count",
+            default=0,
+            minimum=0,
+            help="How many cells the grid has along its normal; 0 draws one plane.",
+        ),
+        FloatProperty(
+            "Cell Size",
+            default=1.0,
+            minimum=0.0001,
+            unit="m",
+            help="Length of the side of a cell.",
+        ),
+        EnumProperty(
+            "Line Style",
+            default="Lines",
+            options=("Lines", "Billboards"),
+            help="Hairlines, or ribbons that have a width in metres.",
+            children=(
+                FloatProperty(
+                    "Line Width",
+                    default=0.03,
+                    minimum=0.001,
+                    unit="m",
+                    help="Width of the ribbons.",
+                    hidden_unless=("Line Style", "Billboards"),
+                ),
+            ),
+        ),
+        ColorProperty("Color", default=(160, 160, 164), help="Colour of the lines."),
+        FloatProperty(
+            "Alpha",
+            default=0.5,
+            minimum=0.0,
+            maximum=1.0,
+            help="How opaque the lines are: 0 is invisible, 1 opaque.",
+        ),
+        EnumProperty(
+            "Plane",
+            default="XY",
+            options=("XY", "XZ", "YZ"),
+            help="The plane in which the grid lies.",
+        ),
+        VectorProperty(
+            "Offset",
+            default=(0.0, 0.0, 0.0),
+            unit="m",
+            help="Moves the grid away from the origin of its frame.",
+        ),
+    )
+
+    _nodes: tuple[Handle, ...] = ()
+
+    def draw(self) -> None:
+        """Draw the grid anew: a handful of bytes, so nothing is worth keeping."""
+        self.clear()
+        frame = self.context.frame(self.config.get("Reference Frame"))
+        if self.context.lookup_problem(frame) is not None:
+            self.status.set(
+                "Transform",
+                "Error",
+                f"Could not transform from [{frame}] to [{self.context.fixed_frame}]",
+            )
+            return
+        self.status.set("Transform", "Ok", "Ok")
+        self._nodes = (self._add_lines(f"{self.context.above(frame)}/{self.key}"),)
+
+    def _add_lines(self, name: str) -> viser.SceneNodeHandle:
+        get, scene = self.config.get, self.context.scene
+        segments = grid_segments(
+            int(get("Plane Cell Count")),
+            int(get("Normal Cell Count")),
+            float(get("Cell Size")),
+        )
+        color: Rgb = get("Color")
+        alpha = float(get("Alpha"))
+        pose = {
+            "wxyz": _PLANES.get(str(get("Plane")), _PLANES["XY"]),
+            "position": get("Offset"),
+        }
+        if get("Line Style") == "Billboards":
+            return scene.add_line_segments(
+                name,
+                segments,
+                colors=_blend(color, self.context.background, alpha),
+                thickness=float(get("Line Style/Line Width")),
+                thickness_units="world",
+                **pose,
+            )
+        return scene.add_glb(
+            name,
+            lines_glb(segments, color, alpha),
+            cast_shadow=False,
+            receive_shadow=False,
+            **pose,
+        )
+
+    def clear(self) -> None:
+        """Take the grid out of the scene."""
+        remove_all(self._nodes)
+        self._nodes = ()
+
+
+def _blend(color: Rgb, background: Rgb, alpha: float) -> Rgb:
+    """The colour over the background: viser's wide lines have no alpha."""
+    mixed = [
+        alpha * c + (1 - alpha) * b for c, b in zip(color, background, strict=True)
+    ]
+    return (round(mixed[0]), round(mixed[1]), round(mixed[2]))

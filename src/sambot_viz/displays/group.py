@@ -1,0 +1,19 @@
+"""Group: a box for several displays (spec/rviz-core.md §1.6). It draws nothing."""
+
+from __future__ import annotations
+
+from sambot_viz.displays.display import Display
+
+
+class GroupDisplay(Display):
+    """Displays that are switched on and off together."""
+
+    kind = "rviz_common/Group"
+    help = "A group of displays."
+    properties = ()
+
+    def draw(self) -> None:
+        """A group has no picture of its own."""
+
+    def clear(self) -> None:
+        """A group has no picture of its own."""

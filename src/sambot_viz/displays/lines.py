@@ -1,0 +1,85 @@
+"""Hairlines with an alpha, which viser's own lines do not have.
+
+A GLB with the primitive mode LINES becomes GL lines in the page: 1 pixel wide,
+unlit, blended, without depth writes, as RViz draws its grid.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.solids import OPAQUE_FROM
+
+_GLB_MAGIC, _JSON_CHUNK, _BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
+_FLOAT, _LINES = 5126, 1
+
+
+def _linear(channel: int) -> float:
+    """An 8-bit sRGB channel in glTF's linear colour space."""
+    c = channel / 255
+    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+
+
+def lines_glb(
+    segments: npt.NDArray[np.float32], color: tuple[int, int, int], alpha: float
+) -> bytes:
+    """A GLB file of line segments.
+
+    Args:
+        segments: (N, 2, 3) float32, start and end of each line [m].
+        color: 0 to 255.
+        alpha: 0 to 1; from 0.9998 on the lines are opaque and write depth.
+
+    Returns:
+        The bytes for `viser.SceneApi.add_glb`.
+    """
+    points = np.ascontiguousarray(segments.reshape(-1, 3), dtype="<f4")
+    rgba = [*(_linear(c) for c in color), alpha]
+    blended = alpha < OPAQUE_FROM
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [
+            {
+                "primitives": [
+                    {"attributes": {"POSITION": 0}, "mode": _LINES, "material": 0}
+                ]
+            }
+        ],
+        "materials": [
+            {
+                "pbrMetallicRoughness": {"baseColorFactor": rgba, "metallicFactor": 0},
+                "alphaMode": "BLEND" if blended else "OPAQUE",
+            }
+        ],
+        "buffers": [{"byteLength": points.nbytes}],
+        "bufferViews": [{"buffer": 0, "byteLength": points.nbytes}],
+        "accessors": [
+            {
+                "bufferView": 0,
+                "componentType": _FLOAT,
+                "count": len(points),
+                "type": "VEC3",
+                "min": points.min(axis=0).tolist(),
+                "max": points.max(axis=0).tolist(),
+            }
+        ],
+    }
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    total = 12 + 8 + len(text) + 8 + points.nbytes
+    return b"".join(
+        (
+            struct.pack("<III", _GLB_MAGIC, 2, total),
+            struct.pack("<II", len(text), _JSON_CHUNK),
+            text,
+            struct.pack("<II", points.nbytes, _BINARY_CHUNK),
+            points.tobytes(),
+        )
+    )

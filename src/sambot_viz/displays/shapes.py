@@ -1,0 +1,325 @@
+"""One <visual> or <collision> as scene nodes (spec/rviz-core.md §5.5–5.7)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypedDict
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.display import Handle, remove_all
+from sambot_viz.displays.poses import Position, Wxyz, position_of, wxyz_of
+from sambot_viz.displays.solids import Rgb, opacity_of, sphere
+from sambot_viz.robot.mesh.primitives import unit_box, unit_cylinder, unit_sphere
+from sambot_viz.robot.meshes import (
+    MeshError,
+    MeshPart,
+    MeshStore,
+    Texture,
+    TextureError,
+    apply_scale,
+    to_glb,
+)
+from sambot_viz.robot.model import (
+    Box,
+    Capsule,
+    Cylinder,
+    Material,
+    MeshFile,
+    Rgba,
+    Shape,
+    Sphere,
+)
+
+DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
+"""What a link without a material is drawn in."""
+ERROR_WHITE: Rgb = (255, 255, 255)
+STAND_IN_COLOR: Rgb = (255, 140, 0)
+STAND_IN_SIZE = 0.1
+"""Edge of the wire box that stands for a mesh that could not be read [m]."""
+UNLIT = "toon3"
+"""The page script draws toon materials unlit; nothing else here uses one."""
+
+Painted = (
+    viser.BoxHandle | viser.CylinderHandle | viser.MeshHandle | viser.IcosphereHandle
+)
+
+
+class _Pose(TypedDict):
+    wxyz: Wxyz
+    position: Position
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a shape is drawn at the moment.
+
+    Attributes:
+        visible: drawn at all.
+        alpha: display alpha times link alpha; the material's own comes on top.
+        error: white, opaque and unlit, because its link has no transform.
+    """
+
+    visible: bool
+    alpha: float
+    error: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """One node, with the colour and alpha of its material.
+
+    Attributes:
+        handle: the node.
+        color: 0 to 255.
+        alpha: the material's.
+        textured: a GLB, whose alpha is fixed when it is sent.
+    """
+
+    handle: Handle
+    color: Rgb
+    alpha: float
+    textured: bool = False
+
+
+def rgb255(rgba: Rgba) -> Rgb:
+    """A colour of 0 to 1 as 0 to 255."""
+    red, green, blue = (min(255, max(0, int(c * 255 + 0.5))) for c in rgba[:3])
+    return (red, green, blue)
+
+
+class ShapeNode:
+    """The nodes of one shape under its link's frame node.
+
+    Primitives and plain meshes change colour and opacity in place; a textured part
+    is sent again for another opacity.
+
+    Attributes:
+        problem: RViz's sentence when the geometry could not be loaded, else None.
+    """
+
+    def __init__(
+        self, scene: viser.SceneApi, name: str, shape: Shape, meshes: MeshStore
+    ) -> None:
+        self.problem: str | None = None
+        self._scene = scene
+        self._name = name
+        self._shape = shape
+        self._meshes = meshes
+        self._look: Look | None = None
+        self._pieces: list[_Piece] = []
+
+    def draw(self, look: Look) -> None:
+        """Create the nodes, or change what differs from the last look."""
+        if look == self._look:
+            return
+        if self._pieces and self._must_resend(look):
+            self.remove()
+        if not self._pieces:
+            if not look.visible:
+                return
+            self._create(look)
+        for piece in self._pieces:
+            piece.handle.visible = look.visible
+            if isinstance(piece.handle, Painted):
+                _paint(piece.handle, piece, look)
+        self._look = look
+
+    def remove(self) -> None:
+        """Take the nodes out of the scene."""
+        remove_all(piece.handle for piece in self._pieces)
+        self._pieces.clear()
+        self._look = None
+
+    def _must_resend(self, look: Look) -> bool:
+        before = self._look
+        same = before is not None and (before.alpha, before.error) == (
+            look.alpha,
+            look.error,
+        )
+        return not same and any(piece.textured for piece in self._pieces)
+
+    def _create(self, look: Look) -> None:
+        T_link_shape = self._shape.origin.matrix
+        pose: _Pose = {
+            "wxyz": wxyz_of(T_link_shape),
+            "position": position_of(T_link_shape),
+        }
+        geometry, material = self._shape.geometry, self._shape.material
+        if isinstance(geometry, MeshFile):
+            self._create_mesh(geometry, look, pose)
+            return
+        texture = None if look.error else self._texture(material)
+        part = _textured(geometry, texture) if texture is not None else None
+        if part is not None:
+            self._add_part(self._name, part, WHITE, look, pose)
+        else:
+            self._create_primitive(geometry, _rgba(material), pose)
+
+    def _texture(self, material: Material | None) -> Texture | None:
+        if material is None or material.texture_path is None:
+            return None
+        try:
+            return self._meshes.texture(material.texture_path)
+        except TextureError as error:
+            self.problem = str(error)
+            return None
+
+    def _create_primitive(
+        self, geometry: Box | Cylinder | Sphere | Capsule, rgba: Rgba, pose: _Pose
+    ) -> None:
+        scene, name, color = self._scene, self._name, rgb255(rgba)
+        if isinstance(geometry, Box):
+            box = scene.add_box(
+                name,
+                color,
+                geometry.size,
+                cast_shadow=False,
+                receive_shadow=False,
+                **pose,
+            )
+            self._pieces.append(_Piece(box, color, rgba[3]))
+            return
+        if isinstance(geometry, Sphere):
+            self._add_sphere(name, geometry.radius, rgba, pose)
+            return
+        cylinder = scene.add_cylinder(
+            name,
+            geometry.radius,
+            geometry.length,
+            color,
+            radial_segments=16,
+            flat_shading=True,
+            cast_shadow=False,
+            receive_shadow=False,
+            **pose,
+        )
+        self._pieces.append(_Piece(cylinder, color, rgba[3]))
+        if isinstance(geometry, Capsule):
+            for end, z in (("t", geometry.length / 2), ("b", -geometry.length / 2)):
+                cap: _Pose = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, z)}
+                self._add_sphere(f"{name}/{end}", geometry.radius, rgba, cap)
+
+    def _add_sphere(self, name: str, radius: float, rgba: Rgba, pose: _Pose) -> None:
+        shape, color = sphere(), rgb255(rgba)
+        handle = self._scene.add_mesh_simple(
+            name,
+            shape.vertices,
+            shape.faces,
+            color=color,
+            flat_shading=True,
+            scale=2 * radius,
+            cast_shadow=False,
+            receive_shadow=False,
+            **pose,
+        )
+        self._pieces.append(_Piece(handle, color, rgba[3]))
+
+    def _create_mesh(self, geometry: MeshFile, look: Look, pose: _Pose) -> None:
+        self.problem = f"Could not load mesh resource '{geometry.filename}'"
+        if geometry.path is None:
+            self._add_stand_in(pose)
+            return
+        try:
+            mesh = self._meshes.get(geometry.path)
+        except MeshError as error:
+            self.problem += f": {error.problem.message}"
+            self._add_stand_in(pose)
+            return
+        self.problem = None
+        rgba = _rgba(self._shape.material)
+        for i, part in enumerate(mesh.parts):
+            own = (
+                rgba if part.rgba is None else (*part.rgba[:3], part.rgba[3] * rgba[3])
+            )
+            name = self._name if i == 0 else f"{self._name}.{i}"
+            self._add_part(name, apply_scale(part, geometry.scale), own, look, pose)
+
+    def _add_part(
+        self, name: str, part: MeshPart, rgba: Rgba, look: Look, pose: _Pose
+    ) -> None:
+        """A mesh of one colour, or a GLB when it has a texture."""
+        color = rgb255(rgba)
+        textured = part.texture is not None and not look.error
+        if textured:
+            handle = self._scene.add_glb(
+                name,
+                to_glb(part, rgba=rgba, alpha=look.alpha),
+                cast_shadow=False,
+                receive_shadow=False,
+                **pose,
+            )
+        else:
+            handle = self._scene.add_mesh_simple(
+                name,
+                part.vertices,
+                part.faces,
+                color=color,
+                flat_shading=part.normals is None,
+                cast_shadow=False,
+                receive_shadow=False,
+                **pose,
+            )
+        self._pieces.append(_Piece(handle, color, rgba[3], textured))
+
+    def _add_stand_in(self, pose: _Pose) -> None:
+        """A box of orange lines where the mesh should be."""
+        lines = self._scene.add_line_segments(
+            self._name,
+            _box_edges(STAND_IN_SIZE),
+            colors=STAND_IN_COLOR,
+            thickness=1.5,
+            thickness_units="screen",
+            **pose,
+        )
+        self._pieces.append(_Piece(lines, STAND_IN_COLOR, 1.0))
+
+
+WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
+
+
+def _rgba(material: Material | None) -> Rgba:
+    """A material's colour; RViz's red without one, white under a texture."""
+    if material is None:
+        return DEFAULT_RED
+    return material.rgba or WHITE
+
+
+def _paint(handle: Painted, piece: _Piece, look: Look) -> None:
+    handle.color = ERROR_WHITE if look.error else piece.color
+    handle.opacity = None if look.error else opacity_of(look.alpha * piece.alpha)
+    handle.material = UNLIT if look.error else "standard"
+
+
+def _textured(
+    geometry: Box | Cylinder | Sphere | Capsule, texture: Texture
+) -> MeshPart | None:
+    """A primitive with a texture as a mesh; None for a capsule, which has no uv."""
+    if isinstance(geometry, Box):
+        shape, scale = unit_box(), geometry.size
+    elif isinstance(geometry, Sphere):
+        shape, scale = unit_sphere(), (2 * geometry.radius,) * 3
+    elif isinstance(geometry, Cylinder):
+        width = 2 * geometry.radius
+        shape, scale = unit_cylinder(), (width, width, geometry.length)
+    else:
+        return None
+    part = MeshPart(shape.vertices, shape.faces, uv=shape.uv, texture=texture)
+    return apply_scale(part, scale)
+
+
+def _box_edges(size: float) -> npt.NDArray[np.float32]:
+    """The twelve edges of a cube around the origin, (12, 2, 3) [m]."""
+    half = size / 2
+    edges: list[list[list[float]]] = []
+    for axis in range(3):
+        for one in (-half, half):
+            for two in (-half, half):
+                start = [one, two]
+                start.insert(axis, -half)
+                end = [one, two]
+                end.insert(axis, half)
+                edges.append([start, end])
+    return np.array(edges, dtype=np.float32)

@@ -1,0 +1,109 @@
+"""From what a user names to the files that are meant.
+
+A package folder holds its model in urdf/, description/, robots/ or beside package.xml,
+and its .rviz file in rviz/, config/ or launch/; the bundled robot is the last resort.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz import resources
+from sambot_viz.errors import UsageError
+
+_MODEL_FOLDERS = ("urdf", "description", "src/description", "robots", "model", ".")
+_CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
+_MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The files to show: a model, and a config if one belongs to it."""
+
+    model: Path
+    config: Path
+
+
+def find(model: Path | None, config: Path | None = None) -> Found:
+    """The model and config files that are meant.
+
+    Args:
+        model: a file, a package folder, or None for the bundled robot.
+        config: a .rviz file, or None for the one that belongs to the model.
+
+    Raises:
+        UsageError: nothing there, or several models and none the obvious one.
+    """
+    if config is not None and not config.is_file():
+        raise UsageError(_missing("config", config))
+    if model is None:
+        return Found(resources.model_path(), config or resources.config_path())
+    if not model.exists():
+        raise UsageError(_missing("model", model))
+    if not model.is_dir():
+        return Found(model, config or resources.config_path())
+    found = _model_in(model)
+    return Found(found, config or _config_in(model) or resources.config_path())
+
+
+def _model_in(folder: Path) -> Path:
+    for name in _MODEL_FOLDERS:
+        files = _files(folder / name, _MODEL_ENDINGS)
+        if len(files) == 1:
+            return files[0]
+        if files:
+            return _obvious(folder, files)
+    raise UsageError(
+        f"no model in the folder '{folder}': looked for *.urdf.xacro, *.urdf and "
+        f"*.xacro in {', '.join(_MODEL_FOLDERS)}; name the model file itself"
+    )
+
+
+def _obvious(folder: Path, files: Sequence[Path]) -> Path:
+    """The model named like the package, or the only one that is no part of another."""
+    package = folder.resolve().name
+    stems = {package, package.removesuffix("_description"), "robot"}
+    for ending in _MODEL_ENDINGS:
+        for path in files:
+            if path.name.endswith(ending) and path.name.removesuffix(ending) in stems:
+                return path
+    for ending in _MODEL_ENDINGS:
+        matching = [path for path in files if path.name.endswith(ending)]
+        if len(matching) == 1:
+            return matching[0]
+        if matching:
+            break
+    names = ", ".join(str(path.relative_to(folder)) for path in files[:8])
+    raise UsageError(
+        f"several models in the folder '{folder}' ({names}); name the one to show"
+    )
+
+
+def _config_in(folder: Path) -> Path | None:
+    for name in _CONFIG_FOLDERS:
+        files = _files(folder / name, (".rviz",))
+        for path in files:
+            if path.name == resources.DEFAULT_CONFIG:
+                return path
+        if files:
+            return files[0]
+    return None
+
+
+def _files(folder: Path, endings: Iterable[str]) -> list[Path]:
+    if not folder.is_dir():
+        return []
+    ends = tuple(endings)
+    return sorted(p for p in folder.iterdir() if p.name.endswith(ends) and p.is_file())
+
+
+def _missing(what: str, path: Path) -> str:
+    from sambot_viz.errors import did_you_mean
+
+    folder = path.parent
+    if not folder.is_dir():
+        return f"no {what} '{path}': the folder '{folder}' does not exist"
+    near = did_you_mean(path.name, sorted(p.name for p in folder.iterdir()))
+    return f"no {what} '{path}': there is no such file; {near}"

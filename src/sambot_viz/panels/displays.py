@@ -1,0 +1,228 @@
+"""The Displays panel: Global Options, and each display with its properties."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+import viser
+
+from sambot_viz.displays.display import Display
+from sambot_viz.displays.status import Level, Status
+from sambot_viz.panels.widgets import Input, add_property, frame_choices, watch
+from sambot_viz.rviz import ConfigItem, Property, TfFrameProperty
+from sambot_viz.session import Event, Session, walk
+from sambot_viz.text import html_text, text
+
+SHOWN_STATUS_ROWS = 40
+"""Rows of a status that are written out; a robot of 300 links has as many."""
+
+Change = Callable[[str, Any], None]
+"""Sets the property at a path to a value."""
+
+
+class DisplaysPanel:
+    """RViz's tree of displays as folders.
+
+    Args:
+        session: whose displays these are.
+        container: the folder or panel to fill.
+    """
+
+    def __init__(self, session: Session, container: viser.GuiFolderHandle) -> None:
+        self._session = session
+        self._gui = session.audience.gui
+        self._container = container
+        self._rows: list[_DisplayRows] = []
+        self._inputs: list[_ItemRows] = []
+        self._folder: viser.GuiFolderHandle | None = None
+        self._statuses: viser.GuiHtmlHandle | None = None
+        session.listeners.append(self._hear)
+        self._build()
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._session.listeners.remove(self._hear)
+
+    def _hear(self, event: Event) -> None:
+        if event == "joints":
+            return
+        if event == "config" and self._shown() != self._session.displays:
+            self._build()
+        elif event in ("frames", "robot"):
+            names = self._frame_names()
+            for rows in (*self._inputs, *(row.rows for row in self._rows)):
+                rows.offer_frames(names)
+        self._write_statuses()
+
+    def _shown(self) -> list[Display]:
+        return [row.display for row in self._rows]
+
+    def _build(self) -> None:
+        gui, session = self._gui, self._session
+        if self._folder is not None:
+            self._folder.remove()
+        self._rows.clear()
+        self._inputs.clear()
+        with self._container:
+            self._folder = gui.add_folder(None)
+        with self._folder:
+            options = session.config.global_options
+            with gui.add_folder("Global Options"):
+                rows = _ItemRows(gui, options, session.set_global, self._frame_names())
+                self._inputs.append(rows)
+            self._statuses = gui.add_html("")
+            with gui.add_folder("Displays"):
+                for display in session.displays:
+                    _add_box(gui, session, display)
+                self._list_unsupported()
+            for display in session.displays:
+                row = _DisplayRows(gui, session, display, self._frame_names())
+                self._rows.append(row)
+        self._write_statuses()
+
+    def _frame_names(self) -> Sequence[str]:
+        return sorted(self._session.tree.frames)
+
+    def _write_statuses(self) -> None:
+        for row in self._rows:
+            row.write_status()
+        if self._statuses is not None:
+            status = self._session.global_status()
+            lines = [
+                _status_html("Global Status", status.level, {"Fixed Frame": status})
+            ]
+            for row in self._rows:
+                level = row.display.status.level
+                if row.display.shown and level != "Ok":
+                    name = html_text(row.display.config.name)
+                    lines.append(_line_html(f"{name}: {level}", level))
+            self._statuses.content = "".join(lines)
+
+    def _list_unsupported(self) -> None:
+        names = [
+            f"{item.name} ({item.class_id})"
+            for item in walk(self._session.config.displays)
+            if not item.supported
+        ]
+        if names:
+            rows = "".join(f"<li>{html_text(name)}</li>" for name in names)
+            self._gui.add_html(
+                '<details class="sambot-status"><summary>Not supported yet: '
+                f"{len(names)}</summary><ul>{rows}</ul></details>"
+            )
+
+
+class _ItemRows:
+    """The inputs of one item's properties, in the current container."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        item: ConfigItem,
+        change: Change,
+        frames: Sequence[str],
+    ) -> None:
+        self._gui = gui
+        self._item = item
+        self._change = change
+        self._inputs: dict[str, tuple[Input, Property]] = {}
+        top = [d.property for path, d in item.declared.items() if "/" not in path]
+        self._add_all(top, "", frames)
+        self._hide_what_is_off()
+
+    def offer_frames(self, frames: Sequence[str]) -> None:
+        """The lists of frames offer the frames that exist."""
+        for handle, prop in self._inputs.values():
+            if isinstance(prop, TfFrameProperty) and isinstance(
+                handle, viser.GuiDropdownHandle
+            ):
+                handle.options = frame_choices(prop, frames, handle.value)
+
+    def _add_all(
+        self, properties: Sequence[Property], above: str, frames: Sequence[str]
+    ) -> None:
+        for prop in properties:
+            path = f"{above}{prop.name}"
+            if prop.has_value:
+                value = self._item.get(path)
+                set_it = partial(self._set, path)
+                handle = add_property(self._gui, prop, value, set_it, frames)
+                self._inputs[path] = (handle, prop)
+                self._add_all(prop.children, f"{path}/", frames)
+            else:
+                with self._gui.add_folder(prop.name, expand_by_default=False):
+                    self._add_all(prop.children, f"{path}/", frames)
+
+    def _set(self, path: str, value: Any) -> None:
+        self._change(path, value)
+        self._hide_what_is_off()
+
+    def _hide_what_is_off(self) -> None:
+        """Rows that only make sense for another value are hidden, as in RViz."""
+        for path, (handle, _) in self._inputs.items():
+            handle.visible = self._item.is_shown(path)
+
+
+def _add_box(gui: viser.GuiApi, session: Session, display: Display) -> None:
+    """The box that switches a display on and off."""
+    config = display.config
+    box = gui.add_checkbox(
+        text(config.name, 40), config.enabled, hint=text(display.help)
+    )
+    watch(box, bool, partial(session.set_enabled, display))
+
+
+class _DisplayRows:
+    """The folder of one display: its status and its properties."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        session: Session,
+        display: Display,
+        frames: Sequence[str],
+    ) -> None:
+        self.display = display
+        self._version = -1
+        self._was_shown: bool | None = None
+        config = display.config
+        with gui.add_folder(text(config.name, 40), expand_by_default=False):
+            self._status = gui.add_html("")
+            change = partial(session.set_property, display)
+            self.rows = _ItemRows(gui, config, change, frames)
+
+    def write_status(self) -> None:
+        """Write the status anew if it has changed."""
+        status, shown = self.display.status, self.display.shown
+        if (status.version, shown) == (self._version, self._was_shown):
+            return
+        self._version, self._was_shown = status.version, shown
+        level = status.level if shown else None
+        self._status.content = _status_html("Status", level, status.rows)
+
+
+def _line_html(line: str, level: Level) -> str:
+    """One coloured line; `line` is HTML already."""
+    return f'<div class="sambot-status sambot-{level.lower()}">{line}</div>'
+
+
+def _status_html(title: str, level: Level | None, rows: dict[str, Status]) -> str:
+    """A status as RViz words and colours it, its rows folded away when all is well."""
+    if level is None:
+        return ""
+    opened = "" if level == "Ok" else " open"
+    bad_first = sorted(rows.items(), key=lambda row: row[1].level == "Ok")
+    lines = [
+        f'<li class="sambot-{row.level.lower()}"><b>{html_text(key)}</b> '
+        f"{html_text(row.text).replace('•', '<br>•')}</li>"
+        for key, row in bad_first[:SHOWN_STATUS_ROWS]
+    ]
+    if len(rows) > SHOWN_STATUS_ROWS:
+        lines.append(f"<li>and {len(rows) - SHOWN_STATUS_ROWS} more</li>")
+    return (
+        f'<details class="sambot-status"{opened}>'
+        f'<summary class="sambot-{level.lower()}">{title}: {level}</summary>'
+        f"<ul>{''.join(lines)}</ul></details>"
+    )

@@ -1,0 +1,165 @@
+"""The one place that makes GUI inputs and checks what comes back from a browser.
+
+viser checks nothing: any browser can send any value to any widget, also a hidden or
+a disabled one, out of range, NaN or of another type (spec/viser.md §4). Here every
+value goes through its property's own rule before anybody else sees it, and a refused
+one is answered with the value that holds.
+
+Callbacks are coroutines, because plain functions run unordered in viser's pool.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import viser
+
+from sambot_viz.errors import SambotVizError
+from sambot_viz.rviz import (
+    FIXED_FRAME,
+    BoolProperty,
+    ColorProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    Property,
+    TfFrameProperty,
+    VectorProperty,
+)
+from sambot_viz.text import text
+
+Input = viser.GuiInputHandle[Any]
+OnChange = Callable[[Any], None]
+
+
+def watch(handle: Input, coerce: Callable[[Any], Any], on_change: OnChange) -> None:
+    """Call `on_change` with every good value a browser sets.
+
+    Args:
+        handle: the widget.
+        coerce: the rule: returns the value to take, or raises SambotVizError,
+            ValueError or TypeError for a value that cannot be meant.
+        on_change: takes the value; it may raise SambotVizError to refuse it.
+    """
+    accepted = [handle.value]
+
+    async def changed(event: viser.GuiEvent[Any]) -> None:
+        if event.client_id is None:
+            # The program set the value itself; nothing is to be done for it.
+            accepted[0] = handle.value
+            return
+        if handle.disabled or not handle.visible:
+            handle.value = accepted[0]
+            return
+        try:
+            value = coerce(handle.value)
+            on_change(value)
+        except (SambotVizError, ValueError, TypeError, OverflowError):
+            handle.value = accepted[0]
+            return
+        accepted[0] = value
+        handle.value = value
+
+    handle.on_update(changed)
+
+
+def finite(value: Any) -> float:
+    """A number that is one.
+
+    Raises:
+        ValueError: NaN or infinite.
+    """
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError("not a finite number")
+    return number
+
+
+def add_property(
+    gui: viser.GuiApi,
+    prop: Property,
+    value: Any,
+    on_change: OnChange,
+    frames: Sequence[str] = (),
+) -> Input:
+    """The input that fits a property's type.
+
+    Args:
+        gui: where to add it (to the current container).
+        prop: the declaration: name, type, range, options, help.
+        value: the present value.
+        on_change: called with the coerced value after a change in a browser.
+        frames: the frames there are, for properties that name one.
+
+    Returns:
+        The widget's handle; set `.value` to show another value.
+    """
+    handle = _make(gui, prop, value, frames)
+    watch(handle, prop.coerce, on_change)
+    return handle
+
+
+def _make(
+    gui: viser.GuiApi, prop: Property, value: Any, frames: Sequence[str]
+) -> Input:
+    label, hint = prop.name, prop.help
+    if isinstance(prop, BoolProperty):
+        return gui.add_checkbox(label, bool(value), hint=hint)
+    if isinstance(prop, EnumProperty):
+        return gui.add_dropdown(
+            label, options(prop.options, value), initial_value=text(value), hint=hint
+        )
+    if isinstance(prop, TfFrameProperty):
+        offered = frame_choices(prop, frames, value)
+        return gui.add_dropdown(label, offered, initial_value=text(value), hint=hint)
+    if isinstance(prop, ColorProperty):
+        return gui.add_rgb(label, value, hint=hint)
+    if isinstance(prop, VectorProperty):
+        return gui.add_vector3(label, value, step=0.1, hint=hint)
+    if isinstance(prop, IntProperty):
+        return gui.add_number(
+            label, int(value), min=prop.minimum, max=prop.maximum, step=1, hint=hint
+        )
+    if isinstance(prop, FloatProperty):
+        return _make_float(gui, prop, float(value))
+    return gui.add_text(label, text(value), hint=hint)
+
+
+def _make_float(gui: viser.GuiApi, prop: FloatProperty, value: float) -> Input:
+    label = f"{prop.name} [{prop.unit}]" if prop.unit else prop.name
+    if prop.minimum == 0.0 and prop.maximum == 1.0:
+        return gui.add_slider(
+            label, 0.0, 1.0, 0.01, min(1.0, max(0.0, value)), hint=prop.help
+        )
+    return gui.add_number(
+        label, value, min=prop.minimum, max=prop.maximum, step=0.01, hint=prop.help
+    )
+
+
+def frame_choices(
+    prop: TfFrameProperty, frames: Sequence[str], value: object
+) -> tuple[str, ...]:
+    """What a list of frames offers: the fixed frame where allowed, then all."""
+    fixed = [FIXED_FRAME] if prop.offers_fixed_frame else []
+    return options([*fixed, *frames], value)
+
+
+def options(offered: Sequence[str], value: object) -> tuple[str, ...]:
+    """Options for a dropdown: unique, or viser shows a white page; shown safely.
+
+    The present value is always among them, as in RViz's editable lists.
+    """
+    unique = dict.fromkeys(text(option) for option in [*offered, value])
+    return tuple(unique)
+
+
+def on_click(handle: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
+    """Call `action` when a browser presses the button."""
+
+    async def pressed(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+        if event.client_id is not None and not handle.disabled:
+            action()
+
+    handle.on_click(pressed)

@@ -1,0 +1,195 @@
+"""The viser server, its browsers, and their sessions: from start to stop."""
+
+from __future__ import annotations
+
+import errno
+import socket
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, cast
+
+import viser
+
+from sambot_viz import compat
+from sambot_viz.errors import ServerError
+from sambot_viz.panels.layout import Layout
+from sambot_viz.robot.meshes import MeshStore
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.session import Audience, Session
+
+SessionMode = Literal["shared", "private"]
+MakeConfig = Callable[[], RvizConfig]
+
+
+@dataclass(frozen=True, slots=True)
+class ServerOptions:
+    """How a server is set up.
+
+    Attributes:
+        host: address to listen on; the default is this machine only.
+        port: 0 takes a free one.
+        session: one robot for all browsers, or one for each.
+        gui: whether there is a Joints panel.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = 8080
+    session: SessionMode = "shared"
+    gui: bool = True
+
+
+class Server:
+    """A viser server whose every browser sees a session.
+
+    Args:
+        options: where to listen, and for whom.
+        make_config: a fresh .rviz document; called once per session.
+        load_file: reads another model, for a RobotModel from a file.
+
+    Raises:
+        ServerError: the address cannot be listened on.
+    """
+
+    def __init__(
+        self,
+        options: ServerOptions,
+        make_config: MakeConfig,
+        load_file: Callable[[str], Robot] | None = None,
+    ) -> None:
+        self.options = options
+        self._make_config = make_config
+        self._load_file = load_file
+        self._meshes = MeshStore()
+        self._lock = threading.RLock()
+        self._robot: Robot | None = None
+        self._private: dict[int, tuple[Session, Layout]] = {}
+        self._viser = listen(options.host, options.port)
+        self._stopped = threading.Event()
+        compat.drop_share_handlers(self._viser)
+        compat.guard_gui_updates(self._viser)
+        Layout.prepare_page(self._viser)
+        self.shared: Session | None = None
+        self._shared_layout: Layout | None = None
+        if options.session == "shared":
+            self.shared, self._shared_layout = self._open(self._viser)
+        self._viser.on_client_connect(self._join)
+        self._viser.on_client_disconnect(self._leave)
+
+    @property
+    def url(self) -> str:
+        """The address to open: "http://127.0.0.1:8080"."""
+        host = self.options.host
+        shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]", "": "127.0.0.1"}.get(host, host)
+        if ":" in shown and not shown.startswith("["):
+            shown = f"[{shown}]"
+        return f"http://{shown}:{self._viser.get_port()}"
+
+    def sessions(self) -> list[Session]:
+        """All sessions there are at the moment."""
+        with self._lock:
+            private = [session for session, _ in self._private.values()]
+        return [*private] if self.shared is None else [self.shared, *private]
+
+    def show_robot(self, robot: Robot) -> None:
+        """Show a robot in every session, present and to come."""
+        with self._lock:
+            self._robot = robot
+        for session in self.sessions():
+            session.show_robot(robot)
+
+    def wait(self) -> None:
+        """Return when the server is stopped."""
+        self._stopped.wait()
+
+    def stop(self) -> None:
+        """Stop the server and free the port; a second call does nothing."""
+        if self._stopped.is_set():
+            return
+        self._stopped.set()
+        for session in self.sessions():
+            session.close()
+        with compat.without_banner():
+            self._viser.stop()
+
+    def _open(self, audience: object) -> tuple[Session, Layout]:
+        session = Session(
+            cast(Audience, audience),
+            self._viser.get_event_loop(),
+            self._make_config(),
+            self._meshes,
+            self._load_file,
+        )
+        session.show_config()
+        if self._robot is not None:
+            session.show_robot(self._robot)
+        return session, Layout(session, joints=self.options.gui)
+
+    async def _join(self, client: viser.ClientHandle) -> None:
+        if self.shared is None:
+            opened = self._open(client)
+            with self._lock:
+                self._private[client.client_id] = opened
+            session = opened[0]
+        else:
+            session = self.shared
+        session.point_camera(client)
+
+    async def _leave(self, client: viser.ClientHandle) -> None:
+        with self._lock:
+            opened = self._private.pop(client.client_id, None)
+        if opened is not None:
+            session, layout = opened
+            layout.close()
+            session.close()
+
+
+def listen(host: str, port: int) -> viser.ViserServer:
+    """A viser server on exactly this address.
+
+    viser itself takes the next free port in silence, and tries forever on an address
+    that this machine does not have.
+
+    Raises:
+        ServerError: the address cannot be listened on, with what to do about it.
+    """
+    _try_to_bind(host, port)
+    compat.quiet_websockets()
+    with compat.without_banner():
+        server = viser.ViserServer(host=host, port=port, verbose=False)
+    if port not in (0, server.get_port()):
+        with compat.without_banner():
+            server.stop()
+        raise _taken(host, port)
+    return server
+
+
+def _try_to_bind(host: str, port: int) -> None:
+    if not 0 <= port <= 65535:
+        raise ServerError(f"port {port} does not exist; choose one from 1 to 65535")
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except (OSError, UnicodeError) as error:
+            code = error.errno if isinstance(error, OSError) else None
+            if code == errno.EADDRINUSE:
+                raise _taken(host, port) from error
+            if code == errno.EACCES:
+                raise ServerError(
+                    f"port {port} needs the rights of an administrator; choose one "
+                    "from 1024 on, or --port 0 for any free one"
+                ) from error
+            raise ServerError(
+                f"cannot listen on '{host}': this machine has no such address; use "
+                "127.0.0.1 for this machine only, or 0.0.0.0 for all its networks"
+            ) from error
+
+
+def _taken(host: str, port: int) -> ServerError:
+    return ServerError(
+        f"port {port} on {host} is taken by another program; choose another with "
+        "--port, or --port 0 for any free one"
+    )

@@ -1,0 +1,357 @@
+"""One robot, config, joints, frames and displays, shown to one audience.
+
+The audience is all browsers (shared) or one (private): `viser.ViserServer` and
+`viser.ClientHandle` have the same scene and GUI, so the same classes serve both.
+All state of a session changes under its one lock; what a change makes different goes
+out at once, streams go out at the config's Frame Rate (DESIGN §4.5).
+"""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any, Literal, Protocol
+
+import numpy as np
+import viser
+
+from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.frame_nodes import FrameNodes, short_id
+from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.status import Status
+from sambot_viz.errors import Problem
+from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.joints import JointState
+from sambot_viz.pacer import Pacer
+from sambot_viz.robot.kinematics import Kinematics
+from sambot_viz.robot.meshes import MeshStore
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import DisplayConfig, RvizConfig
+from sambot_viz.views.orbit import OrbitView
+from sambot_viz.views.registry import VIEWS
+from sambot_viz.views.view import FAR, View
+
+Event = Literal["robot", "config", "frames", "joints", "status", "problems"]
+Listener = Callable[[Event], None]
+VISER_FIRST_POSITION = (3.0, 3.0, 3.0)
+"""Where viser puts the camera of a page that it opens."""
+
+
+class Audience(Protocol):
+    """What a session needs of a viser server or client."""
+
+    scene: viser.SceneApi
+    gui: viser.GuiApi
+
+    def flush(self) -> None:
+        """Send what is waiting now."""
+
+    def atomic(self) -> Any:
+        """A context in which messages are held back and then sent together."""
+
+
+class Session:
+    """See the module.
+
+    Args:
+        audience: where to draw.
+        loop: viser's event loop, for streams.
+        config: the .rviz document; the session changes it as the user does.
+        meshes: mesh files that are read already (shared by all sessions).
+        load_file: reads another model, for a RobotModel from a file.
+    """
+
+    def __init__(
+        self,
+        audience: Audience,
+        loop: asyncio.AbstractEventLoop,
+        config: RvizConfig,
+        meshes: MeshStore,
+        load_file: Callable[[str], Robot] | None = None,
+    ) -> None:
+        self.lock = threading.RLock()
+        self.loop = loop
+        self.audience = audience
+        self.config = config
+        self.robot: Robot | None = None
+        self.joints: JointState | None = None
+        self.tree = FrameTree()
+        self.displays: list[Display] = []
+        self.problems: tuple[Problem, ...] = ()
+        self.listeners: list[Listener] = []
+        self._kinematics: Kinematics | None = None
+        self._extra: dict[str, tuple[str, Transform]] = {}
+        self._moved: dict[str, None] = {}
+        self._keys = 0
+        self._background: tuple[int, int, int] | None = None
+        self.context = DisplayContext(
+            scene=audience.scene,
+            tree=self.tree,
+            nodes=FrameNodes(audience.scene),
+            meshes=meshes,
+            load_file=load_file,
+        )
+        self._pacer = Pacer(loop, self._period(), self._draw_moved)
+        self._take_globals()
+
+    # Opening
+
+    def show_config(self) -> None:
+        """Make the displays of the document and draw them."""
+        with self.change("config"):
+            for display in self.displays:
+                display.show(False)
+            self.displays = [
+                DISPLAYS[item.kind](self.context, item, self._next_key())
+                for item in walk(self.config.displays)
+                if item.kind in DISPLAYS
+            ]
+            self._apply_boxes()
+
+    def show_robot(self, robot: Robot) -> None:
+        """Show a robot, or the same after an edit: joints keep their values."""
+        with self.change("robot"):
+            self.robot = self.context.robot = robot
+            self._kinematics = Kinematics(robot)
+            if self.joints is None:
+                self.joints = JointState(robot)
+            else:
+                self.joints.reload(robot)
+            self._build_tree(robot, self._kinematics, self.joints)
+            self.set_problems((*robot.problems, *self.joints.problems))
+            self._frames_changed()
+
+    def _build_tree(
+        self, robot: Robot, kinematics: Kinematics, joints: JointState
+    ) -> None:
+        """The frames of the robot, then the transforms set by hand again."""
+        positions = joints.all_positions()
+        self.tree.clear()
+        self.tree.declare(robot.root)
+        for name, joint in robot.joints.items():
+            T = kinematics.joint_transform(name, positions.get(name, joint.start))
+            set_transform = self.tree.set if joint.movable else self.tree.set_static
+            set_transform(joint.parent, joint.child, Transform.trusted(T))
+        for child, (parent, transform) in self._extra.items():
+            self.tree.set_static(parent, child, transform)
+        self.context.moving = {
+            joint.child: joint.type for joint in robot.joints.values() if joint.movable
+        }
+
+    # Changing
+
+    @contextmanager
+    def change(self, *events: Event) -> Generator[None]:
+        """Change state under the lock; send everything together; tell the panels."""
+        with self.lock:
+            with self.audience.atomic():
+                yield
+                for event in events:
+                    self._tell(event)
+            self.audience.flush()
+
+    def set_joint_positions(self, positions: Mapping[str, float]) -> None:
+        """Move some joints.
+
+        Args:
+            positions: joint → position [rad or m].
+
+        Raises:
+            JointError: an unknown joint, a follower, or no finite number.
+        """
+        with self.lock:
+            if self.joints is not None:
+                self._mark_moved(self.joints.set_all(positions))
+        self._pacer.request()
+
+    def center_joints(self) -> None:
+        """All joints to their start values."""
+        with self.lock:
+            if self.joints is not None:
+                self._mark_moved(self.joints.center())
+        self._pacer.request()
+
+    def randomize_joints(self, seed: int | None = None) -> None:
+        """All joints to random values of their ranges."""
+        with self.lock:
+            if self.joints is not None:
+                self._mark_moved(self.joints.randomize(seed))
+        self._pacer.request()
+
+    def set_static_transform(
+        self, parent: str, child: str, transform: Transform
+    ) -> None:
+        """Set a transform that holds until it is set anew.
+
+        Raises:
+            FrameError: parent and child are the same, or would form a ring.
+        """
+        with self.change("frames"):
+            self.tree.set_static(parent, child, transform)
+            self._extra[child] = (parent, transform)
+            self._frames_changed()
+
+    def set_global(self, name: str, value: Any) -> None:
+        """Set one of the Global Options."""
+        with self.change("config"):
+            self.config.global_options.set(name, value)
+            before = self.context.fixed_frame
+            self._take_globals()
+            if self.context.fixed_frame != before:
+                self._frames_changed()
+            elif name == "Background Color":
+                self._redraw()
+
+    def set_property(self, display: Display, path: str, value: Any) -> None:
+        """Set one property of a display and draw what changes."""
+        with self.change("status"):
+            display.config.set(path, value)
+            display.property_changed(path)
+
+    def set_enabled(self, display: Display, enabled: bool) -> None:
+        """Tick or untick a display's box."""
+        with self.change("status"):
+            display.config.set_enabled(enabled)
+            self._apply_boxes()
+
+    def set_problems(self, problems: Sequence[Problem]) -> None:
+        """Tell the audience what is wrong with the model."""
+        with self.lock:
+            self.problems = tuple(problems)
+            self._tell("problems")
+
+    def point_camera(self, client: viser.ClientHandle) -> None:
+        """Give a browser that just opened the page the config's view.
+
+        A page that comes back after a broken connection keeps the view it has; a
+        fresh one is known by viser's own first camera.
+        """
+        camera = client.camera
+        if not np.allclose(camera.position, VISER_FIRST_POSITION, atol=1e-3):
+            return
+        view = self.view.camera(self._target())
+        with client.atomic():
+            camera.up_direction = view.up
+            camera.position = view.position
+            camera.look_at = view.look_at
+            camera.fov = view.fov
+            camera.near = view.near
+            camera.far = FAR
+        client.flush()
+
+    @property
+    def view(self) -> View:
+        """The config's current view; an unknown type is shown as Orbit."""
+        item = self.config.view
+        return VIEWS.get(item.kind, OrbitView)(item)
+
+    def _target(self) -> tuple[float, float, float]:
+        """Origin of the view's target frame in the fixed frame [m]."""
+        fixed = self.context.fixed_frame
+        frame = self.context.frame(self.config.view.get("Target Frame"))
+        if frame == fixed or not self.tree.can_lookup(fixed, frame):
+            return (0.0, 0.0, 0.0)
+        x, y, z = self.tree.lookup(fixed, frame).translation
+        return (float(x), float(y), float(z))
+
+    # Asking
+
+    def global_status(self) -> Status:
+        """RViz's Global Status, Fixed Frame (spec/rviz-core.md §2.2)."""
+        fixed = self.context.fixed_frame
+        frames = self.tree.frames
+        if fixed in frames:
+            return Status("Ok", "OK")
+        text = f"Frame [{fixed}] does not exist"
+        if frames:
+            return Status("Error", text)
+        return Status("Warn", f"No tf data.  Actual error: {text}")
+
+    def close(self) -> None:
+        """Send nothing any more."""
+        self._pacer.close()
+
+    # Inside
+
+    def _mark_moved(self, joints: Sequence[str]) -> None:
+        self._moved.update(dict.fromkeys(joints))
+
+    def _draw_moved(self) -> None:
+        """Send the poses of all joints that moved since the last time."""
+        with self.lock:
+            robot, kinematics, state = self.robot, self._kinematics, self.joints
+            moved, self._moved = list(self._moved), {}
+            if robot is None or kinematics is None or state is None or not moved:
+                return
+            positions = state.all_positions()
+            with self.audience.atomic():
+                frames = {
+                    robot.joints[name].child: kinematics.joint_transform(
+                        name, positions[name]
+                    )
+                    for name in moved
+                }
+                self.tree.update(frames)
+                self.context.nodes.place(self.tree, self.context.fixed_frame, frames)
+                for display in self.displays:
+                    display.frames_moved(frames)
+                self._tell("joints")
+            self.audience.flush()
+
+    def _frames_changed(self) -> None:
+        self.context.nodes.sync(self.tree, self.context.fixed_frame)
+        self._redraw()
+        self._tell("frames")
+
+    def _redraw(self) -> None:
+        for display in self.displays:
+            if display.shown:
+                display.draw()
+        self._tell("status")
+
+    def _take_globals(self) -> None:
+        options = self.config.global_options
+        self.context.fixed_frame = str(options.get("Fixed Frame"))
+        background = options.get("Background Color")
+        if background != self._background:
+            self._background = self.context.background = background
+            pixel = np.array([[background]], dtype=np.uint8)
+            self.audience.scene.set_background_image(pixel, format="png")
+        self._pacer.period = self._period()
+
+    def _period(self) -> float:
+        return 1.0 / max(1, int(self.config.global_options.get("Frame Rate")))
+
+    def _apply_boxes(self) -> None:
+        """Show what is ticked itself and in all groups above it."""
+        on: dict[int, bool] = {}
+        for item, above in walk_with_groups(self.config.displays):
+            on[id(item)] = item.enabled and all(group.enabled for group in above)
+        for display in self.displays:
+            display.show(on[id(display.config)])
+
+    def _next_key(self) -> str:
+        """A name that begins no other display's node names."""
+        self._keys += 1
+        return f"~{short_id(self._keys)}"
+
+    def _tell(self, event: Event) -> None:
+        for listener in tuple(self.listeners):
+            listener(event)
+
+
+def walk(items: Sequence[DisplayConfig]) -> Iterator[DisplayConfig]:
+    """All displays of a tree, groups before their members."""
+    for item, _ in walk_with_groups(items):
+        yield item
+
+
+def walk_with_groups(
+    items: Sequence[DisplayConfig], above: tuple[DisplayConfig, ...] = ()
+) -> Iterator[tuple[DisplayConfig, tuple[DisplayConfig, ...]]]:
+    """All displays of a tree, each with the groups it is in."""
+    for item in items:
+        yield item, above
+        yield from walk_with_groups(item.displays, (*above, item))

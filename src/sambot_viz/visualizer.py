@@ -1,0 +1,192 @@
+"""A robot in the browser, from a script or from the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from functools import partial
+from pathlib import Path
+from types import MappingProxyType, TracebackType
+
+from sambot_viz.config import declarations, load_config
+from sambot_viz.errors import ServerError
+from sambot_viz.find import find
+from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.loading import Loading, finished, in_thread
+from sambot_viz.robot.loading import load_robot
+from sambot_viz.robot.model import Robot, Vector3
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.server import Server, ServerOptions, SessionMode
+from sambot_viz.session import Session
+
+PathLike = Path | str
+
+
+class Visualizer:
+    """A robot in the browser.
+
+    Use it as a context manager, or call `stop`::
+
+        with Visualizer(model="sam_bot.urdf.xacro", port=0) as viz:
+            print(viz.url)
+            viz.set_joint_positions({"drivewhl_l_joint": 1.0})
+            viz.wait()
+
+    Args:
+        model: a model file, a package folder, a `Robot` (also one that is still being
+            loaded); None is the bundled sam_bot.
+        config: a .rviz file, or an `RvizConfig`; None is the one that belongs to the
+            model, or the bundled one.
+        host: address to listen on; the default is this machine only.
+        port: 0 takes a free one.
+        fixed_frame: overrides the config's Fixed Frame.
+        gui: whether there is a Joints panel.
+        session: "shared" shows all browsers one robot, "private" each its own; the
+            methods below then act on all of them.
+        xacro_args: arguments for xacro, name → text.
+        package_path: folders in which ROS packages are looked for.
+        on_open: called with the address as soon as the page can be opened, which is
+            before a large robot is loaded.
+
+    Raises:
+        RobotError: the model cannot be shown.
+        ConfigError: the config is no .rviz document.
+        UsageError: a file is not there.
+        ServerError: the address cannot be listened on.
+    """
+
+    def __init__(
+        self,
+        model: PathLike | Robot | Loading | None = None,
+        config: PathLike | RvizConfig | None = None,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 0,
+        fixed_frame: str | None = None,
+        gui: bool = True,
+        session: SessionMode = "shared",
+        xacro_args: Mapping[str, str] | None = None,
+        package_path: Sequence[PathLike] = (),
+        on_open: Callable[[str], None] | None = None,
+    ) -> None:
+        self._xacro_args = dict(xacro_args or {})
+        self._package_path = tuple(package_path)
+        path = Path(model) if isinstance(model, Path | str) else None
+        config_path = None if isinstance(config, RvizConfig | None) else Path(config)
+        found = find(path, config_path)
+        if isinstance(model, Future):
+            loading = model
+        elif isinstance(model, Robot):
+            loading = finished(model)
+        else:
+            loading = in_thread(partial(self._load, found.model))
+        document = config if isinstance(config, RvizConfig) else None
+        document = document or load_config(found.config)
+        if fixed_frame is not None:
+            document.global_options.set("Fixed Frame", fixed_frame)
+        options = ServerOptions(host, port, session, gui)
+        self._server = Server(options, _documents(document, session), self._load)
+        try:
+            if on_open is not None and not _failed(loading):
+                on_open(self.url)
+            self._server.show_robot(loading.result())
+        except BaseException:
+            self._server.stop()
+            raise
+
+    @property
+    def url(self) -> str:
+        """The address to open in a browser: "http://127.0.0.1:PORT"."""
+        return self._server.url
+
+    @property
+    def joint_positions(self) -> Mapping[str, float]:
+        """Joint → position [rad or m], mimic joints included.
+
+        With private sessions, those of the browser that came first.
+        """
+        session = self._first()
+        with session.lock:
+            joints = session.joints
+            return MappingProxyType({} if joints is None else joints.all_positions())
+
+    @property
+    def frames(self) -> FrameTree:
+        """The frames, for look-ups: ``viz.frames.lookup(target, source)``."""
+        return self._first().tree
+
+    def set_joint_positions(self, positions: Mapping[str, float]) -> None:
+        """Move some joints, in every browser.
+
+        Args:
+            positions: joint → position [rad or m].
+
+        Raises:
+            JointError: an unknown joint, a mimic joint, or no finite number.
+        """
+        for session in self._server.sessions():
+            session.set_joint_positions(positions)
+
+    def set_static_transform(
+        self,
+        parent: str,
+        child: str,
+        xyz: Vector3 = (0.0, 0.0, 0.0),
+        rpy: Vector3 = (0.0, 0.0, 0.0),
+    ) -> None:
+        """Hang a frame on another, as static_transform_publisher does.
+
+        Args:
+            parent: the frame in which the pose is given.
+            child: the frame whose pose it is.
+            xyz: where the child is in the parent [m].
+            rpy: its roll, pitch and yaw about fixed axes [rad].
+
+        Raises:
+            FrameError: a ring, the same name twice, an empty name, or NaN.
+        """
+        transform = Transform.from_xyz_rpy(xyz, rpy)
+        for session in self._server.sessions():
+            session.set_static_transform(parent, child, transform)
+
+    def wait(self) -> None:
+        """Return when the server is stopped (by `stop`, or by Ctrl-C)."""
+        self._server.wait()
+
+    def stop(self) -> None:
+        """Stop the server and free the port; a second call does nothing."""
+        self._server.stop()
+
+    def __enter__(self) -> Visualizer:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+    def _load(self, path: PathLike) -> Robot:
+        return load_robot(
+            path, xacro_args=self._xacro_args, package_path=self._package_path
+        )
+
+    def _first(self) -> Session:
+        sessions = self._server.sessions()
+        if not sessions:
+            raise ServerError("no browser has opened a private session yet")
+        return sessions[0]
+
+
+def _failed(loading: Loading) -> bool:
+    return loading.done() and loading.exception() is not None
+
+
+def _documents(document: RvizConfig, mode: SessionMode) -> Callable[[], RvizConfig]:
+    """The one document for all browsers, or a copy for each."""
+    if mode == "shared":
+        return lambda: document
+    text = document.to_yaml()
+    return lambda: RvizConfig.parse(text, declarations())
