@@ -1,7 +1,7 @@
-"""Mimic chains, reduced to the one free joint at their end.
+"""Who follows whom: mimic chains and the free joint at their end.
 
-value = multiplier · value of the free joint + offset, through chains of any length
-(spec/ros-nodes.md §1.6). What would kill joint_state_publisher becomes a Problem.
+The positions themselves come from `Kinematics`. What would kill joint_state_publisher
+(spec/ros-nodes.md §1.6) becomes a Problem here, also when it comes from a parameter.
 """
 
 from __future__ import annotations
@@ -10,32 +10,26 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, did_you_mean
-from sambot_viz.robot.model import Joint
+from sambot_viz.robot.model import Joint, Mimic
 
 
 @dataclass(frozen=True, slots=True)
 class Follower:
-    """How a mimic joint follows: position = multiplier · position of `leader` + offset.
+    """A mimic joint that follows.
 
     Attributes:
-        leader: the free joint at the end of the chain.
-        multiplier: the product of the multipliers of the chain.
-        offset: what the chain adds [rad or m].
+        mimic: the joint it names, multiplier and offset.
+        leader: the free joint at the end of the chain; the one to set.
     """
 
+    mimic: Mimic
     leader: str
-    multiplier: float
-    offset: float
-
-    def position(self, leader_position: float) -> float:
-        """The follower's position [rad or m] for one of the leader's."""
-        return self.multiplier * leader_position + self.offset
 
 
 def find_followers(
     joints: Mapping[str, Joint],
 ) -> tuple[dict[str, Follower], tuple[Problem, ...]]:
-    """Reduce the mimic chains of all movable joints.
+    """Find the free joint at the end of every mimic chain.
 
     Args:
         joints: all joints of the robot, by name, in document order.
@@ -63,12 +57,9 @@ def find_followers(
 def _follow(
     joint: Joint, joints: Mapping[str, Joint]
 ) -> Follower | tuple[tuple[str, ...], Problem]:
-    multiplier, offset = 1.0, 0.0
     passed = [joint.name]
     current = joint
     while current.mimic is not None:
-        offset += multiplier * current.mimic.offset
-        multiplier *= current.mimic.multiplier
         leader = joints.get(current.mimic.joint)
         if leader is None or not leader.movable:
             return ((joint.name,), _no_leader(joint, current, joints))
@@ -77,7 +68,7 @@ def _follow(
             return (ring, _ring(joint, ring))
         passed.append(leader.name)
         current = leader
-    return Follower(current.name, multiplier, offset)
+    return Follower(joint.mimic or Mimic(current.name), current.name)
 
 
 def _no_leader(joint: Joint, last: Joint, joints: Mapping[str, Joint]) -> Problem:

@@ -14,6 +14,7 @@ from types import MappingProxyType
 
 from sambot_viz.errors import JointError, Problem, did_you_mean
 from sambot_viz.joints.mimic import Follower, find_followers
+from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Joint, Mimic, Robot
 
 JointListener = Callable[[tuple[str, ...]], None]
@@ -96,7 +97,7 @@ class JointState:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Mimic joints that cannot follow; they stay at their start values."""
+        """The mimic joints that cannot follow, and why not."""
         return self._problems
 
     # Their positions
@@ -111,15 +112,8 @@ class JointState:
 
         These are the names and positions of joint_state_publisher's message.
         """
-        positions: dict[str, float] = {}
-        for name, joint in self._joints.items():
-            if name in self._positions:
-                positions[name] = self._positions[name]
-            elif (follower := self._followers.get(name)) is not None:
-                positions[name] = follower.position(self._positions[follower.leader])
-            else:
-                positions[name] = joint.start
-        return positions
+        positions = self._kinematics.positions(self._positions)
+        return {name: positions[name] for name in self._joints}
 
     def set(self, name: str, value: float) -> bool:
         """Set one free joint; values outside its range pass (see `over_limit`).
@@ -236,6 +230,7 @@ class JointState:
 
     def _take(self, robot: Robot) -> None:
         effective = {name: self._effective(j) for name, j in robot.joints.items()}
+        self._kinematics = Kinematics(replace(robot, joints=effective))
         self._joints = {n: j for n, j in effective.items() if j.movable}
         self._followers, self._problems = find_followers(effective)
         self._free = {n: j for n, j in self._joints.items() if j.mimic is None}

@@ -114,7 +114,7 @@ def as_topic_pub(positions: Mapping[str, float], topic: str = "/joint_states") -
     """
     names = ", ".join(_word(name) for name in positions)
     values = ", ".join(_exact(value) for value in positions.values())
-    message = f"{{header: {{stamp: now}}, name: [{names}], position: [{values}]}}"
+    message = f"{{header: auto, name: [{names}], position: [{values}]}}"
     quoted = message.replace("'", "'\"'\"'")
     return f"ros2 topic pub --once {topic} sensor_msgs/msg/JointState '{quoted}'"
 
