@@ -77,7 +77,6 @@ class Source:
         end: index after the comment behind the value and its line break.
         column: how far the entry was indented.
         first: it was the first one of its collection.
-        node: the value it had.
     """
 
     lead: int
@@ -88,18 +87,26 @@ class Source:
     end: int
     column: int
     first: bool
-    node: Node
 
 
 @dataclass(eq=False, slots=True)
 class Entry:
-    """A key with its value, or an item of a list (whose key is None)."""
+    """A key with its value, or an item of a list (whose key is None).
+
+    Attributes:
+        key: the key, however it was quoted.
+        value: the value it has now.
+        given: the value it had in the file.
+        source: its place there; None for what stands in braces, brackets or in a
+            way that cannot be edited in place.
+        quote: how the key was quoted.
+    """
 
     key: str | None
     value: Node
+    given: Node | None = None
     source: Source | None = None
     quote: str = ""
-    span: Span | None = None
 
 
 @dataclass(eq=False, slots=True)
@@ -128,7 +135,7 @@ class Collection:
         return self.original is None or not (
             len(self.entries) == len(self.original)
             and all(a is b for a, b in zip(self.entries, self.original, strict=True))
-            and all(e.source is None or e.value is e.source.node for e in self.entries)
+            and all(entry.value is entry.given for entry in self.entries)
         )
 
     @property
@@ -224,12 +231,25 @@ def copied(node: Node) -> Node:
 
 
 def same(first: Node, second: Node) -> bool:
-    """Whether two nodes say the same, whatever the way they are written."""
+    """Whether two nodes say the same, whatever the way they are written.
+
+    An empty list and a null are the same: RViz writes "~" for both (§1.12).
+    """
+    if _is_nothing(first) or _is_nothing(second):
+        return _is_nothing(first) and _is_nothing(second)
     if isinstance(first, Scalar) or isinstance(second, Scalar):
         if not (isinstance(first, Scalar) and isinstance(second, Scalar)):
             return False
-        return first.null == second.null and (first.null or first.text == second.text)
+        return first.text == second.text
     if type(first) is not type(second) or len(first.entries) != len(second.entries):
         return False
     pairs = zip(first.entries, second.entries, strict=True)
     return all(a.key == b.key and same(a.value, b.value) for a, b in pairs)
+
+
+def _is_nothing(node: Node) -> bool:
+    return node.null if isinstance(node, Scalar) else _is_empty_list(node)
+
+
+def _is_empty_list(node: Map | List) -> bool:
+    return isinstance(node, List) and not node.entries

@@ -25,6 +25,8 @@ _parse_events: Any = cast(Any, yaml).parse
 _NULLS = frozenset({"", "~", "null", "Null", "NULL"})
 _TO_LINE_END = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n|\Z)")
 _GAP = re.compile(r"(?:[ \t\r\n]+|#[^\r\n]*)*")
+_ANCHORS = re.compile(r"(?:[ \t\r\n]+|#[^\r\n]*|[&!][^\s]*)*")
+"""The gap before the first entry, where the anchor and the tag of the whole stand."""
 
 DEEPEST = 200
 """Maps in maps beyond this depth are an attack or an accident, no display tree."""
@@ -118,7 +120,7 @@ class _Reader:
             value = self.node(next(self.events) if is_map else first, depth + 1)
             entry = self._entry(node, key, value, end)
             node.entries.append(entry)
-            end = entry.source.end if entry.source else _end(value)
+            end = entry.source.end if entry.source else _known(value).end
         if node.flow:
             end = first.end_mark.index
         self.flow -= node.flow
@@ -127,44 +129,54 @@ class _Reader:
         return node
 
     def _entry(self, parent: Collection, key: Node | None, value: Node, lead: int):
-        span, text = _known(key or value), None
-        quote = ""
+        span = _known(key or value)
+        text, quote = None, ""
         if isinstance(key, Scalar):
             text, quote = key.text, key.quote
         elif key is not None:
-            text = self.text[span.start : _end(key)]
-        if self.flow:
-            return Entry(text, value, None, quote, span)
-        gap = _GAP.match(self.text, lead)
-        start = gap.end() if gap else lead
-        if not parent.entries and key is None and self.text[start] != "-":
-            # An anchor or a tag stands before the first dash.
+            text = self.text[span.start : span.end]
+        entry = Entry(text, value, value, quote=quote)
+        if not self.flow:
+            entry.source = self._source(parent, key, value, lead)
+        return entry
+
+    def _source(
+        self, parent: Collection, key: Node | None, value: Node, lead: int
+    ) -> Source | None:
+        """The place of an entry that has lines of its own."""
+        first = not parent.entries
+        start = _matched(_ANCHORS if first else _GAP, self.text, lead)
+        if key is None and self.text[start : start + 1] != "-":
             parent.opaque = True
-        if key is not None and (start != span.start or not isinstance(key, Scalar)):
-            # The key has an anchor or a question mark before it, or is no scalar.
+            return None
+        if key is not None and (start != _known(key).start or key.changed):
+            # A question mark stands before the key, or it is an alias.
             parent.opaque = True
-        head = span.end if key is not None else start + 1
-        line_start = max(self.text.rfind(c, 0, start) for c in "\r\n") + 1
-        tail = _end(value)
-        source = Source(
+            return None
+        line = max(self.text.rfind(end, 0, start) for end in "\r\n") + 1
+        tail = _known(value).end
+        return Source(
             lead=lead,
             start=start,
-            head=head,
+            head=_known(key).end if key is not None else start + 1,
             value=_known(value).start,
             tail=tail,
-            end=self._line_end(value, tail),
-            column=start - line_start,
-            first=not parent.entries,
-            node=value,
+            end=self._line_end(tail),
+            column=start - line,
+            first=first,
         )
-        return Entry(text, value, source, quote, span)
 
-    def _line_end(self, value: Node, tail: int) -> int:
+    def _line_end(self, tail: int) -> int:
         """After the comment and the line break behind a value that has one line."""
         if self.text[tail - 1 : tail] in ("\n", "\r"):
             return tail
-        match = _TO_LINE_END.match(self.text, tail)
-        return match.end() if match else tail
+        return _matched(_TO_LINE_END, self.text, tail)
+
+
+def _matched(pattern: re.Pattern[str], text: str, start: int) -> int:
+    """Where a match that begins at `start` ends."""
+    match = pattern.match(text, start)
+    return match.end() if match else start
 
 
 def _scalar(event: Any) -> Scalar:
@@ -184,10 +196,6 @@ def _known(node: Node) -> Span:
     return node.span
 
 
-def _end(node: Node) -> int:
-    return _known(node).end
-
-
 def _size(node: Node) -> int:
     if isinstance(node, Scalar):
         return 1
@@ -201,7 +209,7 @@ def _as_original(node: Node) -> Node:
         return node
     node.original = tuple(node.entries)
     for entry in node.entries:
-        _as_original(entry.value)
+        entry.given = _as_original(entry.value)
     return node
 
 

@@ -99,7 +99,7 @@ class Writer:
             head = "-" if entry.key is None else f"{quoted(entry.key, entry.quote)}:"
             return indent + head + self._fresh_value(entry, column)
         lead = self._lead(source, first)
-        if entry.value is source.node and self._can_patch(entry.value):
+        if entry.value is entry.given and self._can_patch(entry.value):
             body = self._text[source.start : source.value] + self._patched(entry.value)
             body += self._text[source.tail : source.end]
         else:
