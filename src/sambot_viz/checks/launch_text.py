@@ -55,12 +55,19 @@ def _traps(subject: Subject) -> Iterator[Finding]:
 
 
 def _survives(subject: Subject, source: Source, trap: _Trap) -> bool:
-    """Whether the line is still there after xacro."""
+    """Whether these words are still there after xacro."""
     if subject.robot is None:
         return False
-    line = source.line_text(trap.place.line).strip()
-    inside = re.sub(r"^<!--\s*|\s*-->$", "", line).strip()
-    return not inside or "${" in inside or inside in subject.robot.urdf
+    line = source.line_text(trap.place.line)
+    at = trap.place.column - 1 if trap.place.column else 0
+    inside = line.rfind("${", 0, at) > line.rfind("}", 0, at)
+    words = re.split(r"\$[{(]|[})]|<!--|-->", line)
+    reached = 0
+    for word in words:
+        reached = line.find(word, reached) + len(word)
+        if reached > at:
+            return not inside and word.strip() in subject.robot.urdf
+    return not inside
 
 
 def _traps_in(source: Source, file: str, *, is_main: bool) -> Iterator[_Trap]:
