@@ -82,21 +82,23 @@ class Document:
         except (yaml.YAMLError, ParseFault) as error:
             raise ConfigError([explain_yaml(self._text, error, self.file)]) from error
         if root is None or (isinstance(root, Scalar) and root.null):
-            self.problems.append(
-                Problem(
-                    "warning",
-                    "config-empty",
-                    "the file is empty: no displays are given",
-                    "",
-                    self.file,
-                )
-            )
+            self._warn_of_emptiness("the file is empty: it gives no displays")
             return Map()
         if not isinstance(root, Map):
             raise _not_rviz(self.file)
         if root.entries and not any(root.entry(name) for name in _SECTIONS):
             raise _not_rviz(self.file)
+        if not isinstance(root.get(_SECTIONS[0]), Map):
+            self._warn_of_emptiness(
+                f"'{_SECTIONS[0]}' is missing: there are no displays"
+            )
         return root
+
+    def _warn_of_emptiness(self, message: str) -> None:
+        hint = "add displays and save, or give another file"
+        self.problems.append(
+            Problem("warning", "config-empty", message, hint, self.file)
+        )
 
     def to_yaml(self) -> str:
         """The text of the file as it would be saved.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -12,12 +12,25 @@ from sambot_viz.rviz.parser import ParseFault
 
 _INI_LINE = re.compile(r"(?m)^(?:[^\s:=#\[]|\\ )+=")
 _TAB_INDENT = re.compile(r"^ *\t")
-_GENERAL = "look at this line and the one above: the same indentation for all keys of \
-one map, spaces only, 'key: value' with a blank behind the colon"
+_MERGE_LINE = re.compile(r"(?m)^(?:<<<<<<<|>>>>>>>)(?: |$)")
+_GENERAL = (
+    "look at this line and the one above: all keys of one map are indented alike, with "
+    "spaces only, and every colon is followed by a blank"
+)
 
 
 def other_format(text: str, file: str | None) -> Problem | None:
     """The problem of a file that is something else than YAML, by its look."""
+    merge = _MERGE_LINE.search(text)
+    if merge:
+        return Problem(
+            "error",
+            "config-merge",
+            "this line is the mark of a merge that is not finished",
+            "choose one of the two texts and remove the marks",
+            file,
+            text.count("\n", 0, merge.start()) + 1,
+        )
     start = text.lstrip()
     if start.startswith("<"):
         what = "a robot model" if "<robot" in text else "XML"
@@ -57,61 +70,124 @@ def explain_yaml(
         A problem of severity "error". RViz itself shows nothing at all in this case
         (spec/rviz-core.md §12, 15).
     """
-    line, column, said = _place(text, error)
-    lines = text.splitlines()
-    message, hint = _cause(lines, line, said)
-    return Problem("error", "config-yaml", message, hint, file, line, column)
-
-
-def _place(text: str, error: Any) -> tuple[int, int, str]:
-    if isinstance(error, ParseFault):
-        return error.line, error.column, error.reason
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    said = " ".join(
-        str(part)
-        for part in (getattr(error, "context", None), getattr(error, "problem", None))
-        if part
+    cause = _Slip(text, error).cause()
+    return Problem(
+        "error",
+        "config-yaml",
+        cause.message,
+        cause.hint,
+        file,
+        cause.line,
+        cause.column,
     )
-    if mark is not None:
-        return mark.line + 1, mark.column + 1, said
-    position = getattr(error, "position", 0)
-    before = text[: position if isinstance(position, int) else 0]
-    reason = str(getattr(error, "reason", "") or error)
-    return before.count("\n") + 1, len(before) - before.rfind("\n"), reason
 
 
-def _cause(lines: list[str], line: int, said: str) -> tuple[str, str]:
-    here = lines[line - 1] if 0 < line <= len(lines) else ""
-    if _TAB_INDENT.match(here) or "found a tab" in said:
-        return (
-            "this line is indented with a tab, which YAML does not allow",
-            "indent with spaces only",
+class _Cause(NamedTuple):
+    line: int
+    column: int | None
+    message: str
+    hint: str
+
+
+class _Slip:
+    """What the reader said, where, and the lines around it."""
+
+    def __init__(self, text: str, error: Any):
+        self.lines = text.splitlines() or [""]
+        said = [getattr(error, name, None) for name in ("context", "problem", "reason")]
+        self.said = " ".join(str(part) for part in said if part) or str(error)
+        self.line, self.column = self._place(text, error)
+        began = getattr(error, "context_mark", None)
+        self.began = (began.line + 1, began.column + 1) if began is not None else None
+        self.refused = isinstance(error, ParseFault)
+
+    def _place(self, text: str, error: Any) -> tuple[int, int | None]:
+        if isinstance(error, ParseFault):
+            return error.line, error.column
+        mark = getattr(error, "problem_mark", None)
+        mark = mark or getattr(error, "context_mark", None)
+        if mark is not None:
+            line, column = mark.line + 1, mark.column + 1
+        else:
+            position = getattr(error, "position", 0)
+            before = text[: position if isinstance(position, int) else 0]
+            line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        if line > len(self.lines):
+            # The end of the file is no line of it.
+            return len(self.lines), None
+        return line, column
+
+    def cause(self) -> _Cause:
+        here = self.lines[self.line - 1]
+        if self.refused:
+            return self._at_place(self.said, "write the value out")
+        if _TAB_INDENT.match(here) or "found a tab" in self.said:
+            message = "this line is indented with a tab, which YAML does not allow"
+            return self._at_place(message, "indent with spaces only")
+        if "unknown escape" in self.said:
+            message = "a backslash in double quotes begins an escape YAML does not know"
+            return self._at_place(message, "use single quotes, or double the backslash")
+        if "quoted scalar" in self.said:
+            message = "the quotes that are opened here are never closed"
+            return self._at_beginning(message, "close them with the same kind of quote")
+        if "flow" in self.said:
+            message = "the bracket or brace opened here is not closed, or lacks a comma"
+            hint = "close it, and put commas between its parts"
+            return self._at_beginning(message, hint)
+        if "not allowed" in self.said and "mapping values" in self.said:
+            return self._stray_colon(here)
+        if "expected key" in self.said or "<block end>" in self.said:
+            return self._at_place(
+                "the indentation does not fit: the line belongs to no map or list above",
+                "indent it exactly like the other keys of its map",
+            )
+        if "cannot start any token" in self.said:
+            sign = here[self.column - 1 : self.column] if self.column else ""
+            return self._at_place(
+                f"a value cannot begin with '{sign}'", "put the value in quotes"
+            )
+        if "characters" in self.said and "allowed" in self.said:
+            return self._at_place(
+                "there is a character that YAML does not allow", "remove it"
+            )
+        if "could not find expected ':'" in self.said:
+            return self._no_colon(self.line)
+        return self._at_place(f"this is no YAML: {self.said}", _GENERAL)
+
+    def _at_place(self, message: str, hint: str) -> _Cause:
+        return _Cause(self.line, self.column, message, hint)
+
+    def _at_beginning(self, message: str, hint: str) -> _Cause:
+        line, column = self.began or (self.line, self.column)
+        return _Cause(line, column, message, hint)
+
+    def _stray_colon(self, here: str) -> _Cause:
+        before = here[: (self.column or 1) - 1]
+        if ": " in before:
+            message = "there are two colons in this line, each followed by a blank"
+            return self._at_place(message, "put the value in quotes")
+        above = self._line_above()
+        if above and ":" not in self.lines[above - 1]:
+            return self._no_colon(above)
+        return self._at_place(
+            "this line is indented further than the line above allows",
+            "indent it like the keys around it",
         )
-    if "quoted scalar" in said:
-        return (
-            "a text in quotes that begins here or above is never closed",
-            "close it with the same kind of quote",
+
+    def _no_colon(self, line: int) -> _Cause:
+        while line > 1 and (":" in self.lines[line - 1] or not self.lines[line - 1]):
+            line -= 1
+        return _Cause(
+            line,
+            None,
+            "this line is no 'key: value'",
+            "write a colon and a blank behind the key",
         )
-    if "flow" in said:
-        return (
-            "a list in [ ] or a map in { } that begins here or above is not closed, or "
-            "a comma is missing in it",
-            "close it, and put a comma between its parts",
-        )
-    if "not allowed in this context" in said:
-        return (
-            "a key stands where none can stand: there is a second colon in the line "
-            "above or in this one, or the line is indented too far",
-            "put quotes around a value that contains ': ', or indent the line like "
-            "the keys around it",
-        )
-    if "expected key" in said or "expected <block end>" in said:
-        return (
-            "the indentation does not fit: this line belongs to no map or list above",
-            "indent it exactly like the other keys of its map",
-        )
-    if "special characters" in said or "control characters" in said:
-        return "there is a character that YAML does not allow", "remove it"
-    if "could not find expected ':'" in said:
-        return "this or the line above is no 'key: value'", _GENERAL
-    return f"this is no YAML: {said}", _GENERAL
+
+    def _line_above(self) -> int:
+        """The last line above that is neither blank nor a comment; 0 for none."""
+        for number in range(self.line - 1, 0, -1):
+            line = self.lines[number - 1].strip()
+            if line and not line.startswith("#"):
+                return number
+        return 0

@@ -188,6 +188,10 @@ class FloatProperty(_NumberProperty):
         """See `Property.write`."""
         return float_text(value)
 
+    def show(self, value: Any) -> str:
+        """See `Property.show`."""
+        return f"{value:.6g}"
+
     def agrees(self, first: Any, second: Any) -> bool:
         """See `Property.agrees`; RViz keeps 32 bits."""
         return float32(first) == float32(second)

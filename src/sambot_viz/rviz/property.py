@@ -132,8 +132,12 @@ class Property:
         raise PropertyError(self.name, value, self._expected)
 
     def write(self, value: Any) -> str:
-        """The text of a value, exactly as RViz saves or shows it (§1.12)."""
+        """The text of a value, exactly as RViz saves it (§1.12)."""
         return str(value)
+
+    def show(self, value: Any) -> str:
+        """The text of a value for people, with few digits (§9.1)."""
+        return self.write(value)
 
     def components(self, value: Any) -> dict[str, str] | None:
         """The keys a value is saved under, if it is saved as a map without "Value"."""
