@@ -199,7 +199,7 @@ def _corners(text: bytes, count: int) -> npt.NDArray[np.int64] | None:
             if values is None or not 1 <= len(values) <= 3:
                 return None
             table[row, : len(values)] = values
-    table[:, 1:][table[:, 1:] == 0] = _MISSING
+    table[table == 0] = _MISSING
     return table
 
 
@@ -248,10 +248,14 @@ def _changed(
     if keyword == "map_Kd":
         name = _map_name(rest)
         return Look(look.rgba, load_texture(name, findings, images))
-    values = parse_floats(rest.encode()) if keyword in ("Kd", "d", "Tr") else None
-    if values is None or not len(values) or not np.all(np.isfinite(values)):
+    if keyword not in ("Kd", "d", "Tr"):
         return look
-    numbers = [min(1.0, max(0.0, float(value))) for value in values]
+    try:
+        numbers = [min(1.0, max(0.0, float(word))) for word in rest.split()]
+    except ValueError:
+        return look
+    if not numbers:
+        return look
     if keyword == "Kd":
         # One number alone stands for all three.
         red, green, blue = (numbers * 3)[:3] if len(numbers) < 3 else numbers[:3]
