@@ -8,9 +8,15 @@ from __future__ import annotations
 
 from sambot_viz.rviz.config import RvizConfig
 from sambot_viz.rviz.declarations import Declarations
-from sambot_viz.rviz.entries import DisplayConfig, ToolConfig, ViewConfig
+from sambot_viz.rviz.declared import Declared, UnknownPropertyError
+from sambot_viz.rviz.entries import (
+    DisplayConfig,
+    GlobalOptions,
+    ToolConfig,
+    ViewConfig,
+)
 from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
-from sambot_viz.rviz.item import ConfigItem, Declared, UnknownPropertyError
+from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.properties import (
     FILTER_SIZE,
     FIXED_FRAME,
@@ -47,6 +53,7 @@ __all__ = [
     "EnumProperty",
     "FileProperty",
     "FloatProperty",
+    "GlobalOptions",
     "GroupProperty",
     "IntProperty",
     "Property",

@@ -148,6 +148,7 @@ class Document:
                 os.fspath(path),
             ) from error
         self._saved = text
+        self.file = os.fspath(path)
 
 
 def _write_atomically(target: Path, data: bytes) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from sambot_viz.rviz.class_name import NO_CLASS, is_ros1, kind_of
-from sambot_viz.rviz.item import ConfigItem, Findings
+from sambot_viz.rviz.declared import Findings
+from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.nodes import Entry, Map, Scalar
 from sambot_viz.rviz.properties import checked_text, read_bool
 from sambot_viz.rviz.property import Property
@@ -130,6 +131,15 @@ class DisplayConfig(ClassItem):
             self._node.put_text("Enabled", text)
         if self._node.text("Value") is not None:
             self._node.put_text("Value", text)
+
+
+class GlobalOptions(ConfigItem):
+    """Fixed Frame, Background Color, Frame Rate."""
+
+    @property
+    def label(self) -> str:
+        """What it is called in messages."""
+        return "Global Options"
 
 
 class ViewConfig(ClassItem):

@@ -138,7 +138,7 @@ class _Slip:
             return self._stray_colon(here)
         if "expected key" in self.said or "<block end>" in self.said:
             return self._at_place(
-                "the indentation does not fit: the line belongs to no map or list above",
+                "the indentation does not fit any map or list above",
                 "indent it exactly like the other keys of its map",
             )
         if "cannot start any token" in self.said:

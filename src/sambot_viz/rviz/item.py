@@ -3,65 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
-from sambot_viz.errors import Problem, UsageError, did_you_mean
-from sambot_viz.rviz.nodes import Entry, List, Map, Node, Plain, Scalar, copied, plain
+from sambot_viz.rviz.declared import Declared, Findings, UnknownPropertyError
+from sambot_viz.rviz.fresh import Fresh, parts_map
+from sambot_viz.rviz.nodes import Map, Node, Plain, plain
 from sambot_viz.rviz.number import float_text
 from sambot_viz.rviz.properties import EnumProperty, VectorProperty, checked_text
 from sambot_viz.rviz.property import Property
 
 Path = str | Sequence[str]
-
-
-class UnknownPropertyError(UsageError):
-    """A property that is not declared.
-
-    Attributes:
-        path: what was asked for.
-    """
-
-    def __init__(self, owner: str, path: str, known: Sequence[str]):
-        self.path = path
-        super().__init__(f"{owner} has no '{path}'; {did_you_mean(path, known)}")
-
-
-@dataclass(frozen=True, slots=True)
-class Declared:
-    """A property with its place in the file.
-
-    Attributes:
-        path: keys from the item on, joined by "/".
-        keys: the same keys.
-        property: the declaration.
-        above: the one whose child it is.
-    """
-
-    path: str
-    keys: tuple[str, ...]
-    property: Property
-    above: Declared | None = None
-
-
-class Findings:
-    """Collects what is doubtful in a file.
-
-    Attributes:
-        problems: in the order they were found.
-    """
-
-    def __init__(self, file: str | None):
-        self.file = file
-        self.problems: list[Problem] = []
-
-    def add(self, code: str, node: Node | None, message: str, hint: str = "") -> None:
-        """Note a warning at a node."""
-        span = node.span if node is not None else None
-        line, column = (span.line, span.column) if span else (None, None)
-        problem = Problem("warning", code, message, hint, self.file, line, column)
-        self.problems.append(problem)
 
 
 class ConfigItem:
@@ -100,12 +52,7 @@ class ConfigItem:
         self._values: dict[str, Any] = {}
         self._declared: dict[str, Declared] = {}
         self._given: set[str] = set()
-        self._take(declared)
-
-    def _take(self, declared: Sequence[Property]) -> None:
-        self._values.clear()
-        self._declared.clear()
-        self._given.clear()
+        self._fresh = Fresh(self._declared, self._values)
         self._top = tuple(p for p in declared if self._ros1 or not p.ros1_only)
         for prop in self._top:
             self._read(prop, (), self._node, None)
@@ -225,7 +172,8 @@ class ConfigItem:
         elif isinstance(old, Map):
             old.put_text("Value", prop.write(value))
         elif old is None and prop.children:
-            above.put(key, self._fresh(declared, value))
+            self._values[declared.path] = value
+            above.put(key, self._fresh.map(declared.path))
         else:
             above.put_text(key, prop.write(value))
 
@@ -234,7 +182,7 @@ class ConfigItem:
     ) -> None:
         old = above.get(key)
         if not isinstance(old, Map):
-            above.put(key, Map([Entry(k, Scalar(text)) for k, text in parts.items()]))
+            above.put(key, parts_map(parts))
             return
         before = prop.read(old)
         known = prop.components(before) if before is not None else None
@@ -252,48 +200,16 @@ class ConfigItem:
         for depth, key in enumerate(keys, 1):
             found = node.get(key)
             if not isinstance(found, Map):
-                found = self._map_from(tuple(keys[:depth]), found)
+                found = self._fresh.instead(tuple(keys[:depth]), found)
                 node.put(key, found)
             node = found
         return node
-
-    def _map_from(self, keys: tuple[str, ...], old: Node | None) -> Map:
-        """A map in the place of a flat value ("Line Style: Lines") or of nothing."""
-        declared = next((d for d in self._declared.values() if d.keys == keys), None)
-        made = Map()
-        if declared is not None and not isinstance(declared.property, VectorProperty):
-            made = self._fresh(declared, self._values.get(declared.path))
-        if isinstance(old, Scalar):
-            made.remove("Value")
-            made.put("Value", copied(old))
-        return made
-
-    def _fresh(self, declared: Declared, value: Any) -> Map:
-        """A property with children as RViz saves it: all of them, in order."""
-        made = Map()
-        if declared.property.has_value:
-            made.put("Value", Scalar(declared.property.write(value)))
-        for child in declared.property.children:
-            if not child.read_only:
-                path = f"{declared.path}/{child.name}"
-                made.put(child.name, self._fresh_node(path))
-        return made
-
-    def _fresh_node(self, path: str) -> Node:
-        declared, value = self._declared[path], self._values.get(path)
-        prop = declared.property
-        parts = prop.components(value) if prop.has_value else None
-        if parts is not None:
-            return Map([Entry(key, Scalar(text)) for key, text in parts.items()])
-        if prop.children or not prop.has_value:
-            return self._fresh(declared, value)
-        return Scalar(prop.write(value))
 
     def fill(self) -> None:
         """Write every property into the map, as RViz saves a new item."""
         for prop in self._top:
             if not prop.read_only and self._node.get(prop.name) is None:
-                self._node.put(prop.name, self._fresh_node(prop.name))
+                self._node.put(prop.name, self._fresh.node(prop.name))
 
     @property
     def raw(self) -> dict[str, Plain]:
@@ -366,10 +282,3 @@ class ConfigItem:
 
 def _keys(path: Path) -> tuple[str, ...]:
     return (path,) if isinstance(path, str) else tuple(path)
-
-
-def items_of(node: Node | None) -> list[tuple[Entry, Map]]:
-    """The maps in a list of the file, with their entries."""
-    if not isinstance(node, List):
-        return []
-    return [(e, e.value) for e in node.entries if isinstance(e.value, Map)]

@@ -222,6 +222,13 @@ def plain(node: Node | None) -> Plain:
     return None if node is None or node.null else node.text
 
 
+def items_of(node: Node | None) -> list[tuple[Entry, Map]]:
+    """The maps in a list of the file, with their entries."""
+    if not isinstance(node, List):
+        return []
+    return [(e, e.value) for e in node.entries if isinstance(e.value, Map)]
+
+
 def copied(node: Node) -> Node:
     """A copy that belongs to no place in the file."""
     if isinstance(node, Scalar):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_name import (
     is_ros1,
@@ -12,37 +10,19 @@ from sambot_viz.rviz.class_name import (
     short_name,
     written_in_ros1,
 )
-from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.entries import ViewConfig, new_map
-from sambot_viz.rviz.item import Findings, items_of
-from sambot_viz.rviz.nodes import Entry, List, Map, copied
+from sambot_viz.rviz.manager import Manager
+from sambot_viz.rviz.nodes import Entry, List, Map, copied, items_of
 
 CURRENT = "Current View"
 ORBIT = "rviz_default_plugins/Orbit"
 
 
-class ViewList:
+class ViewList(Manager):
     """The views of a config."""
 
-    def __init__(
-        self,
-        manager: Map,
-        attached_manager: Callable[[], Map],
-        findings: Findings,
-        declarations: Declarations,
-    ):
-        """Read the views.
-
-        Args:
-            manager: the map of the Visualization Manager.
-            attached_manager: the same, put into the document if need be.
-            findings: takes what is doubtful.
-            declarations: the view classes.
-        """
-        self._attached_manager = attached_manager
-        self._view_findings = findings
-        self._view_classes = declarations.views
-        views = manager.get("Views")
+    def _load_views(self) -> None:
+        views = self._manager.get("Views")
         current = views.get("Current") if isinstance(views, Map) else None
         saved = views.get("Saved") if isinstance(views, Map) else None
         given = isinstance(current, Map) and current.text("Class") is not None
@@ -60,8 +40,8 @@ class ViewList:
         kind = kind_of(found.text("Class") or "")
         return ViewConfig(
             found,
-            self._view_classes.get(kind),
-            self._view_findings,
+            self._declarations.views.get(kind),
+            self._findings,
             self._attach_current if node is None else None,
         )
 
@@ -112,7 +92,7 @@ class ViewList:
         ros1 = is_ros1(old.class_id)
         node = new_map(written_in_ros1(kind) if ros1 else kind, CURRENT)
         node.put_text("Value", row_text(node.text("Class") or ""))
-        view = ViewConfig(node, self._view_classes.get(kind), self._view_findings)
+        view = ViewConfig(node, self._declarations.views.get(kind), self._findings)
         view.fill()
         for path in view.properties:
             if path in old.properties and old.is_given(path):
@@ -130,7 +110,7 @@ class ViewList:
         node = _copy(self._view)
         node.put_text("Name", short_name(kind) if name is None else name)
         self._saved_list().entries.append(Entry(None, node))
-        view = ViewConfig(node, self._view_classes.get(kind), self._view_findings)
+        view = ViewConfig(node, self._declarations.views.get(kind), self._findings)
         self._saved_views.append(view)
         return view
 
@@ -138,7 +118,9 @@ class ViewList:
         """Copy a saved view into the current one."""
         node = _copy(saved)
         node.put_text("Name", CURRENT)
-        view = ViewConfig(node, self._view_classes.get(saved.kind), self._view_findings)
+        view = ViewConfig(
+            node, self._declarations.views.get(saved.kind), self._findings
+        )
         self._put_current(view)
         return view
 
