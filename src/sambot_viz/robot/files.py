@@ -39,10 +39,19 @@ class FileFinder:
     """Answers mesh and texture names, with a Problem for each doubtful one."""
 
     def __init__(
-        self, folder: Path, package_path: Sequence[Path | str], findings: Findings
+        self,
+        folder: Path,
+        package_path: Sequence[Path | str],
+        findings: Findings,
+        trusted: bool = True,
     ) -> None:
-        self._resolver = FileResolver(PackageIndex(folder, package_path), folder)
+        index = PackageIndex(folder, package_path)
+        self._resolver = FileResolver(index, folder)
         self._findings = findings
+        self._told: set[str] = set()
+        self._roots: list[Path] | None = None
+        if not trusted:
+            self._roots = [root.resolve() for root in index.own_roots()]
 
     def mesh(self, filename: str, element: Element) -> Path | None:
         """The file of a <mesh>."""
@@ -56,6 +65,11 @@ class FileFinder:
         if not filename:
             return None
         found = self._resolver.resolve(filename)
+        if found.path is not None and not self._allowed(found.path):
+            found = Resolution(None, ("outside the model's folder and packages",))
+        if filename in self._told:
+            return found.path
+        self._told.add(filename)
         if found.path is None:
             self._tell_missing(kind, filename, element, found)
         elif found.doubt is not None:
@@ -65,6 +79,13 @@ class FileFinder:
                 code, f"the {kind} {filename} {shown}", hint, element, "filename"
             )
         return found.path
+
+    def _allowed(self, path: Path) -> bool:
+        """Whether an untrusted model may name this file."""
+        if self._roots is None:
+            return True
+        real = path.resolve()
+        return any(real.is_relative_to(root) for root in self._roots)
 
     def _tell_missing(
         self, kind: str, filename: str, element: Element, found: Resolution

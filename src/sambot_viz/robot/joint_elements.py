@@ -11,20 +11,18 @@ from typing import get_args
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.findings import Findings
+from sambot_viz.robot.joint_limits import LimitReader
 from sambot_viz.robot.model import (
     Joint,
     JointType,
-    Limit,
     Mimic,
     Origin,
-    SoftLimit,
     Vector3,
 )
 from sambot_viz.robot.xml import Element
 
 JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
 _REFUSED = "ROS refuses the model"
-_LIMIT_EXAMPLE = 'lower="-1.57" upper="1.57" effort="10" velocity="1"'
 
 
 def read_joint(element: Element, findings: Findings) -> Joint | None:
@@ -124,8 +122,11 @@ class _JointReader:
             origin = self._reader.origin(self._element)
         except Unreadable:
             pass
-        self._dynamics()
-        self._calibration()
+        limits = LimitReader(
+            self._element, self._name, self._kind, self._reader, self._findings
+        )
+        limits.check_dynamics()
+        limits.check_calibration()
         return Joint(
             self._name,
             self._kind,
@@ -133,8 +134,8 @@ class _JointReader:
             child,
             origin,
             self._axis(),
-            self._limit(),
-            self._soft_limit(),
+            limits.limit(),
+            limits.soft_limit(),
             self._mimic(),
             self._element.place,
         )
@@ -178,103 +179,6 @@ class _JointReader:
             "xyz",
         )
 
-    def _limit(self) -> Limit | None:
-        element = self._element.find("limit")
-        if element is None:
-            if self._kind in ("revolute", "prismatic"):
-                self._tell_no_limit()
-            return None
-        missing = [n for n in ("effort", "velocity") if element.get(n) is None]
-        if missing:
-            self._tell_incomplete(element, missing)
-        try:
-            limit = Limit(
-                self._reader.optional(element, "lower", 0.0),
-                self._reader.optional(element, "upper", 0.0),
-                self._reader.optional(element, "effort", 0.0),
-                self._reader.optional(element, "velocity", 0.0),
-            )
-        except Unreadable:
-            return Limit()
-        if self._kind in ("revolute", "prismatic"):
-            self._check_range(element, limit)
-        return limit
-
-    def _tell_no_limit(self) -> None:
-        unit = "radians" if self._kind == "revolute" else "metres"
-        other = " or make the joint continuous" if self._kind == "revolute" else ""
-        self._findings.reject(
-            "limit-missing",
-            f"joint {self._name} is {self._kind} and has no <limit>; {_REFUSED}",
-            f"add <limit {_LIMIT_EXAMPLE}/> with lower and upper in {unit}{other}",
-            self._element,
-        )
-
-    def _tell_incomplete(self, element: Element, missing: list[str]) -> None:
-        names = " and ".join(missing)
-        add = " ".join(f'{n}="{10 if n == "effort" else 1}"' for n in missing)
-        even = (
-            ""
-            if self._kind in ("revolute", "prismatic")
-            else (f", even on a {self._kind} joint")
-        )
-        self._findings.reject(
-            "limit-incomplete",
-            f"<limit> of joint {self._name} has no {names}; {_REFUSED}{even}",
-            f"add {add}" + (", or delete <limit>" if even else ""),
-            element,
-        )
-
-    def _check_range(self, element: Element, limit: Limit) -> None:
-        missing = [n for n in ("lower", "upper") if element.get(n) is None]
-        if missing:
-            names = " and no ".join(missing)
-            report = self._findings.error if len(missing) == 2 else self._findings.warn
-            report(
-                "limit-without-range",
-                f"<limit> of joint {self._name} has no {names}: urdfdom takes 0, so "
-                f"the range is {limit.lower:g} to {limit.upper:g}, and "
-                "joint_state_publisher refuses the model",
-                'give both, such as lower="-1.57" upper="1.57"',
-                element,
-            )
-        elif limit.lower > limit.upper:
-            self._findings.warn(
-                "limit-reversed",
-                f"joint {self._name} has lower ({limit.lower:g}) greater than upper "
-                f"({limit.upper:g})",
-                "exchange the two",
-                element,
-                "lower",
-            )
-
-    def _soft_limit(self) -> SoftLimit | None:
-        element = self._element.find("safety_controller")
-        if element is None:
-            return None
-        if element.get("k_velocity") is None:
-            self._findings.reject(
-                "safety-controller-incomplete",
-                f"<safety_controller> of joint {self._name} has no k_velocity; "
-                f"{_REFUSED}",
-                'add k_velocity="10"',
-                element,
-            )
-        try:
-            for name in ("k_position", "k_velocity"):
-                self._reader.optional(element, name, 0.0)
-            return SoftLimit(
-                self._soft(element, "soft_lower_limit"),
-                self._soft(element, "soft_upper_limit"),
-            )
-        except Unreadable:
-            return None
-
-    def _soft(self, element: Element, name: str) -> float | None:
-        if element.get(name) is None:
-            return None
-        return self._reader.number(element, name)
-
     def _mimic(self) -> Mimic | None:
         element = self._element.find("mimic")
         if element is None:
@@ -296,29 +200,3 @@ class _JointReader:
             )
         except Unreadable:
             return None
-
-    def _dynamics(self) -> None:
-        element = self._element.find("dynamics")
-        if element is None:
-            return
-        if element.get("damping") is None and element.get("friction") is None:
-            self._findings.reject(
-                "dynamics-empty",
-                f"<dynamics> of joint {self._name} has neither damping nor friction; "
-                f"{_REFUSED}",
-                "delete it, or give one of the two",
-                element,
-            )
-        self._check_numbers(element, ("damping", "friction"))
-
-    def _calibration(self) -> None:
-        element = self._element.find("calibration")
-        if element is not None:
-            self._check_numbers(element, ("rising", "falling"))
-
-    def _check_numbers(self, element: Element, names: tuple[str, ...]) -> None:
-        for name in names:
-            try:
-                self._reader.optional(element, name, 0.0)
-            except Unreadable:
-                continue

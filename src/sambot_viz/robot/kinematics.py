@@ -175,7 +175,7 @@ class Kinematics:
         return row
 
     def _filled(self, given: Mapping[str, float]) -> _Floats:
-        q = self._start.copy()
+        q: _Floats = np.array(self._start)
         rows: set[int] = set()
         for name, value in given.items():
             row = self._row_of(name)
@@ -187,7 +187,7 @@ class Kinematics:
         return q
 
     def _transforms(self, q: _Floats) -> Matrix:
-        T = self._origins.copy()
+        T: _Floats = np.array(self._origins)
         if self._spin.size:
             angle = q[self._spin]
             cos = np.cos(angle)[:, None, None]
@@ -196,7 +196,7 @@ class Kinematics:
             T[self._spin, :3, :3] = T[self._spin, :3, :3] @ turned
         if self._slide.size:
             shift = self._slides * q[self._slide, None]
-            R = T[self._slide, :3, :3]
+            R: _Floats = T[self._slide, :3, :3]
             T[self._slide, :3, 3] += np.einsum("nij,nj->ni", R, shift)
         return T
 
@@ -209,7 +209,7 @@ def _by_depth(robot: Robot) -> tuple[list[Joint], list[int], list[int]]:
     order: list[Joint] = []
     parents: list[int] = []
     starts: list[int] = []
-    level = [(robot.root, 0)]
+    level: list[tuple[str, int]] = [(robot.root, 0)]
     while True:
         found = [(j, row) for link, row in level for j in children.get(link, ())]
         if not found:
@@ -258,8 +258,8 @@ def _rows(order: Iterable[Joint], types: Iterable[str]) -> _Ints:
 
 def _cross_matrices(axes: _Floats) -> _Floats:
     """[a]× for each row a: (N, 3, 3)."""
-    result = np.zeros((len(axes), 3, 3))
-    x, y, z = axes.T
+    result: _Floats = np.zeros((len(axes), 3, 3))
+    x, y, z = axes[:, 0], axes[:, 1], axes[:, 2]
     result[:, 0, 1], result[:, 0, 2] = -z, y
     result[:, 1, 0], result[:, 1, 2] = z, -x
     result[:, 2, 0], result[:, 2, 1] = -y, x

@@ -7,17 +7,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot.expansion import ExpandedModel, expand_model
 from sambot_viz.robot.files import FileFinder
 from sambot_viz.robot.findings import Findings
+from sambot_viz.robot.library import tell_library
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.source import ModelSource, needs_xacro, read_source
+from sambot_viz.robot.prefix import missing_prefixes
+from sambot_viz.robot.source import ModelSource, first_xacro, read_source
 from sambot_viz.robot.urdf import read_urdf
-from sambot_viz.robot.xacro import (
-    ExpandedModel,
-    ExpansionError,
-    ExpansionXmlError,
-    expand_model,
-)
+from sambot_viz.robot.xacro import ExpansionError, ExpansionXmlError
 from sambot_viz.robot.xacro_faults import explain_xacro
 from sambot_viz.robot.xml import Element, parse_xml
 from sambot_viz.robot.xml_faults import explain_xml
@@ -51,14 +49,21 @@ def load_robot(
         RobotError: ROS would refuse the model; `.problems` has every fault found.
     """
     source = _source(model)
-    document = _parsed(source.text, source.label)
+    document = written = _parsed(source.text, source.label)
     problems = list(source.problems)
     expanded: ExpandedModel | None = None
-    if needs_xacro(document):
+    xacro = first_xacro(document)
+    if xacro is not None:
+        problems += _note_ending(source, xacro)
         expanded = _expanded(source, xacro_args or {}, package_path, trusted)
         problems += expanded.problems
         document = _reparsed(expanded, source.label)
-    return _robot(source, document, expanded, problems, package_path)
+    else:
+        problems += missing_prefixes(document)
+    try:
+        return _robot(source, document, expanded, problems, package_path, trusted)
+    except RobotError as error:
+        raise RobotError(tell_library(error.problems, written, source.path)) from None
 
 
 def expand(
@@ -82,6 +87,25 @@ def expand(
     source = _source(model)
     _parsed(source.text, source.label)
     return _expanded(source, xacro_args or {}, package_path, trusted).text
+
+
+def _note_ending(source: ModelSource, xacro: Element) -> list[Problem]:
+    """Tell that a file called .urdf is xacro, because ROS's tools would not notice."""
+    if source.path is None or source.path.suffix.lower() != ".urdf":
+        return []
+    place = xacro.place
+    return [
+        Problem(
+            "info",
+            "xacro-in-urdf",
+            f"this .urdf file contains xacro (<{xacro.tag}>), so it is expanded first; "
+            "a program that takes it for finished URDF skips these parts",
+            "call it .urdf.xacro, and run xacro in the launch file",
+            place.file,
+            place.line,
+            place.column,
+        )
+    ]
 
 
 def _source(model: PathLike) -> ModelSource:
@@ -145,10 +169,11 @@ def _robot(
     expanded: ExpandedModel | None,
     problems: list[Problem],
     package_path: Sequence[Path | str],
+    trusted: bool,
 ) -> Robot:
     findings = Findings()
     folder = source.path.absolute().parent if source.path is not None else Path.cwd()
-    files = FileFinder(folder, package_path, findings)
+    files = FileFinder(folder, package_path, findings, trusted)
     urdf = read_urdf(
         document, findings, files.mesh, files.texture, expanded is not None
     )

@@ -13,6 +13,15 @@ from sambot_viz.robot.numbers import BadNumber, read_numbers
 from sambot_viz.robot.xml import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
+_COLOURS = {
+    "red": "1 0 0 1",
+    "green": "0 1 0 1",
+    "blue": "0 0 1 1",
+    "yellow": "1 1 0 1",
+    "orange": "1 0.5 0 1",
+    "white": "1 1 1 1",
+    "black": "0 0 0 1",
+}
 FindTexture = Callable[[str, Element], "Path | None"]
 """Texture file name as written and its element → the file, or None."""
 
@@ -57,16 +66,15 @@ class MaterialTable:
             )
             return
         material = self._defined(name, element)
-        if material is None:
+        if material is None and element.find("color") is None:
             self._findings.warn(
                 "material-without-colour",
-                f"material '{name}' has neither a colour nor a texture that can be "
-                "read; ROS shows it black",
+                f"material '{name}' has neither a colour nor a texture; ROS shows it "
+                "black",
                 'write <color rgba="0.5 0.5 0.5 1"/> inside it',
                 element,
             )
-            material = Material(name, _BLACK)
-        self._known[name] = _Known(material, element)
+        self._known[name] = _Known(material or Material(name, _BLACK), element)
 
     def of_visual(self, element: Element) -> Material | None:
         """The material that a <material> inside a visual means; None is RViz's red."""
@@ -105,8 +113,8 @@ class MaterialTable:
             "material-undefined",
             f"material '{name}' is not defined up to here ({near}); RViz shows the "
             "shape red",
-            f'write <material name="{name}"><color rgba="0 0 1 1"/></material>, here '
-            "or at the top of the file",
+            f'write <material name="{name}"><color rgba="{_guess(name)}"/></material>, '
+            "here or at the top of the file",
             element,
         )
 
@@ -127,8 +135,8 @@ class MaterialTable:
             have = f" (it has {wrong})" if wrong else ""
             self._findings.warn(
                 "color-without-rgba",
-                f"<color> of material '{name}' has no rgba{have}; ROS takes the "
-                "material for undefined",
+                f"<color> of material '{name}' has no rgba{have}; ROS cannot "
+                "use the colour",
                 'write rgba="1 0 0 1"',
                 color,
             )
@@ -152,8 +160,8 @@ class MaterialTable:
         except BadNumber as bad:
             self._findings.error(
                 "color-malformed",
-                f"rgba=\"{text}\" of material '{name}' {bad.reason}; ROS takes the "
-                "material for undefined",
+                f"rgba=\"{text}\" of material '{name}' {bad.reason}; ROS cannot "
+                "use the colour",
                 "write four numbers from 0 to 1 with blanks between them, such as "
                 'rgba="1 0 0 1"',
                 color,
@@ -166,12 +174,18 @@ class MaterialTable:
         self._findings.error(
             "color-range",
             f"rgba=\"{text}\" of material '{name}' leaves the range 0 to 1 (it looks "
-            "like 0 to 255); ROS takes the material for undefined",
+            "like 0 to 255); ROS cannot use the colour",
             f'write rgba="{better}"',
             color,
             "rgba",
         )
         return None
+
+
+def _guess(name: str) -> str:
+    """An rgba that somebody may have meant by the name."""
+    found = (rgba for word, rgba in _COLOURS.items() if word in name.lower())
+    return next(found, "0.5 0.5 0.5 1")
 
 
 def _to_unit(part: float) -> float:

@@ -106,6 +106,16 @@ class PackageIndex:
                 return
             yield folder
 
+    def own_roots(self) -> list[Path]:
+        """The folders that belong to the model: its own, its package, the given."""
+        roots = [*self._folders, *self._given.values()]
+        if self._start is not None:
+            roots.append(self._start)
+            package = next((f for f in self.ancestors() if package_name(f)), None)
+            if package is not None:
+                roots.append(package)
+        return roots
+
     def _search(self, name: str) -> Lookup:
         if name in self._given:
             path = self._given[name]

@@ -17,15 +17,7 @@ from sambot_viz.robot.xml_text import decode, mended_prolog
 TEXT_LABEL = "<text>"
 """The file name in problems of a model that was given as text."""
 
-_LFS = "version https://git-lfs"
 _LARGEST = 64_000_000
-_MAGIC = (
-    (b"PK\x03\x04", "a zip archive", "unpack it and open the model inside"),
-    (b"\x1f\x8b", "a gzip archive", "unpack it and open the model inside"),
-    (b"%PDF", "a PDF document", "open the URDF or xacro file itself"),
-    (b"glTF", "a glTF mesh", "open the URDF that uses it"),
-    (b"\x89PNG", "a PNG picture", "open the URDF or xacro file itself"),
-)
 _SUBSTITUTION = re.compile(r"\$[{(]")
 
 
@@ -50,16 +42,14 @@ def read_source(model: str | os.PathLike[str]) -> ModelSource:
     """Take a model as a path, or as text when it looks like XML.
 
     Raises:
-        RobotError: there is no such file, or it is obviously no model.
+        RobotError: there is no such file, or it cannot be read.
         XmlFault: the bytes are not in the encoding they claim.
     """
     if isinstance(model, str) and _looks_like_text(model):
         return _mended(TEXT_LABEL, model, None)
     label = os.fspath(model)
     path = Path(label).expanduser()
-    data = _read(path, label)
-    _refuse_other_kinds(data, label)
-    return _mended(label, decode(data), path)
+    return _mended(label, decode(_read(path, label)), path)
 
 
 def _looks_like_text(model: str) -> bool:
@@ -115,34 +105,6 @@ def _read(path: Path, label: str) -> bytes:
         ) from None
 
 
-def _refuse_other_kinds(data: bytes, label: str) -> None:
-    if data.startswith(_LFS.encode()):
-        raise _refusal(
-            "model-lfs-pointer",
-            "this is a git-LFS pointer, not the file itself",
-            "run `git lfs pull` in its repository",
-            label,
-        )
-    for magic, kind, hint in _MAGIC:
-        if data.startswith(magic):
-            raise _refusal("model-not-xml", f"this is {kind}, not a model", hint, label)
-    utf16 = data[:2] in (b"\xff\xfe", b"\xfe\xff")
-    if b"\0" in data[:4096] and not utf16:
-        raise _refusal(
-            "model-not-xml",
-            "this is a binary file, not a model",
-            "open the URDF or xacro file itself",
-            label,
-        )
-    if not data.strip(b"\xef\xbb\xbf \t\r\n"):
-        raise _refusal(
-            "model-empty",
-            "the file is empty",
-            "check that it was saved, and that this is the right file",
-            label,
-        )
-
-
 def _refusal(code: str, message: str, hint: str, label: str) -> RobotError:
     return RobotError([Problem("error", code, message, hint, label)])
 
@@ -167,26 +129,29 @@ def _nearest(path: Path) -> str:
     return f"in {path.parent}: {did_you_mean(path.name, models)}"
 
 
-def needs_xacro(document: Element) -> bool:
-    """Whether a document has to go through xacro before it is URDF.
+def first_xacro(document: Element) -> Element | None:
+    """The first element for which a document has to go through xacro, or None.
 
-    It does when it has xacro's own elements or attributes, or when a substitution
+    It has to when it has xacro's own elements or attributes, or when a substitution
     stands where URDF wants a value. ``$(find …)`` in a Gazebo plugin or in a comment
     is no reason: xacro would fail there needlessly.
     """
     for element in document.iter():
         if element.tag.startswith("xacro:"):
-            return True
+            return element
         if any(name.startswith("xacro:") for name in element.attributes):
-            return True
+            return element
     robot = document if document.tag == "robot" else document.find("robot")
-    if robot is None:
-        return False
-    return any(
-        _has_substitution(element)
-        for part in robot.children
-        if part.tag in ("link", "joint", "material")
-        for element in part.iter()
+    parts = robot.children if robot is not None else []
+    return next(
+        (
+            element
+            for part in parts
+            if part.tag in ("link", "joint", "material")
+            for element in part.iter()
+            if _has_substitution(element)
+        ),
+        None,
     )
 
 

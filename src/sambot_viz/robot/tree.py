@@ -36,6 +36,7 @@ class Parts:
         robot: the <robot> element.
         excused: links that are loose only because their joint could not be read.
         nameless: links without a name, which a joint may have meant.
+        doubled: link names that are used twice, so that a joint may mean either.
     """
 
     links: dict[str, Link]
@@ -45,6 +46,7 @@ class Parts:
     robot: Element
     excused: set[str] = field(default_factory=set[str])
     nameless: int = 0
+    doubled: set[str] = field(default_factory=set[str])
 
 
 def build_tree(parts: Parts, findings: Findings) -> Tree | None:
@@ -133,8 +135,8 @@ def _check_self_joints(parts: Parts, findings: Findings) -> None:
             element = parts.joint_elements[name]
             findings.error(
                 "joint-to-itself",
-                f"joint {name} connects {joint.child} to itself; ROS says nothing "
-                "and loses the link",
+                f"joint {name} connects {joint.child} to itself, so the link hangs "
+                "on nothing; ROS says nothing and does not show it",
                 "the child must be another link than the parent",
                 element.find("child") or element,
             )
@@ -149,7 +151,7 @@ def _parent_joints(parts: Parts, findings: Findings) -> dict[str, Joint]:
     chosen: dict[str, Joint] = {}
     for link, joints in holders.items():
         chosen[link] = max(joints, key=lambda joint: joint.name)
-        if len(joints) > 1:
+        if len(joints) > 1 and link not in parts.doubled:
             _tell_two_parents(parts, findings, link, joints, chosen[link].name)
     return chosen
 

@@ -19,10 +19,10 @@ from sambot_viz.robot.tree import Parts, build_tree, is_fragment
 from sambot_viz.robot.xml import Element
 
 _OTHER_ROOTS = {
-    "sdf": "an SDF file (Gazebo)",
-    "world": "an SDF world (Gazebo)",
+    "sdf": "an SDF file of Gazebo",
+    "world": "an SDF world of Gazebo",
     "model": "a Gazebo model",
-    "mujoco": "a MuJoCo model (MJCF)",
+    "mujoco": "a MuJoCo model",
     "COLLADA": "a COLLADA mesh",
     "launch": "a launch file",
     "package": "a package manifest",
@@ -70,10 +70,10 @@ def read_urdf(
     parts = Parts({}, {}, {}, {}, robot)
     _read_links(parts, reader, findings)
     _read_joints(parts, findings)
-    name = _robot_name(parts, findings, expanded)
     if not parts.links and not parts.nameless:
         _tell_no_links(robot, findings)
         return None
+    name = _robot_name(parts, findings, expanded)
     check_mimics(parts.joints, parts.joint_elements, findings)
     tree = build_tree(parts, findings)
     if tree is None:
@@ -166,6 +166,7 @@ def _read_links(parts: Parts, reader: LinkReader, findings: Findings) -> None:
                 "give one of the two another name",
                 element,
             )
+            parts.doubled.add(name)
             continue
         if name.startswith("/"):
             findings.warn(

@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import importlib
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
@@ -33,11 +33,20 @@ class Refused(Exception):
 
 
 class Guard:
-    """Replaces xacro's evaluator and watches its paths."""
+    """Replaces xacro's evaluator and watches its paths.
 
-    def __init__(self, folder: str | None, roots: Callable[[], list[Path]]) -> None:
-        self._folder = os.path.realpath(folder) if folder else None
-        self._roots = roots
+    Attributes:
+        roots: the package folders that were found so far.
+    """
+
+    def __init__(self, folder: str | None) -> None:
+        """Prepare.
+
+        Args:
+            folder: the model's folder, or None when it has none.
+        """
+        self.roots: list[Path] = []
+        self._folder = Path(os.path.realpath(folder)) if folder else None
         self._namespaces: tuple[type, ...] = ()
 
     def install(self, xacro: Any) -> None:
@@ -116,9 +125,9 @@ class Guard:
             Refused: the real path, links followed, is elsewhere.
         """
         real = Path(os.path.realpath(path))
-        allowed = [Path(os.path.realpath(root)) for root in self._roots()]
+        allowed = [Path(os.path.realpath(root)) for root in self.roots]
         if self._folder is not None:
-            allowed.append(Path(self._folder))
+            allowed.append(self._folder)
         if not any(real.is_relative_to(root) for root in allowed):
             raise Refused(f"the file {path} is outside the model's folder")
 
