@@ -7,7 +7,7 @@ a frame to itself always works, even without any data.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,6 +42,21 @@ class Hop:
     transform: Transform
     static: bool
     stamp: float
+
+    @property
+    def start(self) -> str:
+        """The frame that the step leaves."""
+        return self.child if self.up else self.parent
+
+    @property
+    def end(self) -> str:
+        """The frame that the step reaches."""
+        return self.parent if self.up else self.child
+
+    @property
+    def step(self) -> Transform:
+        """The pose of `start` in `end`: what the step contributes to the product."""
+        return self.transform if self.up else self.transform.inverse()
 
 
 class FrameTree(FrameHierarchy):
@@ -261,15 +276,6 @@ class FrameTree(FrameHierarchy):
                 self._recent[child] = None
         for listener in tuple(self.listeners):
             listener(children)
-
-
-def names_of(hops: Iterable[Hop]) -> tuple[str, ...]:
-    """The frames that a chain passes, source first."""
-    names: list[str] = []
-    for hop in hops:
-        start, end = (hop.child, hop.parent) if hop.up else (hop.parent, hop.child)
-        names.extend((end,) if names else (start, end))
-    return tuple(names)
 
 
 def _hop(edge: Edge, *, up: bool) -> Hop:
