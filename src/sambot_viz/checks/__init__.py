@@ -21,6 +21,7 @@ def check(
     *,
     xacro_args: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
+    trusted: bool = True,
 ) -> list[Problem]:
     """Say everything that is wrong with a model.
 
@@ -28,6 +29,7 @@ def check(
         path: a URDF or xacro file, or a package folder.
         xacro_args: values for xacro's arguments.
         package_path: folders in which packages are looked for.
+        trusted: False for a model of unknown origin, as for `load_robot`.
 
     Returns:
         Errors first, then warnings, then notes; each in document order. Empty when
@@ -36,7 +38,9 @@ def check(
     from sambot_viz.robot import load_robot
 
     try:
-        robot = load_robot(path, xacro_args=xacro_args, package_path=package_path)
+        robot = load_robot(
+            path, xacro_args=xacro_args, package_path=package_path, trusted=trusted
+        )
     except RobotError as error:
         subject = Subject(os.fspath(path), None, ())
         return _in_order([*error.problems, *_look(subject)])

@@ -16,12 +16,6 @@ from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.packages import package_name
 
-LAUNCH_CODES = {
-    "launch-no-joint-states": "Nobody publishes joint states",
-    "launch-package-unknown": "A launch file that asks for a package by a wrong name",
-    "setup-py-name": "setup.py and package.xml name the package differently",
-}
-
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
 _TRUE = frozenset({"true", "1"})
 

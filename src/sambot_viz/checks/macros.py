@@ -31,7 +31,7 @@ def _called(subject: Subject) -> Iterator[str]:
     """Names that are called anywhere, whatever namespace they are called through."""
     for _, source in subject.sources.sources():
         for token in source.tags:
-            prefix, _, name = token.name.partition(":")
+            prefix, _, name = token.name.rpartition(":")
             if prefix == "xacro" and name == "call":
                 # A name that is put together cannot be known: any letters fit.
                 wanted = token.get("macro") or ""

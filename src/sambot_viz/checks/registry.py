@@ -12,6 +12,7 @@ from sambot_viz.checks.inertia import (
 )
 from sambot_viz.checks.launch_text import LAUNCH_TEXT_AS_YAML
 from sambot_viz.checks.macros import UNUSED_MACRO
+from sambot_viz.checks.mesh_files import MESH_EMPTY, MESH_LFS_POINTER
 from sambot_viz.checks.mesh_size import MESH_SIZE
 from sambot_viz.checks.names import NAME_WITH_BLANK, NAMES_DIFFER_IN_CASE
 from sambot_viz.checks.plain_name import XACRO_IN_URDF
@@ -22,6 +23,8 @@ RULES: tuple[Rule, ...] = (
     LIMIT_IN_DEGREES,
     RPY_IN_DEGREES,
     SIZE_NOT_POSITIVE,
+    MESH_LFS_POINTER,
+    MESH_EMPTY,
     MESH_SIZE,
     WHEEL_NOT_ON_GROUND,
     NAMES_DIFFER_IN_CASE,

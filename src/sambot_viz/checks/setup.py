@@ -18,13 +18,6 @@ from sambot_viz.robot.model import Robot
 _DESCRIPTION = "robot_description"
 _MANAGER = "Visualization Manager"
 
-SETUP_CODES: Mapping[str, str] = {
-    "setup-fixed-frame": "A fixed frame that the robot does not have",
-    "setup-description-volatile": "A robot description read with Volatile durability",
-    "setup-description-topic": "A robot description read from an unusual topic",
-    "setup-no-robot-model": "A config without a RobotModel display",
-}
-
 
 class DisplayLike(Protocol):
     """What is needed of a display of an `RvizConfig`."""

@@ -18,6 +18,7 @@ _NOT_UTF8 = re.compile("[\ufffd\ud800-\udfff]")
 _YAML = re.compile(r"(?:---\s*\n|[\w /]+:(?:\s|$))")
 _PYTHON = re.compile(r"(?:#!.*python|import \w|from [\w.]+ import )")
 _LFS = "version https://git-lfs.github.com/spec/"
+_GIVE = "give a URDF or xacro file"
 _WRITE = '<?xml version="1.0"?>'
 
 
@@ -33,28 +34,28 @@ def whole_file_problem(source: Source, file: str) -> Problem | None:
 def _other_kind(text: str) -> tuple[str, str, str] | None:
     start = text.lstrip("\ufeff \t\r\n")
     if not start:
-        return "xml-empty", "the file is empty", "write <robot> and links into it"
+        return "model-empty", "the file is empty", "write <robot> and links into it"
     if start.startswith(_LFS):
         return (
-            "git-lfs-pointer",
+            "model-lfs-pointer",
             "this is a git-LFS pointer, not the file itself",
             "run git lfs pull in its repository",
         )
     if re.match(r"(?i)<!doctype\s+html|<html[\s>]", start):
         return (
-            "xml-html-page",
+            "model-html-page",
             "this is a web page (HTML), not a robot: the page around the file was "
             "saved instead of the file",
             "download the raw file",
         )
     if start.startswith("PK\x03\x04"):
-        return "xml-archive", "this is a zip archive", "unpack it and give the model"
+        return "model-not-xml", "this is a zip archive", "unpack it and give the model"
     if start.startswith("\x1f\ufffd") or start.startswith("\x1f\udc8b"):
-        return "xml-archive", "this is a gzip archive", "unpack it and give the model"
+        return "model-not-xml", "this is a gzip archive", "unpack it and give the model"
     if "\x00" in text[:200]:
         return _with_zeros(text)
     if start[0] in "{[" and "<" not in start[:20]:
-        return "xml-json", "this is JSON, not XML", "give a URDF or xacro file"
+        return "model-not-xml", "this is JSON, not XML", _GIVE
     if "<" not in text:
         return _without_tags(start)
     return None
@@ -67,18 +68,22 @@ def _with_zeros(text: str) -> tuple[str, str, str]:
             "the file is written in UTF-16",
             "save it as UTF-8 (in the editor: Save with encoding)",
         )
-    return "xml-not-xml", "this is a binary file, not XML", "give a URDF or xacro file"
+    return (
+        "model-not-xml",
+        "this is a binary file, not XML",
+        "give a URDF or xacro file",
+    )
 
 
 def _without_tags(start: str) -> tuple[str, str, str]:
-    hint = "give a URDF or xacro file: it begins with <robot name=…>"
+    hint = f"{_GIVE}: it begins with <robot name=…>"
     if start.startswith("solid "):
-        return "xml-not-xml", "this is an STL mesh, not a robot", hint
+        return "model-not-xml", "this is an STL mesh, not a robot", hint
     if _PYTHON.match(start):
-        return "xml-not-xml", "this is a Python program, not a robot", hint
+        return "model-not-xml", "this is a Python program, not a robot", hint
     if _YAML.match(start):
-        return "xml-not-xml", "this is YAML, not XML", hint
-    return "xml-not-xml", "this is not XML: there is no tag in it", hint
+        return "model-not-xml", "this is YAML, not XML", hint
+    return "model-not-xml", "this is not XML: there is no tag in it", hint
 
 
 def prolog_problems(source: Source, file: str) -> list[Problem]:
