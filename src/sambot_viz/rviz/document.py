@@ -11,7 +11,7 @@ import yaml
 
 from sambot_viz.errors import ConfigError, Problem
 from sambot_viz.rviz.faults import explain_yaml, other_format
-from sambot_viz.rviz.nodes import Map, Node, Scalar, same
+from sambot_viz.rviz.nodes import Map, Node, Scalar, copied, same
 from sambot_viz.rviz.parser import ParseFault, parse
 from sambot_viz.rviz.writer import Writer
 
@@ -43,7 +43,7 @@ class Document:
         self._text = text.removeprefix("\ufeff")
         self._newline = "\r\n" if "\r\n" in self._text else "\n"
         self.root = self._read()
-        self._saved = text
+        self._saved: Node | None = None
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Document:
@@ -123,8 +123,10 @@ class Document:
 
     @property
     def modified(self) -> bool:
-        """Whether a save would write another text than the last one."""
-        return self.to_yaml() != self._saved
+        """Whether the file says something else than when it was read or saved."""
+        if self._saved is None:
+            return self.root.changed if self.root.span else bool(self.root.entries)
+        return not same(self.root, self._saved)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the file; readers see the old one or the new one, never half of it.
@@ -147,7 +149,7 @@ class Document:
                 "choose another place",
                 os.fspath(path),
             ) from error
-        self._saved = text
+        self._saved = copied(self.root)
         self.file = os.fspath(path)
 
 

@@ -52,6 +52,7 @@ class ConfigItem:
         self._values: dict[str, Any] = {}
         self._declared: dict[str, Declared] = {}
         self._given: set[str] = set()
+        self._unreadable: set[str] = set()
         self._fresh = Fresh(self._declared, self._values)
         self._top = tuple(p for p in declared if self._ros1 or not p.ros1_only)
         for prop in self._top:
@@ -76,12 +77,19 @@ class ConfigItem:
         self._declared[path] = declared
         if prop.has_value and not prop.read_only:
             value = prop.read(found, self._report)
-            if value is not None:
-                self._given.add(path)
-            default = prop.default_in(self._ros1)
-            self._values[path] = default if value is None else value
+            self._note(path, prop, found, value)
         for child in prop.children:
             self._read(child, declared.keys, found, declared)
+
+    def _note(self, path: str, prop: Property, found: Node | None, value: Any) -> None:
+        """Keep a value that was read, or the default where there was none."""
+        if value is not None:
+            self._given.add(path)
+        elif found is not None and not (
+            isinstance(found, Map) and prop.components(prop.default) is None
+        ):
+            self._unreadable.add(path)
+        self._values[path] = prop.default_in(self._ros1) if value is None else value
 
     def _report(self, node: Node, message: str, hint: str) -> None:
         self._findings.add("config-value", node, message, hint)
@@ -134,12 +142,13 @@ class ConfigItem:
             raise self._unknown(path)
         declared = self._declared[path]
         prop, new = declared.property, declared.property.coerce(value)
-        if prop.agrees(new, self._values[path]):
+        if prop.agrees(new, self._values[path]) and path not in self._unreadable:
             self._values[path] = new
             return new
         self._write(declared, new)
         self._values[path] = new
         self._given.add(path)
+        self._unreadable.discard(path)
         return new
 
     def is_shown(self, path: str) -> bool:

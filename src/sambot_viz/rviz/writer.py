@@ -25,13 +25,23 @@ class Writer:
         self._text = text
         self._newline = newline
         self._anew = text == ""
+        self._changed: dict[int, bool] = {}
 
     def document(self, root: Node) -> str:
         """The whole file."""
+        self._note_changes(root)
         if self._anew or root.span is None or not self._can_patch(root):
             return self._fresh_root(root)
         before, after = self._text[: root.span.start], self._text[root.span.end :]
         return before + self._patched(root) + after
+
+    def _note_changes(self, node: Node) -> bool:
+        """Find out once what has changed, in every node below this one too."""
+        changed = node.changed if isinstance(node, Scalar) else node.reshaped
+        if isinstance(node, Collection):
+            changed |= any([self._note_changes(e.value) for e in node.entries])
+        self._changed[id(node)] = changed
+        return changed
 
     def _fresh_root(self, root: Node) -> str:
         head = "" if root.span is None or self._anew else self._text[: root.span.start]
@@ -43,7 +53,7 @@ class Writer:
         """Whether the old text of a node can be kept, with changes in it."""
         if self._anew or node.span is None:
             return False
-        if not node.changed:
+        if not self._changed[id(node)]:
             return True
         if node.alias:
             return False
@@ -57,7 +67,7 @@ class Writer:
     def _patched(self, node: Node, flow: bool = False) -> str:
         """The old text of a node with the changes in it."""
         start, end = _bounds(node)
-        if not node.changed:
+        if not self._changed[id(node)]:
             return self._text[start:end]
         if isinstance(node, Scalar):
             text = scalar_text(node, flow)
