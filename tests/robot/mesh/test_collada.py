@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sambot_viz.robot.meshes import Mesh, read_mesh
+from sambot_viz.robot.meshes import Mesh, MeshError, read_mesh
 
 Write = Callable[..., Path]
 
@@ -313,3 +313,15 @@ def test_a_skinned_mesh_stands_as_it_was_bound(write: Write) -> None:
     node = '<node><instance_controller url="#c"/></node>'
     mesh = read_mesh(write("a.dae", collada(node=node, extra=extra)))
     assert np.allclose(mesh.bounds, [[10, 0, 0], [12, 1, 0]])
+
+
+def test_a_few_lines_that_unfold_to_millions_of_nodes_are_refused(write: Write) -> None:
+    levels = "".join(
+        f'<node id="n{k}"><instance_node url="#n{k + 1}"/>'
+        f'<instance_node url="#n{k + 1}"/></node>'
+        for k in range(40)
+    )
+    extra = f"<library_nodes>{levels}</library_nodes>"
+    node = '<node><instance_node url="#n0"/></node>'
+    with pytest.raises(MeshError, match="more than 100000 nodes"):
+        read_mesh(write("a.dae", collada(node=node, extra=extra)))

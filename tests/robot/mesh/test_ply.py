@@ -93,3 +93,9 @@ def test_a_point_cloud_is_no_mesh(write: Write) -> None:
     text += "property float y\nproperty float z\nend_header\n0 0 0\n"
     with pytest.raises(MeshError, match="no triangles"):
         read_mesh(write("a.ply", text))
+
+
+def test_a_property_listed_twice_is_refused(write: Write) -> None:
+    data = binary("<", [(0, 1, 2)]).replace(b"float y", b"float x")
+    with pytest.raises(MeshError, match="a property of vertex twice"):
+        read_mesh(write("a.ply", data))

@@ -18,6 +18,10 @@ from sambot_viz.errors import Problem
 from sambot_viz.robot.mesh.model import Mesh, MeshPart, Texture, mesh_error
 from sambot_viz.robot.model import Rgba
 
+MOST_NODES = 100_000
+MOST_TRIANGLES = 20_000_000
+"""Meshes that unfold to more than this are refused."""
+
 Floats = npt.NDArray[np.floating[Any]]
 Ints = npt.NDArray[np.integer[Any]]
 
@@ -50,12 +54,35 @@ class Findings:
     path: Path
     problems: list[Problem] = field(default_factory=list[Problem])
     files: list[Path] = field(default_factory=list[Path])
+    nodes: int = 0
+    triangles: int = 0
 
     def warn(self, code: str, message: str, hint: str = "") -> None:
         """Note something doubtful."""
         problem = Problem("warning", code, message, hint, str(self.path))
         if problem not in self.problems:
             self.problems.append(problem)
+
+    def spend(self, *, nodes: int = 0, triangles: int = 0) -> None:
+        """Count what a file unfolds to: a few lines can name a shape a million times.
+
+        Raises:
+            MeshError: more than a browser can be expected to show.
+        """
+        self.nodes += nodes
+        self.triangles += triangles
+        if self.nodes > MOST_NODES or self.triangles > MOST_TRIANGLES:
+            what = (
+                f"{MOST_NODES} nodes"
+                if self.nodes > MOST_NODES
+                else f"{MOST_TRIANGLES} triangles"
+            )
+            raise mesh_error(
+                self.path,
+                "mesh-too-large",
+                f"the mesh has more than {what}, too many for a browser",
+                "reduce its triangles",
+            )
 
     def read(self, path: Path) -> None:
         """Note that a file beside the mesh was read."""

@@ -86,6 +86,7 @@ class _Scene:
                 f"nested more than {_DEEPEST} deep; the rest is left out",
             )
             return
+        self.findings.spend(nodes=1)
         T_root_node = T @ _local_transform(node)
         for child in node:
             if child.tag == "node":
@@ -122,6 +123,7 @@ class _Scene:
             self._geometries[id(element)] = geometry
         bound = self.materials.bindings(instance)
         for primitives in geometry:
+            self.findings.spend(triangles=len(primitives.faces))
             look = self.materials.look(primitives.symbol, bound)
             yield placed(
                 Piece(

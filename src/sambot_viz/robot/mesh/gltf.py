@@ -142,10 +142,12 @@ class _Scene:
     def _node(self, number: int, T: Matrix, depth: int) -> Iterator[Piece]:
         if depth > _DEEPEST:
             raise Broken(f"its nodes contain themselves or nest over {_DEEPEST} deep")
+        self.findings.spend(nodes=1)
         node = entry(self.document, "nodes", number)
         T_mesh_node = T @ _local_transform(node)
         if "mesh" in node:
             for piece in self._mesh(node["mesh"]):
+                self.findings.spend(triangles=len(piece.faces))
                 yield placed(piece, T_mesh_node)
         for child in numbers(node, "children"):
             yield from self._node(child, T_mesh_node, depth + 1)
@@ -169,31 +171,32 @@ class _Scene:
         attributes = section(primitive, "attributes")
         if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:
             return None
-        vertices = self.accessors.array(attributes["POSITION"])
+        vertices = self.accessors.array(attributes["POSITION"], 3)
         if "indices" in primitive:
-            index = self.accessors.array(primitive["indices"])[:, 0].astype(np.int64)
+            index = self.accessors.array(primitive["indices"], 1)[:, 0]
+            index = index.astype(np.int64)
         else:
             index = np.arange(len(vertices), dtype=np.int64)
         look, uv_set = self.materials.look(primitive.get("material"))
         return Piece(
             vertices=vertices.astype(np.float64),
             faces=_faces(index, mode),
-            normals=self._attribute(attributes, "NORMAL", len(vertices)),
+            normals=self._attribute(attributes, "NORMAL", 3, len(vertices)),
             rgba=look.rgba,
             uv=self._uv(attributes, uv_set, len(vertices)) if look.texture else None,
             texture=look.texture,
         )
 
     def _attribute(
-        self, attributes: Json, name: str, count: int
+        self, attributes: Json, name: str, width: int, count: int
     ) -> npt.NDArray[Any] | None:
         if name not in attributes:
             return None
-        array = self.accessors.array(attributes[name])
+        array = self.accessors.array(attributes[name], width)
         return array.astype(np.float32) if len(array) == count else None
 
     def _uv(self, attributes: Json, uv_set: int, count: int) -> npt.NDArray[Any] | None:
-        uv = self._attribute(attributes, f"TEXCOORD_{uv_set}", count)
+        uv = self._attribute(attributes, f"TEXCOORD_{uv_set}", 2, count)
         # v = 0 is the first row of the image in glTF, and the last one here.
         return None if uv is None else np.column_stack([uv[:, 0], 1 - uv[:, 1]])
 

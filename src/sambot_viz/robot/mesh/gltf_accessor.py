@@ -19,6 +19,7 @@ _TYPES: dict[int, str] = {
     5125: "<u4",
     5126: "<f4",
 }
+_MOST_ZEROS = 2**24
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
@@ -40,18 +41,17 @@ class Accessors:
             raise Broken(f"a buffer view ends at byte {end} of {len(data)}")
         return data[start:end]
 
-    def array(self, number: object) -> npt.NDArray[Any]:
+    def array(self, number: object, width: int) -> npt.NDArray[Any]:
         """(count, width) of whatever type the file uses, normalized ones as floats."""
         accessor = entry(self.document, "accessors", number)
         dtype = np.dtype(_TYPES.get(whole(accessor, "componentType"), "V0"))
-        width = _WIDTHS.get(str(accessor.get("type")), 0)
         count = whole(accessor, "count")
-        if not dtype.itemsize or not width:
-            raise Broken("an accessor has an unknown type")
+        if not dtype.itemsize or _WIDTHS.get(str(accessor.get("type"))) != width:
+            raise Broken("an accessor has an unknown or an unexpected type")
         if "bufferView" in accessor:
             start = whole(accessor, "byteOffset", 0)
             table = self._table(accessor["bufferView"], start, count, dtype, width)
-        elif count > 2**28:
+        elif count > _MOST_ZEROS:
             raise Broken(f"an accessor announces {count} entries without data")
         else:
             table = np.zeros((count, width), dtype=dtype)

@@ -124,6 +124,10 @@ def _header(data: bytes) -> tuple[list[_Element], _Body]:
             elements[-1].properties.append(_property(words))
     if not order:
         raise _Broken("its header names no known format")
+    for element in elements:
+        if len({entry.name for entry in element.properties}) < len(element.properties):
+            raise _Broken(f"its header lists a property of {element.name} twice")
+    elements = [element for element in elements if element.properties]
     return elements, _Body(data[start:], order)
 
 
