@@ -298,3 +298,25 @@ def test_a_frame_can_be_declared_before_any_transform_names_it() -> None:
         tree.declare("")
     tree.clear()
     assert tree.frames == ()
+
+
+def test_an_answer_never_outlives_a_change(tree: FrameTree) -> None:
+    tree.update({"wheel": at(1).matrix})
+    assert tree.lookup("base_link", "wheel").translation[0] == 1
+    tree.update({"wheel": at(2).matrix})
+    assert tree.lookup("base_link", "wheel").translation[0] == 2
+    tree.set("base_link", "wheel", at(3))
+    assert tree.lookup("base_link", "wheel").translation[0] == 3
+    tree.remove("wheel")
+    with pytest.raises(LookupRefused):
+        tree.lookup("base_link", "wheel")
+
+
+def test_all_pairs_of_many_frames_can_be_asked_for() -> None:
+    tree = FrameTree()
+    for i in range(80):
+        tree.set("root", f"f{i}", at(i))
+    for target in tree.frames:
+        for source in tree.frames:
+            tree.lookup(target, source)
+    assert tree.lookup("f3", "f10").translation[0] == 7

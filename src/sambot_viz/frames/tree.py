@@ -21,6 +21,9 @@ from sambot_viz.robot.model import Matrix
 FrameListener = Callable[[tuple[str, ...]], None]
 """Is called with the child frames whose transform was set or removed."""
 
+_SEEN_LIMIT = 4096
+"""So many answers are kept, lest asking for all pairs of frames fills the memory."""
+
 
 @dataclass(frozen=True, slots=True)
 class Hop:
@@ -77,6 +80,8 @@ class FrameTree(FrameHierarchy):
         self.listeners: list[FrameListener] = []
         self._recent: dict[str, None] = {}
         self._removed_at = 0
+        # The answers since the last change: whoever asks twice pays once.
+        self._seen: dict[tuple[str, str], Transform] = {}
 
     # Setting
 
@@ -202,17 +207,12 @@ class FrameTree(FrameHierarchy):
             LookupRefused: a frame that does not exist (the target is tested first),
                 or frames of separate trees; with the texts of tf2 and RViz.
         """
-        path = self._paths.get((target, source))
-        if path is None:
-            path = self._path(target, source)
-        below, above = path
-        if not above and len(below) == 1:
-            return below[0].transform
-        # A list inside tuple() is faster than a generator here.
-        return along(
-            tuple([edge.transform for edge in below]),
-            tuple([edge.transform for edge in above]),
-        )
+        seen = self._seen.get((target, source))
+        if seen is None:
+            if len(self._seen) >= _SEEN_LIMIT:
+                self._seen.clear()
+            seen = self._seen[target, source] = self._look(target, source)
+        return seen
 
     def can_lookup(self, target: str, source: str) -> bool:
         """Whether `lookup` has an answer."""
@@ -265,8 +265,19 @@ class FrameTree(FrameHierarchy):
 
     # Inside
 
+    def _look(self, target: str, source: str) -> Transform:
+        below, above = self._path(target, source)
+        if not above and len(below) == 1:
+            return below[0].transform
+        # A list inside tuple() is faster than a generator here.
+        return along(
+            tuple([edge.transform for edge in below]),
+            tuple([edge.transform for edge in above]),
+        )
+
     def _changed(self, children: tuple[str, ...]) -> None:
         self.revision += 1
+        self._seen.clear()
         for child in children:
             edge = self._edges.get(child)
             if edge is not None:
