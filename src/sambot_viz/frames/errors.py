@@ -19,7 +19,6 @@ TransformFault = Literal[
     "TF_NO_CHILD_FRAME_ID",
     "TF_NAN_INPUT",
     "TF_DENORMALIZED_QUATERNION",
-    "TF_OLD_DATA",
 ]
 
 
