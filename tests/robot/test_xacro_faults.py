@@ -5,14 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from sambot_viz.errors import Problem
-from sambot_viz.robot.xacro import (
-    Definition,
-    ExpansionError,
-    XacroCall,
-    XacroFailure,
-    expand_model,
-)
+from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot import load_robot
+from sambot_viz.robot.xacro import Definition, XacroCall, XacroFailure
 from sambot_viz.robot.xacro_faults import explain_xacro
 
 Explain = Callable[..., Problem]
@@ -252,9 +247,9 @@ def test_what_xacro_really_reports_is_explained_at_its_line(tmp_path: Path) -> N
     file = tmp_path / "r.xacro"
     file.write_text(f'{HEAD}<link\n  name="${{radius}}"/>\n</robot>\n')
 
-    with pytest.raises(ExpansionError) as caught:
-        expand_model(str(file), None, arguments={}, package_path=[], trusted=True)
+    with pytest.raises(RobotError) as caught:
+        load_robot(file)
 
-    (problem,) = explain_xacro(caught.value.failure, str(file))
+    (problem,) = caught.value.problems
     assert problem.code == "xacro-undefined-name"
     assert problem.line == 3

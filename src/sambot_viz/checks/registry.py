@@ -15,7 +15,6 @@ from sambot_viz.checks.macros import UNUSED_MACRO
 from sambot_viz.checks.mesh_files import MESH_EMPTY, MESH_LFS_POINTER
 from sambot_viz.checks.mesh_size import MESH_SIZE
 from sambot_viz.checks.names import NAME_WITH_BLANK, NAMES_DIFFER_IN_CASE
-from sambot_viz.checks.plain_name import XACRO_IN_URDF
 from sambot_viz.checks.rule import Rule
 from sambot_viz.checks.shapes import ALPHA_ZERO, SIZE_NOT_POSITIVE
 
@@ -29,7 +28,6 @@ RULES: tuple[Rule, ...] = (
     WHEEL_NOT_ON_GROUND,
     NAMES_DIFFER_IN_CASE,
     NAME_WITH_BLANK,
-    XACRO_IN_URDF,
     UNUSED_MACRO,
     LAUNCH_TEXT_AS_YAML,
     INERTIA_ON_ROOT,

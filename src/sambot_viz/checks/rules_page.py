@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sambot_viz.checks.registry import RULES
-from sambot_viz.checks.samples import Sample, all_samples
+from sambot_viz.checks.samples import Sample, all_samples, problems_of
 from sambot_viz.errors import Problem
 
 PAGE = Path(__file__).with_name("RULES.md")
@@ -55,7 +55,7 @@ def _model(sample: Sample) -> str:
 
 
 def _own(sample: Sample) -> Problem:
-    return next(p for p in sample.problems() if p.code == sample.code)
+    return next(p for p in problems_of(sample.code) if p.code == sample.code)
 
 
 def _row(sample: Sample) -> str:

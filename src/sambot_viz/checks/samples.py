@@ -77,6 +77,13 @@ def all_samples() -> tuple[Sample, ...]:
     return (*_of_rules(), *_written())
 
 
+@cache
+def problems_of(code: str) -> tuple[Problem, ...]:
+    """What is said about the sample of a code; it is checked once."""
+    sample = next(sample for sample in all_samples() if sample.code == code)
+    return tuple(sample.problems())
+
+
 def _of_rules() -> Iterator[Sample]:
     for rule in RULES:
         files = {rule.example_name: rule.example, **dict(rule.example_files)}

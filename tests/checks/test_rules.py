@@ -1,0 +1,309 @@
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check, check_robot
+from sambot_viz.checks.mesh_size import mesh_extents
+from sambot_viz.errors import Problem
+from sambot_viz.robot import load_robot
+
+Checked = Callable[..., list[Problem]]
+
+TWO_LINKS = '<link name="a"/>\n<link name="b"/>\n'
+
+
+@pytest.fixture
+def checked(tmp_path: Path) -> Checked:
+    """Checks a robot with these lines behind <robot …>; says one code or all."""
+
+    def run(body: str, code: str = "", name: str = "r.urdf") -> list[Problem]:
+        file = tmp_path / name
+        xmlns = ' xmlns:xacro="http://www.ros.org/wiki/xacro"'
+        head = f'<robot name="r"{xmlns if name.endswith("xacro") else ""}>'
+        file.write_text(f"{head}\n{body}\n</robot>\n")
+        found = check(file)
+        assert not code or all(p.severity != "error" for p in found), found
+        return [p for p in found if p.code == code] if code else found
+
+    return run
+
+
+def joint(inner: str, kind: str = "revolute") -> str:
+    return (
+        f'{TWO_LINKS}<joint name="j" type="{kind}">\n<parent link="a"/>\n'
+        f'<child link="b"/>\n{inner}\n</joint>'
+    )
+
+
+def limit(lower: str, upper: str) -> str:
+    return f'<limit lower="{lower}" upper="{upper}" effort="1" velocity="1"/>'
+
+
+def visual(inner: str) -> str:
+    return f'<link name="a">\n<visual>\n{inner}\n</visual>\n</link>'
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "degrees"),
+    [
+        ("-90", "90", True),
+        ("0", "45", True),
+        ("-180", "22.5", True),
+        ("-1.57", "1.57", False),
+        ("-6.2832", "6.2832", False),
+        ("-12.566", "12.566", False),
+        ("-1e16", "1e16", False),
+        ("-10000", "10000", False),
+        ("0", "0", False),
+    ],
+)
+def test_limits_look_like_degrees_only_when_round_and_beyond_a_turn(
+    checked: Checked, lower: str, upper: str, degrees: bool
+) -> None:
+    assert bool(checked(joint(limit(lower, upper)), "limit-in-degrees")) is degrees
+
+
+def test_a_prismatic_joint_may_have_large_limits(checked: Checked) -> None:
+    body = joint(limit("-90", "90"), "prismatic")
+
+    assert checked(body, "limit-in-degrees") == []
+
+
+@pytest.mark.parametrize(
+    ("rpy", "degrees"),
+    [
+        ("90 0 0", True),
+        ("0 -45 180", True),
+        ("1.5708 0 3.14159", False),
+        ("7.854 0 0", False),
+        ("0 0 6.2832", False),
+        ("1 2 3", False),
+    ],
+)
+def test_rpy_looks_like_degrees_only_when_round_and_beyond_a_turn(
+    checked: Checked, rpy: str, degrees: bool
+) -> None:
+    body = joint(f'<origin rpy="{rpy}"/>', "fixed")
+
+    assert bool(checked(body, "rpy-in-degrees")) is degrees
+
+
+def test_the_rpy_of_an_inertia_is_pointed_at(checked: Checked) -> None:
+    body = (
+        '<link name="a">\n<inertial>\n<origin rpy="0 0 90"/>\n<mass value="1"/>\n'
+        '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>\n</inertial>'
+        "\n</link>"
+    )
+
+    (problem,) = checked(body, "rpy-in-degrees")
+    assert problem.line == 4
+
+
+WHEEL = """
+<link name="base_link"/>
+<link name="base_footprint"/>
+<link name="wheel"><visual><origin rpy="1.5708 0 0"/>
+<geometry><cylinder radius="0.1" length="0.02"/></geometry></visual></link>
+<joint name="f" type="fixed"><parent link="base_link"/><child link="base_footprint"/>
+<origin xyz="0 0 {foot}"/></joint>
+<joint name="w" type="continuous"><parent link="base_link"/><child link="wheel"/>
+<origin xyz="0 0.2 {wheel}"/><axis xyz="0 1 0"/></joint>
+"""
+
+
+@pytest.mark.parametrize(
+    ("foot", "wheel", "said"),
+    [
+        ("-0.15", "-0.05", ""),
+        ("-0.15", "-0.052", ""),
+        ("-0.15", "0", "0.05 m above"),
+        ("-0.1", "-0.05", "0.05 m below"),
+    ],
+)
+def test_a_wheel_has_to_touch_the_ground_of_base_footprint(
+    checked: Checked, foot: str, wheel: str, said: str
+) -> None:
+    found = checked(WHEEL.format(foot=foot, wheel=wheel), "wheel-not-on-ground")
+
+    assert [said in p.message for p in found] == ([True] if said else [])
+
+
+def test_a_turning_laser_is_no_wheel(checked: Checked) -> None:
+    body = WHEEL.format(foot="-0.15", wheel="0.5").replace('"0 1 0"', '"0 0 1"')
+
+    assert checked(body, "wheel-not-on-ground") == []
+
+
+def test_names_that_differ_in_case_name_both(checked: Checked) -> None:
+    body = joint("", "fixed").replace('"b"', '"A"')
+
+    (problem,) = checked(body, "names-differ-in-case")
+    assert problem.message.startswith("the link names a (line 2) and A differ")
+    assert problem.line == 3
+
+
+MACRO = '<xacro:macro name="m" params="n">\n<link name="${n}"/>\n</xacro:macro>\n'
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        '<xacro:m n="a"/>',
+        '<xacro:call macro="m" n="a"/>',
+        '<xacro:property name="x" value="m"/><xacro:call macro="${x}" n="a"/>',
+    ],
+)
+def test_a_macro_that_is_called_somehow_is_not_unused(
+    checked: Checked, call: str
+) -> None:
+    assert checked(MACRO + call, "unused-macro", "r.xacro") == []
+
+
+def test_a_macro_of_an_included_library_may_stay_unused(
+    checked: Checked, tmp_path: Path
+) -> None:
+    (tmp_path / "lib.xacro").write_text(
+        f'<robot xmlns:xacro="http://www.ros.org/wiki/xacro">{MACRO}</robot>'
+    )
+
+    assert (
+        checked(
+            '<xacro:include filename="lib.xacro"/>\n<link name="a"/>',
+            "unused-macro",
+            "r.xacro",
+        )
+        == []
+    )
+
+
+def test_one_warning_names_every_line_that_stops_a_launch(checked: Checked) -> None:
+    body = '<!-- A: b -->\n<link name="a"/>\n<!-- c #1\n\td -->\n<!-- fine:yes#2 -->'
+
+    (problem,) = checked(body, "launch-text-as-yaml")
+    assert problem.line == 2
+    assert "(the same on lines 4, 5)" in problem.message
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<!-- A: gone with the macro -->\n<xacro:m n="a"/>',
+        '<xacro:m n="a"/>\n<xacro:if value="false"><!-- A: gone --></xacro:if>',
+        "<xacro:m n=\"${'a: b'[0]}\"/>",
+    ],
+)
+def test_what_xacro_takes_away_stops_no_launch(checked: Checked, body: str) -> None:
+    assert checked(MACRO + body, "launch-text-as-yaml", "r.xacro") == []
+
+
+def test_the_inertia_of_a_real_body_is_accepted(checked: Checked) -> None:
+    body = joint("", "fixed").replace(
+        '<link name="b"/>',
+        '<link name="b"><inertial><mass value="1"/><inertia ixx="0.02" ixy="0" ixz="0" '
+        'iyy="0.01" iyz="0" izz="0.01"/></inertial></link>',
+    )
+
+    assert checked(body) == []
+
+
+@pytest.mark.parametrize(
+    ("mass", "inertia", "said"),
+    [
+        ("-1", (1, 0, 0, 1, 0, 1), "mass -1 is negative"),
+        ("1", (-1, 0, 0, 1, 0, 1), "negative"),
+        ("1", (1, 5, 0, 1, 0, 1), "too large"),
+        ("1", (5, 0, 0, 1, 0, 1), "larger than the sum"),
+    ],
+)
+def test_an_impossible_inertia_is_told_why(
+    checked: Checked, mass: str, inertia: tuple[float, ...], said: str
+) -> None:
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    values = " ".join(f'{n}="{v}"' for n, v in zip(names, inertia, strict=True))
+    body = joint("", "fixed").replace(
+        '<link name="b"/>',
+        f'<link name="b"><inertial><mass value="{mass}"/><inertia {values}/>'
+        "</inertial></link>",
+    )
+
+    (problem,) = checked(body, "inertia-impossible")
+    assert said in problem.message
+
+
+def stl(*corners: tuple[float, float, float]) -> bytes:
+    triangle = struct.pack("<12fH", 0, 0, 1, *(x for c in corners for x in c), 0)
+    return bytes(80) + struct.pack("<I", 1) + triangle
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("p.stl", stl((0, 0, 0), (2, 0, 0), (0, 3, 4))),
+        (
+            "p.stl",
+            b"solid p\n vertex 0 0 0\n vertex 2 0 0\n vertex 0 3 4\nendsolid p\n",
+        ),
+        ("p.obj", b"# p\nv 0 0 0\nv 2 0 0\nv 0 3 4\nf 1 2 3\n"),
+    ],
+)
+def test_the_size_of_a_mesh_is_read_without_a_mesh_library(
+    tmp_path: Path, name: str, content: bytes
+) -> None:
+    file = tmp_path / name
+    file.write_bytes(content)
+
+    assert mesh_extents(file) == (2, 3, 4)
+
+
+@pytest.mark.parametrize("content", [b"", b"solid", b"v x y z", bytes(90)])
+def test_a_broken_mesh_has_no_size(tmp_path: Path, content: bytes) -> None:
+    for name in ("p.stl", "p.obj"):
+        file = tmp_path / name
+        file.write_bytes(content)
+        assert mesh_extents(file) is None
+
+
+def test_a_mesh_in_millimetres_gets_the_scale_it_needs(
+    checked: Checked, tmp_path: Path
+) -> None:
+    (tmp_path / "p.stl").write_bytes(stl((0, 0, 0), (200, 0, 0), (0, 30, 4)))
+    body = visual('<geometry><mesh filename="p.stl"{}/></geometry>')
+
+    (problem,) = checked(body.format(""), "mesh-size")
+    assert problem.hint.startswith('write scale="0.001 0.001 0.001"')
+    assert checked(body.format(' scale="0.001 0.001 0.001"'), "mesh-size") == []
+
+
+def test_a_robot_that_is_loaded_can_be_checked_without_reading_it_again(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "r.urdf"
+    file.write_text(f'<robot name="r">\n{joint(limit("-90", "90"))}\n</robot>\n')
+
+    robot = load_robot(file)
+
+    assert check_robot(robot, file) == check(file)
+
+
+def test_errors_come_first_then_warnings_then_notes(checked: Checked) -> None:
+    body = joint(f'{limit("-90", "90")}\n<axis xyz="0 0 0"/>').replace('"b"', '"b b"')
+
+    severities = [p.severity for p in checked(body)]
+
+    assert severities == ["error", "warning", "info", "info"] or severities == [
+        "error",
+        "warning",
+        "info",
+    ]
+
+
+def test_a_model_that_is_not_there_is_a_problem_and_no_exception(
+    tmp_path: Path,
+) -> None:
+    (problem,) = check(tmp_path / "nothing.urdf")
+
+    assert problem.severity == "error"
