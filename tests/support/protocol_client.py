@@ -27,8 +27,10 @@ a hidden text field of its own; the server's answer takes the same way as everyt
 that was queued before it, once through the buffer of all browsers and once through the
 buffer of this one. viser keeps the order in both directions, so what was sent before
 `settle` has been handled (as far as its callbacks are `async def` and wait for nothing
-outside the event loop), and every message that came of it has arrived. The messages of
-the fence itself are left out of `messages`.
+outside the event loop), and every message that came of it has arrived. What a program
+holds back on purpose, such as the later poses of a stream, comes when its timer says
+so: wait for that with `wait_until`. The messages of the fence itself are left out of
+`messages`.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+from collections.abc import Sequence
 from typing import Any, Literal, cast
 from urllib.parse import urlsplit
 
@@ -51,8 +52,8 @@ _PROJECT = """(() => {
   const node = nodeRefFromName[NAME];
   node.updateWorldMatrix(true, false);
   camera.updateMatrixWorld();
-  const point = camera.position.clone().setFromMatrixPosition(node.matrixWorld);
-  point.project(camera);
+  const point = camera.position.clone().set(...POINT);
+  node.localToWorld(point).project(camera);
   return [(point.x + 1) / 2 * canvas.width, (1 - point.y) / 2 * canvas.height];
 })()"""
 _POSE = """(() => {
@@ -119,9 +120,11 @@ class ViewerPage:
     def wait_until_drawn(self, timeout: float = 10.0) -> None:
         """Wait until every pose that has reached the page is in the picture."""
         self.page.wait_for(
+            # Hidden labels have a pose but, until they are shown, no object to pose.
             "__viserMutable.messageQueue.length === 0 && "
-            "Object.values(__viserMutable.nodePoseData)"
-            ".every(pose => !pose || pose.poseUpdateState !== 'needsUpdate')",
+            "Object.entries(__viserMutable.nodePoseData)"
+            ".every(([name, pose]) => pose?.poseUpdateState !== 'needsUpdate'"
+            " || !__viserMutable.nodeRefFromName[name])",
             timeout,
         )
         self.wait_for_frames()
@@ -143,7 +146,7 @@ class ViewerPage:
     def wait_for_slider(self, label: str, value: float, atol: float = 1e-6) -> None:
         """Wait until a slider shows `value`."""
         self.page.wait_for(
-            f"Math.abs({self._slider(label)}.ariaValueNow - {value}) <= {atol}"
+            f"Math.abs({self.slider_script(label)}.ariaValueNow - {value}) <= {atol}"
         )
 
     # Looking.
@@ -175,13 +178,28 @@ class ViewerPage:
         """The whole page as it is seen: (height, width, 4), RGBA, 0 to 255."""
         return _decode(self.page.screenshot())
 
-    def project(self, name: str) -> tuple[int, int]:
-        """Where the origin of a node is in `pixels`: (column, row)."""
-        x, y = cast(
-            tuple[float, float],
-            self.page.evaluate(_PROJECT.replace("NAME", json.dumps(name))),
-        )
+    def project(
+        self, name: str = "", point: Sequence[float] = (0.0, 0.0, 0.0)
+    ) -> tuple[int, int]:
+        """Where a point of a node is in `pixels`: (column, row).
+
+        Args:
+            name: the node; "" is viser's world, which is our fixed frame.
+            point: x, y, z in the node's coordinates [m].
+        """
+        script = _PROJECT.replace("NAME", json.dumps(name))
+        script = script.replace("POINT", json.dumps([float(v) for v in point]))
+        x, y = cast(tuple[float, float], self.page.evaluate(script))
         return round(x), round(y)
+
+    def is_covered(self, column: int, row: int) -> bool:
+        """Whether something of the page lies over this pixel of the 3D view."""
+        seen = (
+            "(() => { const r = __viserMutable.canvas.getBoundingClientRect();"
+            f" return document.elementFromPoint(r.x + {column}, r.y + {row})"
+            " === __viserMutable.canvas; })()"
+        )
+        return not self.page.evaluate(seen)
 
     @property
     def text(self) -> str:
@@ -191,18 +209,42 @@ class ViewerPage:
     def slider_value(self, label: str) -> float:
         """What the slider with this label shows."""
         return float(
-            cast(str, self.page.evaluate(f"{self._slider(label)}.ariaValueNow"))
+            cast(str, self.page.evaluate(f"{self.slider_script(label)}.ariaValueNow"))
         )
+
+    def slider_script(self, label: str) -> str:
+        """JavaScript for the slider with this label, for conditions to wait for."""
+        return f"{self._widget(label)}.querySelector('[role=slider]')"
 
     # Acting.
 
     def press_slider(self, label: str, key: SliderKey, times: int = 1) -> None:
         """Press a key while the slider with this label has the focus."""
-        slider = self._slider(label)
+        slider = self.slider_script(label)
         self.page.wait_for(slider)
         self.page.evaluate(f"{slider}.focus()")
         for _ in range(times):
             self.page.keyboard.press(key)
+
+    def drag_slider(self, label: str, fraction: float) -> None:
+        """Drag the slider's thumb with the mouse.
+
+        Args:
+            label: the slider's.
+            fraction: where to let go, from 0 (left end) to 1 (right end).
+        """
+        slider = self.slider_script(label)
+        self.page.wait_for(slider)
+        x, y, left, right = cast(
+            tuple[float, float, float, float],
+            self.page.evaluate(
+                "(thumb => { const t = thumb.getBoundingClientRect();"
+                " const all = thumb.parentElement.getBoundingClientRect();"
+                " return [t.x + t.width / 2, t.y + t.height / 2, all.left, all.right];"
+                f" }})({slider})"
+            ),
+        )
+        self.page.mouse.drag((x, y), (left + fraction * (right - left), y))
 
     def enter(self, label: str, text: str) -> None:
         """Replace what stands in the input field with this label, then leave it."""
@@ -252,9 +294,6 @@ class ViewerPage:
 
     def _widget(self, label: str) -> str:
         return _WIDGET.replace("LABEL", json.dumps(label))
-
-    def _slider(self, label: str) -> str:
-        return f"{self._widget(label)}.querySelector('[role=slider]')"
 
     def _pose_script(self, name: str, parent: str) -> str:
         script = _POSE.replace("PARENT", json.dumps(parent))

@@ -1,0 +1,139 @@
+"""The page of a running viewer, as a user meets it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from inside import node_of
+from viewer_page import Pixels, ViewerPage
+
+from sambot_viz import Visualizer, resources
+
+pytestmark = pytest.mark.browser
+
+Open = Callable[..., ViewerPage]
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+LINK = "drivewhl_l_link"
+
+
+@pytest.fixture
+def viz(tmp_path: Path) -> Iterator[Visualizer]:
+    """sam_bot, seen from the left and near enough to see a wheel turn."""
+    config = yaml.safe_load(resources.config_path().read_text("utf-8"))
+    view = config["Visualization Manager"]["Views"]["Current"]
+    view |= {"Distance": 1.2, "Yaw": 1.9, "Pitch": 0.4}
+    path = tmp_path / "near.rviz"
+    path.write_text(yaml.safe_dump(config), "utf-8")
+    with Visualizer(config=path, port=0) as viz:
+        yield viz
+
+
+def around(pixels: Pixels, place: tuple[int, int], size: int) -> Pixels:
+    """The square of pixels around a place, cut off at the edges."""
+    column, row = place
+    rows = slice(max(row - size, 0), row + size)
+    return pixels[rows, max(column - size, 0) : column + size]
+
+
+def changed(before: Pixels, after: Pixels) -> int:
+    """How many pixels differ visibly."""
+    difference = np.abs(before.astype(int) - after.astype(int)).max(axis=2)
+    return int(np.count_nonzero(difference > 10))
+
+
+def place_of(viz: Visualizer, frame: str) -> list[float]:
+    """x, y, z of a frame in the fixed frame [m]."""
+    return [float(v) for v in viz.frames.lookup("base_link", frame).translation]
+
+
+def wheel_place(viz: Visualizer, viewer: ViewerPage) -> tuple[int, int]:
+    """Where the left wheel is in the picture."""
+    return viewer.project("", place_of(viz, LINK))
+
+
+def wait_for_turn(viz: Visualizer, viewer: ViewerPage, angle: float) -> None:
+    """Wait until three.js shows the left wheel turned by `angle` [rad]."""
+    c, s = np.cos(angle), np.sin(angle)
+    T = np.eye(4)
+    T[:3, :3] = ((c, 0, s), (0, 1, 0), (-s, 0, c))
+    T[:3, 3] = place_of(viz, LINK)
+    viewer.wait_for_pose(node_of(viz, LINK), T, node_of(viz, "base_link"))
+
+
+def test_the_page_shows_robot_and_panels_and_asks_nobody_else(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, LINK))
+    for text in ("Grid", "RobotModel", "TF", "Fixed Frame", LEFT, RIGHT):
+        assert text in viewer.text
+    pixels = viewer.pixels()
+    background = (pixels == (48, 48, 48, 255)).all(axis=2)
+    assert np.count_nonzero(background) > background.size / 2
+    assert viewer.foreign_requests() == []
+    assert viewer.errors() == []
+
+
+def test_nothing_covers_the_robot_and_the_panels_stand_beside_it(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url, width=1280, height=720)
+    viewer.wait_for_nodes(node_of(viz, LINK))
+    for frame in ("base_link", LINK, "drivewhl_r_link", "front_caster"):
+        place = viewer.project("", place_of(viz, frame))
+        assert not viewer.is_covered(*place), frame
+
+
+def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, LINK))
+    before = viewer.pixels()
+    place = wheel_place(viz, viewer)
+    viewer.drag_slider(LEFT, 0.65)
+    shown = viewer.slider_value(LEFT)
+    assert shown == pytest.approx(0.3 * np.pi, abs=0.15)
+    wait_for_turn(viz, viewer, shown)
+    after = viewer.pixels()
+    assert changed(around(before, place, 80), around(after, place, 80)) > 20
+    assert changed(before[:100, :100], after[:100, :100]) == 0
+
+
+def test_two_browsers_stay_in_step(viz: Visualizer, open_viewer: Open) -> None:
+    first, second = open_viewer(viz.url), open_viewer(viz.url)
+    for viewer in (first, second):
+        viewer.wait_for_nodes(node_of(viz, LINK))
+    first.press_slider(LEFT, "End")
+    second.wait_for_slider(LEFT, np.pi, atol=0.01)
+    second.press_slider(LEFT, "Home")
+    first.wait_for_slider(LEFT, -np.pi, atol=0.01)
+    T = viz.frames.lookup("base_link", LINK).matrix
+    for viewer in (first, second):
+        viewer.wait_for_pose(node_of(viz, LINK), T, node_of(viz, "base_link"))
+
+
+def test_fifty_quick_steps_end_with_pose_and_slider_equal(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, LINK))
+    viewer.press_slider(LEFT, "ArrowRight", times=50)
+    shown = viewer.slider_value(LEFT)
+    assert shown > 0.04
+    wait_for_turn(viz, viewer, shown)
+    assert viz.joint_positions[LEFT] == pytest.approx(shown, abs=1e-6)
+
+
+def test_center_brings_the_wheels_back(viz: Visualizer, open_viewer: Open) -> None:
+    viz.set_joint_positions({LEFT: 1.0, RIGHT: -1.0})
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_slider(LEFT, 1.0, atol=0.01)
+    viewer.click_button("Center")
+    viewer.wait_for_slider(LEFT, 0.0)
+    viewer.wait_for_slider(RIGHT, 0.0)
+    assert viz.joint_positions[LEFT] == 0.0

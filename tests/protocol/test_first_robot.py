@@ -1,0 +1,116 @@
+"""What travels to the browsers of a running viewer, message by message."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from urllib.parse import urlsplit
+
+import pytest
+from inside import node_of, viser_server
+from protocol_client import ProtocolClient, Received
+
+from sambot_viz import Visualizer
+
+JOINT, LINK = "drivewhl_l_joint", "drivewhl_l_link"
+TRANSFORMS = ("SetOrientationMessage", "SetPositionMessage")
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def join(
+    viz: Visualizer, protocol: Callable[[int], ProtocolClient]
+) -> Callable[[], ProtocolClient]:
+    """Connect one more client that has received everything there is."""
+
+    def connect() -> ProtocolClient:
+        client = protocol(urlsplit(viz.url).port or 0)
+        client.settle(viser_server(viz))
+        return client
+
+    return connect
+
+
+def transforms(messages: list[Received]) -> list[Received]:
+    return [message for message in messages if message.type in TRANSFORMS]
+
+
+def turned(client: ProtocolClient, node: str, angle: float) -> bool:
+    """Whether the last pose that the client got turns the node about y by `angle`."""
+    turns = [
+        message.fields["wxyz"]
+        for message in client.messages
+        if message.type == "SetOrientationMessage" and message.fields["name"] == node
+    ]
+    wanted = (math.cos(angle / 2), 0.0, math.sin(angle / 2), 0.0)
+    return turns != [] and turns[-1] == pytest.approx(wanted, abs=1e-5)
+
+
+def test_one_slider_step_is_one_transform_message_to_each_browser(
+    viz: Visualizer, join: Callable[[], ProtocolClient]
+) -> None:
+    first, second, third = clients = [join() for _ in range(3)]
+    for client in clients:
+        client.settle(viser_server(viz))
+    marks = [client.mark() for client in clients]
+    first.set_value(first.uuid_of(JOINT), 0.5)
+    for client in clients:
+        client.settle(viser_server(viz))
+    assert viz.joint_positions[JOINT] == pytest.approx(0.5)
+    for client, mark in zip(clients, marks, strict=True):
+        moved = transforms(client.since(mark))
+        assert [message.fields["name"] for message in moved] == [node_of(viz, LINK)]
+        assert moved[0].size < 200
+    for client in (second, third):
+        assert client.value_of(JOINT) == pytest.approx(0.5)
+
+
+def test_an_idle_server_sends_nothing(
+    viz: Visualizer, join: Callable[[], ProtocolClient]
+) -> None:
+    client = join()
+    mark = client.mark()
+    assert client.quiet(0.5)
+    client.settle(viser_server(viz))
+    assert client.since(mark) == []
+
+
+@pytest.mark.parametrize("attempt", range(5))
+def test_fifty_quick_steps_end_with_slider_pose_and_api_equal(
+    viz: Visualizer, join: Callable[[], ProtocolClient], attempt: int
+) -> None:
+    first, second = join(), join()
+    uuid = first.uuid_of(JOINT)
+    for step in range(1, 51):
+        first.set_value(uuid, round(step * 0.01 + attempt * 0.1, 6))
+    last = 0.5 + attempt * 0.1
+    for client in (first, second):
+        # Poses of a stream go out at the config's Frame Rate, the last one included.
+        client.wait_until(lambda c=client: turned(c, node_of(viz, LINK), last))
+        client.settle(viser_server(viz))
+        assert turned(client, node_of(viz, LINK), last)
+    assert viz.joint_positions[JOINT] == pytest.approx(last)
+    assert second.value_of(JOINT) == pytest.approx(last)
+    T = viz.frames.lookup("base_link", LINK).matrix
+    assert T[0, 0] == pytest.approx(math.cos(last))
+
+
+def test_a_position_set_from_python_reaches_the_sliders(
+    viz: Visualizer, join: Callable[[], ProtocolClient]
+) -> None:
+    client = join()
+    viz.set_joint_positions({JOINT: -1.25})
+    client.wait_until(lambda: client.value_of(JOINT) == pytest.approx(-1.25))
+
+
+def test_a_browser_that_comes_later_sees_the_present_state(
+    viz: Visualizer, join: Callable[[], ProtocolClient]
+) -> None:
+    viz.set_joint_positions({JOINT: 0.75})
+    late = join()
+    late.wait_until(lambda: late.value_of(JOINT) == pytest.approx(0.75))

@@ -1,0 +1,21 @@
+"""The two things inside a Visualizer that its public names do not give to tests."""
+
+from __future__ import annotations
+
+import viser
+
+from sambot_viz import Visualizer
+
+
+def viser_server(viz: Visualizer) -> viser.ViserServer:
+    """The viser server, for `ProtocolClient.settle`."""
+    return viz._server._viser  # pyright: ignore[reportPrivateUsage]
+
+
+def node_of(viz: Visualizer, frame: str) -> str:
+    """The name of the scene node of a TF frame, in a shared session."""
+    session = viz._server.shared  # pyright: ignore[reportPrivateUsage]
+    path = None if session is None else session.context.nodes.path(frame)
+    if path is None:
+        raise AssertionError(f"no node for frame '{frame}'")
+    return path
