@@ -229,9 +229,14 @@ def _announce(url: str, open_it: bool) -> None:
 
 def _stop_on_signals(stop: threading.Event) -> None:
     """Ctrl-C and a service manager's stop end the program quietly."""
+
+    def finish(number: int, frame: object) -> None:
+        del number, frame
+        stop.set()
+
     if threading.current_thread() is threading.main_thread():
         for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: stop.set())
+            signal.signal(number, finish)
 
 
 def _gui(flag: bool | None, word: str | None) -> bool:

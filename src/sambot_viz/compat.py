@@ -9,12 +9,23 @@ from __future__ import annotations
 import contextlib
 import inspect
 import logging
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Generator
+from typing import Any, cast
 
 import rich
 import viser
 from viser import _messages  # pyright: ignore[reportPrivateUsage]
+
+Handler = Callable[[Any, Any], Any]
+
+
+def _handlers(server: viser.ViserServer) -> dict[type, list[Handler]]:
+    """What the server does with each type of message from a browser."""
+    connection = server._websock_server  # pyright: ignore[reportPrivateUsage]
+    return cast(
+        dict[type, list[Handler]],
+        connection._incoming_handlers,  # pyright: ignore[reportPrivateUsage, reportUnknownMemberType]
+    )
 
 
 def drop_share_handlers(server: viser.ViserServer) -> None:
@@ -22,8 +33,7 @@ def drop_share_handlers(server: viser.ViserServer) -> None:
 
     Hiding the button only hides the button (spec/viser.md §4, "Share").
     """
-    connection = server._websock_server  # pyright: ignore[reportPrivateUsage]
-    handlers = connection._incoming_handlers  # pyright: ignore[reportPrivateUsage]
+    handlers = _handlers(server)
     handlers.pop(_messages.ShareUrlRequest, None)
     handlers.pop(_messages.ShareUrlDisconnect, None)
 
@@ -34,11 +44,10 @@ def guard_gui_updates(server: viser.ViserServer) -> None:
     viser would take any attribute of the handle's state: one message with
     ``{"update_cb": []}`` takes all callbacks away for everybody.
     """
-    connection = server._websock_server  # pyright: ignore[reportPrivateUsage]
-    handlers = connection._incoming_handlers  # pyright: ignore[reportPrivateUsage]
+    handlers = _handlers(server)
     inner = list(handlers.get(_messages.GuiUpdateMessage, ()))
 
-    async def only_values(client_id: int, message: Any) -> None:
+    async def only_values(client_id: Any, message: Any) -> None:
         if set(message.updates) == {"value"}:
             for handler in inner:
                 result = handler(client_id, message)
@@ -48,8 +57,13 @@ def guard_gui_updates(server: viser.ViserServer) -> None:
     handlers[_messages.GuiUpdateMessage] = [only_values]
 
 
+def node_count(scene: viser.SceneApi) -> int:
+    """How many nodes a scene has: a page that shows as many shows all of it."""
+    return len(scene._handle_from_node_name)  # pyright: ignore[reportPrivateUsage]
+
+
 @contextlib.contextmanager
-def without_banner() -> Iterator[None]:
+def without_banner() -> Generator[None]:
     """Keep viser's own lines off the terminal while it starts or stops."""
     console = rich.get_console()
     before = console.quiet

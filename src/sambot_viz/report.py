@@ -54,9 +54,9 @@ def in_words(problem: Problem, color: bool = False) -> str:
 
 def write(problems: Iterable[Problem], stream: TextIO | None = None) -> None:
     """Write problems to standard error (or another stream), errors first."""
-    stream = sys.stderr if stream is None else stream
+    out: TextIO = stream or sys.stderr
     order = ("error", "warning", "info")
-    color = stream.isatty() and "NO_COLOR" not in os.environ
+    color = out.isatty() and "NO_COLOR" not in os.environ
     for problem in sorted(problems, key=lambda p: order.index(p.severity)):
-        stream.write(in_words(problem, color) + "\n")
-    stream.flush()
+        out.write(in_words(problem, color) + "\n")
+    out.flush()

@@ -32,12 +32,14 @@ class ServerOptions:
         port: 0 takes a free one.
         session: one robot for all browsers, or one for each.
         gui: whether there is a Joints panel.
+        panels: whether there are any panels; without them the view fills the page.
     """
 
     host: str = "127.0.0.1"
     port: int = 8080
     session: SessionMode = "shared"
     gui: bool = True
+    panels: bool = True
 
 
 class Server:
@@ -63,17 +65,18 @@ class Server:
         self._load_file = load_file
         self._meshes = MeshStore()
         self._lock = threading.RLock()
+        self._joined = threading.Condition()
         self._robot: Robot | None = None
-        self._private: dict[int, tuple[Session, Layout]] = {}
+        self._private: dict[int, tuple[Session, Layout | None]] = {}
         self._viser = listen(options.host, options.port)
         self._stopped = threading.Event()
         compat.drop_share_handlers(self._viser)
         compat.guard_gui_updates(self._viser)
         Layout.prepare_page(self._viser)
         self.shared: Session | None = None
-        self._shared_layout: Layout | None = None
+        self._layout: Layout | None = None
         if options.session == "shared":
-            self.shared, self._shared_layout = self._open(self._viser)
+            self.shared, self._layout = self._open(self._viser)
         self._viser.on_client_connect(self._join)
         self._viser.on_client_disconnect(self._leave)
 
@@ -99,6 +102,21 @@ class Server:
         for session in self.sessions():
             session.show_robot(robot)
 
+    def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
+        """The browser that came last, as soon as there is one.
+
+        Raises:
+            ServerError: none came in time.
+        """
+        with self._joined:
+            if not self._joined.wait_for(self._viser.get_clients, timeout):
+                raise ServerError(f"no browser opened the page within {timeout:g} s")
+            return list(self._viser.get_clients().values())[-1]
+
+    def node_count(self) -> int:
+        """How many nodes the shared scene has."""
+        return compat.node_count(self._viser.scene)
+
     def wait(self) -> None:
         """Return when the server is stopped."""
         self._stopped.wait()
@@ -113,7 +131,7 @@ class Server:
         with compat.without_banner():
             self._viser.stop()
 
-    def _open(self, audience: object) -> tuple[Session, Layout]:
+    def _open(self, audience: object) -> tuple[Session, Layout | None]:
         session = Session(
             cast(Audience, audience),
             self._viser.get_event_loop(),
@@ -124,6 +142,8 @@ class Server:
         session.show_config()
         if self._robot is not None:
             session.show_robot(self._robot)
+        if not self.options.panels:
+            return session, None
         return session, Layout(session, joints=self.options.gui)
 
     async def _join(self, client: viser.ClientHandle) -> None:
@@ -135,13 +155,16 @@ class Server:
         else:
             session = self.shared
         session.point_camera(client)
+        with self._joined:
+            self._joined.notify_all()
 
     async def _leave(self, client: viser.ClientHandle) -> None:
         with self._lock:
             opened = self._private.pop(client.client_id, None)
         if opened is not None:
             session, layout = opened
-            layout.close()
+            if layout is not None:
+                layout.close()
             session.close()
 
 

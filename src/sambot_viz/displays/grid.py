@@ -8,7 +8,7 @@ import viser
 
 from sambot_viz.displays.display import Display, Handle, remove_all
 from sambot_viz.displays.lines import lines_glb
-from sambot_viz.displays.poses import Wxyz
+from sambot_viz.displays.poses import Position, Wxyz
 from sambot_viz.displays.solids import Rgb
 from sambot_viz.rviz import (
     FIXED_FRAME,
@@ -148,10 +148,8 @@ class GridDisplay(Display):
         )
         color: Rgb = get("Color")
         alpha = float(get("Alpha"))
-        pose = {
-            "wxyz": _PLANES.get(str(get("Plane")), _PLANES["XY"]),
-            "position": get("Offset"),
-        }
+        wxyz = _PLANES.get(str(get("Plane")), _PLANES["XY"])
+        offset: Position = get("Offset")
         if get("Line Style") == "Billboards":
             return scene.add_line_segments(
                 name,
@@ -159,14 +157,16 @@ class GridDisplay(Display):
                 colors=_blend(color, self.context.background, alpha),
                 thickness=float(get("Line Style/Line Width")),
                 thickness_units="world",
-                **pose,
+                wxyz=wxyz,
+                position=offset,
             )
         return scene.add_glb(
             name,
             lines_glb(segments, color, alpha),
             cast_shadow=False,
             receive_shadow=False,
-            **pose,
+            wxyz=wxyz,
+            position=offset,
         )
 
     def clear(self) -> None:

@@ -37,7 +37,7 @@ def lines_glb(
     Returns:
         The bytes for `viser.SceneApi.add_glb`.
     """
-    points = np.ascontiguousarray(segments.reshape(-1, 3), dtype="<f4")
+    points = np.array(segments, dtype="<f4")
     rgba = [*(_linear(c) for c in color), alpha]
     blended = alpha < OPAQUE_FROM
     document = {
@@ -64,10 +64,10 @@ def lines_glb(
             {
                 "bufferView": 0,
                 "componentType": _FLOAT,
-                "count": len(points),
+                "count": 2 * len(points),
                 "type": "VEC3",
-                "min": points.min(axis=0).tolist(),
-                "max": points.max(axis=0).tolist(),
+                "min": points.min(axis=(0, 1)).tolist(),
+                "max": points.max(axis=(0, 1)).tolist(),
             }
         ],
     }

@@ -41,9 +41,10 @@ def position_of(T: Matrix) -> Position:
 
 def inverse(T: Matrix) -> Matrix:
     """The inverse of a rigid (4, 4) transform."""
-    out = np.eye(4)
-    out[:3, :3] = T[:3, :3].T
-    out[:3, 3] = -T[:3, :3].T @ T[:3, 3]
+    turned = np.swapaxes(T[:3, :3], 0, 1)
+    out: Matrix = np.eye(4)
+    out[:3, :3] = turned
+    out[:3, 3] = -(turned @ T[:3, 3])
     return out
 
 

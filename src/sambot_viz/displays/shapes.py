@@ -300,7 +300,8 @@ def _textured(
     if isinstance(geometry, Box):
         shape, scale = unit_box(), geometry.size
     elif isinstance(geometry, Sphere):
-        shape, scale = unit_sphere(), (2 * geometry.radius,) * 3
+        width = 2 * geometry.radius
+        shape, scale = unit_sphere(), (width, width, width)
     elif isinstance(geometry, Cylinder):
         width = 2 * geometry.radius
         shape, scale = unit_cylinder(), (width, width, geometry.length)

@@ -46,9 +46,11 @@ class Compact:
 
 
 def _compact(shape: Primitive) -> Compact:
-    corners, index = np.unique(shape.vertices.round(6), axis=0, return_inverse=True)
-    faces = index.reshape(-1)[shape.faces.astype(np.int64)]
-    return Compact(corners.astype(np.float32), faces.astype(np.uint32))
+    rounded: npt.NDArray[np.float32] = np.round(shape.vertices, 6)
+    rows = [tuple(row) for row in rounded.tolist()]
+    corners = {row: i for i, row in enumerate(dict.fromkeys(rows))}
+    index = np.array([corners[row] for row in rows], dtype=np.uint32)
+    return Compact(np.array(list(corners), dtype=np.float32), index[shape.faces])
 
 
 @cache

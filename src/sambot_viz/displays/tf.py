@@ -26,6 +26,8 @@ HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
 EM_HEIGHT = 0.0889
 """Height of the em square of names, in a character cell of 0.1 m (§6.4)."""
+ALL_FRAMES = ""
+"""Stands for the frames a file does not name."""
 SHORTEST_ARROW = 0.001
 """Frames nearer than this have no arrow [m]."""
 
@@ -141,7 +143,14 @@ class TfDisplay(Display):
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
         tree, nodes = self.context.tree, self.context.nodes
-        frames = [f for f in tree.frames if nodes.connected(f) and self._wanted(f)]
+        boxes = self._boxes()
+        frames = [
+            frame
+            for frame in tree.frames
+            if nodes.connected(frame)
+            and self._passes(frame)
+            and boxes.get(frame, boxes[ALL_FRAMES])
+        ]
         for frame in [f for f in self._marks if f not in frames]:
             self._drop(self._marks.pop(frame))
         for frame in frames:
@@ -154,7 +163,18 @@ class TfDisplay(Display):
                 self._draw_arrows(parent)
         self._report()
 
-    def _wanted(self, frame: str) -> bool:
+    def _boxes(self) -> dict[str, bool]:
+        """The box of every frame the file names, and of all others (§6.2, §12 no. 11).
+
+        A frame without a "Value" counts as off, as in RViz.
+        """
+        boxes = {ALL_FRAMES: bool(self.config.get("Frames/All Enabled"))}
+        for frame, entry in self.config.dynamic("Frames").items():
+            value = entry.get("Value") if isinstance(entry, dict) else entry
+            boxes[frame] = str(value).lower() == "true"
+        return boxes
+
+    def _passes(self, frame: str) -> bool:
         """Whether the filters let a frame through (§6.1)."""
         whitelist = RegexProperty.compiled(self.config.get("Filter (whitelist)"))
         blacklist = RegexProperty.compiled(self.config.get("Filter (blacklist)"))

@@ -6,13 +6,14 @@
  *
  * Everything is done by rewriting shaders where their text is as expected. What is
  * not recognised is left alone, so a changed viser gives a plainer picture, never
- * an empty page. `window.sambotVizLook` says what took effect. A toon material is
+ * an empty page. `window.sambotVizLook` says what took effect and how many names are
+ * laid out. A toon material is
  * our sign for "unlit" (RViz's white links without a transform).
  */
 (() => {
   "use strict";
   if (window.sambotVizLook) return;
-  const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0 };
+  const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0 };
   window.sambotVizLook = look;
 
   const ENCODE = `
@@ -39,10 +40,12 @@ vec3 sambotEncode(vec3 c) {
     material.needsUpdate = true;
   };
 
+  const boxes = new WeakSet();
   const adoptLabels = (material) => {
     const source = material.fragmentShader;
     if (source.includes("0.85 * vAlpha")) {
       material.fragmentShader = source.replace("0.85 * vAlpha", "0.0");
+      boxes.add(material);
       look.boxes += 1;
     } else if (source.includes("gl_FragColor = vec4(0.0, 0.0, 0.0, a)")) {
       material.fragmentShader = source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(1.0, 1.0, 1.0, a)");
@@ -73,11 +76,13 @@ vec3 sambotEncode(vec3 c) {
     if (material.isMeshStandardMaterial) material.depthWrite = !material.transparent;
   };
 
+  let labels = 0;
   const visit = (object) => {
     const material = object.material;
     if (material !== undefined) {
       if (Array.isArray(material)) material.forEach(adopt);
       else adopt(material);
+      if (boxes.has(material)) labels += object.geometry.instanceCount;
     }
     for (const child of object.children) visit(child);
   };
@@ -90,7 +95,9 @@ vec3 sambotEncode(vec3 c) {
     hooked = scene;
     scene.onBeforeRender = (renderer) => {
       renderer.toneMapping = 0;
+      labels = 0;
       visit(scene);
+      look.labels = labels;
       look.frames += 1;
     };
     if (mutable.requestRender) mutable.requestRender();

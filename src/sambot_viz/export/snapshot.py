@@ -1,0 +1,92 @@
+"""A picture of the 3D view alone, at an exact size, from a Chromium of this machine."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.poses import Wxyz, wxyz_of
+from sambot_viz.errors import ServerError
+from sambot_viz.export.chromium import Chromium
+from sambot_viz.server import Server
+from sambot_viz.views.view import Camera
+
+Picture = npt.NDArray[np.uint8]
+
+LONGEST_WAIT = 60.0
+"""For the page to show everything [s]; software rendering takes its time."""
+
+_EVERYTHING_IS_THERE = """(() => {
+  const look = window.sambotVizLook, page = window.__viserMutable;
+  if (!look || !page || !look.frames) return false;
+  const nodes = Object.entries(window.__viserSceneTree.getState());
+  if (nodes.length < %d) return false;
+  const names = nodes.filter(([, node]) => node.message.type === "LabelMessage");
+  return look.labels >= names.length
+    && nodes.every(([name, node]) => node.message.type === "LabelMessage"
+                   || page.nodeRefFromName[name]);
+})()"""
+"""Holds when the page has as many nodes as the server, each with its object (a mesh
+has one when it is parsed; a label has none), and all names are laid out."""
+
+
+def camera_wxyz(camera: Camera) -> Wxyz:
+    """The orientation of a camera whose z looks forward and whose y points down."""
+    forward = np.array(camera.look_at) - np.array(camera.position)
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, np.array(camera.up))
+    length = float(np.linalg.norm(right))
+    # Straight down or up, any direction is level; x to the right as RViz has it.
+    right = np.array([0.0, -1.0, 0.0]) if length < 1e-9 else right / length
+    down = np.cross(forward, right)
+    return wxyz_of(np.stack([right, down, forward], axis=1))
+
+
+def snapshot(
+    server: Server, chromium: Chromium, width: int, height: int, camera: Camera
+) -> Picture:
+    """Render what a session shows.
+
+    Args:
+        server: what to show, with a shared session.
+        chromium: a running browser.
+        width: of the picture [pixels].
+        height: of the picture [pixels].
+        camera: where to look from.
+
+    Returns:
+        (height, width, 3) uint8, RGB.
+
+    Raises:
+        ServerError: the page did not come to show everything in time.
+    """
+    end = time.monotonic() + LONGEST_WAIT
+    page = chromium.open(f"{server.url}/?fixedDpr=1", width=width, height=height)
+    try:
+        client = server.wait_for_browser(LONGEST_WAIT)
+        nodes = server.node_count()
+        page.wait_for(
+            _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())
+        )
+        before: Picture | None = None
+        while time.monotonic() < end:
+            image = client.get_render(
+                height,
+                width,
+                wxyz=camera_wxyz(camera),
+                position=camera.position,
+                fov=camera.fov,
+                transport_format="png",
+                timeout=max(1.0, end - time.monotonic()),
+            )
+            picture: Picture = image[..., :3].astype(np.uint8)
+            # Meshes and names appear some frames after their messages; two equal
+            # pictures in a row say that nothing more is coming.
+            if before is not None and np.array_equal(picture, before):
+                return picture
+            before = picture
+    finally:
+        page.close()
+    raise ServerError(f"the page did not show everything within {LONGEST_WAIT:g} s")
