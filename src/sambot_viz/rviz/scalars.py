@@ -35,7 +35,7 @@ def scalar_text(node: Scalar, flow: bool = False) -> str:
 
 def quoted(text: str, quote: str = "", flow: bool = False) -> str:
     """A text as YAML, in the given quotes if it can be, plain if it need not be."""
-    if quote == "" and _can_be_plain(text, flow):
+    if quote in ("", "|", ">") and _can_be_plain(text, flow):
         return text
     if quote == "'" and text.isprintable():
         return "'" + text.replace("'", "''") + "'"
