@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -82,6 +83,7 @@ CAUSES = {
 }
 
 
+@cache
 def entries(shared: Path) -> dict[str, dict[str, Any]]:
     text = (shared / "data" / "bad-models" / "index.yaml").read_text("utf-8")
     listed: list[dict[str, Any]] = yaml.safe_load(text)["models"]

@@ -94,6 +94,10 @@ def test_every_rule_has_its_own_code_and_tells_why() -> None:
     assert all(rule.why and rule.title for rule in RULES)
 
 
+def test_what_ros_accepts_is_never_called_an_error() -> None:
+    assert {rule.severity for rule in RULES} == {"warning", "info"}
+
+
 def test_the_page_of_rules_is_what_the_rules_say() -> None:
     page = rules_page()
 
