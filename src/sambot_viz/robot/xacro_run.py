@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
+import gc
 import importlib
+import importlib.util
 import os
 import re
 import sys
@@ -35,6 +37,8 @@ class OutputLimit(Exception):
 def run(job: dict[str, Any]) -> dict[str, Any]:
     """Expand as the job says; never raises for what the model does."""
     sys.setrecursionlimit(2500)
+    # The trees are large and die with the process: looking for garbage is waste.
+    gc.set_threshold(100_000)
     expansion = Expansion(job)
     try:
         return expansion.result()
@@ -53,6 +57,7 @@ class Expansion:
 
     def __init__(self, job: dict[str, Any]) -> None:
         self._job = job
+        _import_lazily("yaml")
         self._xacro: Any = importlib.import_module("xacro")
         self._places = PlaceKeeper()
         self._node: Any = None
@@ -270,6 +275,21 @@ class Expansion:
         place = getattr(self._node, "sambot_place", (self._job["file"], None, None))
         self._warnings.append([" ".join(map(str, words)), *place])
         return ""
+
+
+def _import_lazily(name: str) -> None:
+    """Put a module in place that is read only when it is used.
+
+    xacro imports yaml at the first ``$(arg …)``, for a conversion that never comes;
+    that would be a third of the child's time.
+    """
+    spec = importlib.util.find_spec(name)
+    if spec is None or spec.loader is None:
+        return
+    spec.loader = importlib.util.LazyLoader(spec.loader)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
 
 
 def _say_nothing(*_words: Any, **_options: Any) -> str:

@@ -1,0 +1,130 @@
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import MeshFile
+
+
+def errors(model: Path | str) -> list[Problem]:
+    with pytest.raises(RobotError) as caught:
+        load_robot(model)
+    return [p for p in caught.value.problems if p.severity == "error"]
+
+
+def test_the_tutorials_xacro_and_its_urdf_are_the_same_robot(shared: Path):
+    seed = shared / "data" / "seed"
+    xacro = load_robot(seed / "sam_bot.urdf.xacro")
+    urdf = load_robot(seed / "sam_bot.urdf")
+
+    assert xacro == urdf
+    assert (xacro.name, xacro.root, len(xacro.links)) == ("sam_bot", "base_link", 5)
+    assert xacro.problems == ()
+
+
+def test_the_early_closing_tag_is_named_with_its_mend(shared: Path):
+    found = errors(shared / "data" / "seed" / "robot_closed_too_early.urdf.xacro")
+    assert len(found) == 1
+    assert "line 4" in found[0].message
+    assert "move </robot> from line 4" in found[0].hint
+
+
+def test_every_urdf_fault_of_the_collection_is_told_on_its_line(shared: Path):
+    import yaml
+
+    folder = shared / "data" / "bad-models"
+    index = yaml.safe_load((folder / "index.yaml").read_text("utf-8"))
+    # These three are rules of sambot_viz.checks: ROS has nothing against them.
+    rules = {"limit-in-degrees", "rpy-in-degrees", "root-link-with-inertia"}
+    missed: list[str] = []
+    for entry in index["models"]:
+        name = entry["file"]
+        if entry["stage"] != "urdf" or name.partition(".")[0] in rules:
+            continue
+        try:
+            problems = load_robot(folder / name).problems
+        except RobotError as error:
+            problems = error.problems
+        near = [p for p in problems if abs((p.line or -9) - entry["line"]) <= 1]
+        if not any(p.severity == entry["severity"] and p.hint for p in near):
+            missed.append(name)
+    assert missed == []
+
+
+def test_the_right_models_of_the_collection_have_no_fault(shared: Path):
+    folder = shared / "data" / "bad-models"
+    for name in ("_good.urdf", "_good.urdf.xacro"):
+        assert load_robot(folder / name).problems == ()
+
+
+def test_a_model_may_be_text():
+    robot = load_robot('\ufeff<robot name="r"><link name="a"/></robot>')
+    assert (robot.root, robot.files) == ("a", ())
+
+
+def test_a_folder_with_korean_letters_and_blanks_works(tmp_path: Path):
+    folder = tmp_path / "내 로봇 1"
+    folder.mkdir()
+    model = folder / "모델.urdf"
+    model.write_text(
+        '<?xml version="1.0"?>\n<!-- 바퀴 두 개 -->\n<robot name="로봇">\n'
+        '<link name="몸통"><visual><geometry><mesh filename="몸통.stl"/></geometry>'
+        "</visual></link></robot>",
+        "utf-8",
+    )
+    (folder / "몸통.stl").write_text("solid")
+    robot = load_robot(model)
+    mesh = robot.links["몸통"].visuals[0].geometry
+
+    assert isinstance(mesh, MeshFile)
+    assert mesh.path == folder / "몸통.stl"
+    assert robot.files == (model,)
+    assert robot.problems == ()
+
+
+def test_the_same_missing_mesh_is_told_once():
+    mesh = '<geometry><mesh filename="package://none/a.stl"/></geometry>'
+    shapes = f"<visual>{mesh}</visual><collision>{mesh}</collision>"
+    robot = load_robot(f'<robot name="r"><link name="a">{shapes}</link></robot>')
+    assert [p.code for p in robot.problems] == ["mesh-not-found"]
+    assert "the package none is not known" in robot.problems[0].message
+    assert "--package-path" in robot.problems[0].hint
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"  \n",
+        b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n",
+        b"PK\x03\x04rest",
+        b"\x89PNG\r\n\x1a\n\x00\x00",
+        b"solid cube\nfacet normal 0 0 1\n",
+        b"\xff\xfe<\x00r\x00",
+        b"<robot name='r'><link name='a'/></robot",
+        "<robot name='r'><link name='ä'/></robot>".encode("latin-1"),
+    ],
+)
+def test_a_file_that_is_no_model_is_one_clear_error(content: bytes, tmp_path: Path):
+    model = tmp_path / "m.urdf"
+    model.write_bytes(content)
+    found = errors(model)
+    assert len(found) == 1
+    assert found[0].file == str(model)
+    assert found[0].hint
+
+
+def test_a_file_that_is_not_there_is_told_with_its_neighbours(tmp_path: Path):
+    (tmp_path / "sam_bot.urdf").write_text("<robot/>")
+    problem = errors(tmp_path / "sambot.urdf")[0]
+    assert problem.code == "model-not-found"
+    assert "did you mean 'sam_bot.urdf'?" in problem.hint
+
+
+def test_a_folder_is_told_with_the_models_in_it(tmp_path: Path):
+    (tmp_path / "urdf").mkdir()
+    (tmp_path / "urdf" / "a.urdf").write_text("<robot/>")
+    problem = errors(tmp_path)[0]
+    assert problem.code == "model-is-folder"
+    assert "a.urdf" in problem.hint
