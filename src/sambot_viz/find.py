@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz import resources
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import UsageError, did_you_mean
 
 _MODEL_FOLDERS = ("urdf", "description", "src/description", "robots", "model", ".")
 _CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
@@ -100,10 +100,10 @@ def _files(folder: Path, endings: Iterable[str]) -> list[Path]:
 
 
 def _missing(what: str, path: Path) -> str:
-    from sambot_viz.errors import did_you_mean
-
     folder = path.parent
     if not folder.is_dir():
         return f"no {what} '{path}': the folder '{folder}' does not exist"
-    near = did_you_mean(path.name, sorted(p.name for p in folder.iterdir()))
+    endings = _MODEL_ENDINGS if what == "model" else (".rviz",)
+    names = [p.name for p in _files(folder, endings)]
+    near = did_you_mean(path.name, names) if names else f"'{folder}' holds no {what}"
     return f"no {what} '{path}': there is no such file; {near}"

@@ -1,6 +1,10 @@
-"""Where the panels stand: Displays at the left, Joints at the right."""
+"""Where the panels stand: Displays at the left, the others as tabs at the right."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
 
 import viser
 
@@ -13,26 +17,52 @@ LEFT_WIDTH, RIGHT_WIDTH = 300, 270
 """Widths of the panels [px]; the rest of the window is the view."""
 
 
+class Panel(Protocol):
+    """What is made for a tab and fills it."""
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tab:
+    """A tab at the right.
+
+    Attributes:
+        title: what stands on it.
+        make: makes the panel that fills it.
+        for_joints: left out by ``--no-gui``.
+    """
+
+    title: str
+    make: Callable[[Session, viser.GuiTabHandle], Panel]
+    for_joints: bool = False
+
+
+RIGHT_TABS: tuple[Tab, ...] = (Tab("Joints", JointsPanel, for_joints=True),)
+"""All panels at the right: a new one is a new file and a line here."""
+
+
 class Layout:
     """The panels of one session.
 
     Args:
         session: what they show.
-        joints: whether there is a Joints panel (``--no-gui`` leaves it out).
+        joints: whether there are panels to move joints (``--no-gui`` leaves them out).
     """
 
     def __init__(self, session: Session, joints: bool = True) -> None:
         gui = session.audience.gui
         gui.main_panel.dock_left()
         gui.main_panel.set_width(LEFT_WIDTH)
-        self._root = gui.add_folder(None)
-        self._displays = DisplaysPanel(session, self._root)
-        self._joints: JointsPanel | None = None
-        if joints:
-            panel = gui.add_panel()
-            self._joints = JointsPanel(session, panel.add_tab("Joints"))
-            panel.dock_right()
-            panel.set_width(RIGHT_WIDTH)
+        self._panels: list[Panel] = [DisplaysPanel(session, gui.add_folder(None))]
+        tabs = [tab for tab in RIGHT_TABS if joints or not tab.for_joints]
+        if tabs:
+            right = gui.add_panel()
+            for tab in tabs:
+                self._panels.append(tab.make(session, right.add_tab(tab.title)))
+            right.dock_right()
+            right.set_width(RIGHT_WIDTH)
 
     @staticmethod
     def prepare_page(server: viser.ViserServer) -> None:
@@ -48,6 +78,5 @@ class Layout:
 
     def close(self) -> None:
         """Follow the session no longer."""
-        self._displays.close()
-        if self._joints is not None:
-            self._joints.close()
+        for panel in self._panels:
+            panel.close()

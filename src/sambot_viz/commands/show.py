@@ -1,0 +1,119 @@
+"""``sambot-viz``: a robot in the browser."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import threading
+from functools import partial
+from pathlib import Path
+
+from sambot_viz import report
+from sambot_viz._version import __version__
+from sambot_viz.commands.options import (
+    Parser,
+    add_model_options,
+    parse,
+)
+from sambot_viz.errors import UsageError
+from sambot_viz.find import find
+from sambot_viz.loading import in_thread
+
+EPILOG = """\
+commands:
+  sambot-viz [MODEL]           show a robot in the browser
+  sambot-viz check MODEL       say what is wrong with a model, and how to mend it
+  sambot-viz expand MODEL      print the URDF that xacro makes of a model
+
+MODEL is a URDF or xacro file, whatever its ending, or a package folder; without
+one, the bundled sam_bot is shown. NAME:=VALUE is an argument for xacro, anywhere on
+the line; model:=, rvizconfig:= and gui:= mean what they mean to display.launch.py.
+"""
+
+
+def run(words: list[str]) -> int:
+    """Serve until Ctrl-C."""
+    options, wanted = parse(_parser(), words, ours=("rvizconfig", "gui"))
+    config = options.display_config or wanted.words.get("rvizconfig")
+    found = find(wanted.model, Path(config) if config else None)
+    gui = _gui(options.gui, wanted.words.get("gui"))
+    # The robot is read while viser, which takes longer, is being imported.
+    loading = in_thread(partial(wanted.load, found.model))
+    from sambot_viz.visualizer import Visualizer
+
+    stop = threading.Event()
+    _stop_on_signals(stop)
+    with Visualizer(
+        model=loading,
+        config=found.config,
+        host=options.host,
+        port=options.port,
+        fixed_frame=options.fixed_frame,
+        gui=gui,
+        session=options.session,
+        xacro_args=wanted.xacro_args,
+        package_path=wanted.package_path,
+        on_open=partial(_announce, open_it=options.open),
+    ):
+        report.write(loading.result().problems)
+        stop.wait()
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        prog="sambot-viz",
+        description="Show a URDF or xacro robot in the browser: no ROS, no X server.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_model_options(parser)
+    add = parser.add_argument
+    add("--version", action="version", version=f"sambot-viz {__version__}")
+    add("-d", "--display-config", metavar="FILE", help="a .rviz file")
+    add("-f", "--fixed-frame", metavar="FRAME", help="overrides the config's")
+    add(
+        "--gui",
+        action=argparse.BooleanOptionalAction,
+        help="the Joints panel with its sliders (default: yes)",
+    )
+    add("--host", default="127.0.0.1", help="where to listen (default: %(default)s)")
+    add("--port", type=int, default=8080, help="default: %(default)s; 0: any free one")
+    add(
+        "--session",
+        choices=("shared", "private"),
+        default="shared",
+        help="one robot for all browsers, or one for each (default: %(default)s)",
+    )
+    add("--open", action="store_true", help="open the page in this machine's browser")
+    return parser
+
+
+def _announce(url: str, open_it: bool) -> None:
+    print(url, flush=True)
+    if open_it:
+        import webbrowser
+
+        webbrowser.open(url)
+
+
+def _stop_on_signals(stop: threading.Event) -> None:
+    """Ctrl-C and a service manager's stop end the program quietly."""
+
+    def finish(number: int, frame: object) -> None:
+        del number, frame
+        stop.set()
+
+    if threading.current_thread() is threading.main_thread():
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, finish)
+
+
+def _gui(flag: bool | None, word: str | None) -> bool:
+    if flag is not None:
+        return flag
+    if word is None:
+        return True
+    if word.lower() not in ("true", "false", "1", "0"):
+        raise UsageError(f"gui:={word} is neither true nor false")
+    return word.lower() in ("true", "1")
