@@ -247,3 +247,16 @@ def test_old_and_cut_off_files_are_refused(write: Write) -> None:
         read_mesh(write("a.glb", whole[:4] + struct.pack("<I", 1) + whole[8:]))
     with pytest.raises(MeshError, match=rf"{len(whole)} bytes but has"):
         read_mesh(write("b.glb", whole[:-20]))
+
+
+def test_vertices_that_no_file_shares_are_shared(write: Write) -> None:
+    soup = POSITIONS[INDICES]
+    content = document(
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}]}]
+    )
+    content["accessors"][0]["count"] = content["accessors"][1]["count"] = 6
+    content["bufferViews"][0]["byteLength"] = 72
+    content["bufferViews"][1].update(byteOffset=72, byteLength=72)
+    binary = soup.tobytes() + NORMALS[[0] * 6].tobytes()
+    (part,) = read_mesh(write("a.glb", glb(content, binary))).parts
+    assert len(part.faces) == 2 and len(part.vertices) == 4

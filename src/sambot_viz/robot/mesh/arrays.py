@@ -55,9 +55,7 @@ def table_of(values: npt.NDArray[_Number], width: int) -> npt.NDArray[_Number]:
     return np.reshape(values[: rows * width], (rows, width))
 
 
-def triangulate(
-    counts: Ints, points: npt.NDArray[np.float64] | None = None
-) -> npt.NDArray[np.int64]:
+def triangulate(counts: Ints, points: Floats | None = None) -> npt.NDArray[np.int64]:
     """Cut polygons into triangles.
 
     Args:
@@ -78,6 +76,7 @@ def triangulate(
     fans = np.column_stack([first, first + step + 1, first + step + 2])
     if points is None or not np.any(counts > 3):
         return fans
+    points = np.nan_to_num(points.astype(np.float64))
     dented = _dented(counts, starts, points)
     if not len(dented):
         return fans

@@ -37,6 +37,7 @@ class Piece:
         rgba: colour, or None when the URDF decides.
         uv: (N, 2), v upwards, or None.
         texture: image, or None.
+        shared: the file already shares vertices as `MeshPart` promises.
     """
 
     vertices: Floats
@@ -45,6 +46,7 @@ class Piece:
     rgba: Rgba | None = None
     uv: Floats | None = None
     texture: Texture | None = None
+    shared: bool = False
 
 
 @dataclass(slots=True)
@@ -155,6 +157,7 @@ def _clean(piece: Piece, findings: Findings) -> Piece | None:
         rgba=piece.rgba,
         uv=np.nan_to_num(piece.uv) if textured and piece.uv is not None else None,
         texture=piece.texture if textured else None,
+        shared=piece.shared,
     )
 
 
@@ -180,6 +183,7 @@ def _join(group: list[Piece]) -> Piece:
         rgba=first.rgba,
         uv=np.concatenate(uvs) if uvs else None,
         texture=first.texture,
+        shared=all(piece.shared for piece in group),
     )
 
 
@@ -192,14 +196,7 @@ def _weld(piece: Piece) -> MeshPart:
     """
     used = np.zeros(len(piece.vertices), dtype=bool)
     used[piece.faces] = True
-    # Adding zero makes minus zero the same as zero.
-    columns = [piece.vertices[used].astype(np.float32) + np.float32(0)]
-    if piece.normals is not None:
-        columns.append(np.rint(piece.normals[used] * 256).astype(np.float32))
-        columns[-1] += np.float32(0)
-    if piece.uv is not None:
-        columns.append(piece.uv[used].astype(np.float32) + np.float32(0))
-    first, group = _unique_rows(np.column_stack(columns))
+    first, group = _kinds(piece, used)
     renumbered = np.zeros(len(piece.vertices), dtype=np.uint32)
     renumbered[used] = group
 
@@ -214,6 +211,21 @@ def _weld(piece: Piece) -> MeshPart:
         uv=pick(piece.uv),
         texture=piece.texture,
     )
+
+
+def _kinds(piece: Piece, used: npt.NDArray[np.bool_]) -> tuple[Ints, Ints]:
+    """Among the used vertices: the first of each kind, and the kind of each."""
+    if piece.shared:
+        every = np.arange(np.count_nonzero(used))
+        return every, every
+    # Adding zero makes minus zero the same as zero.
+    columns = [piece.vertices[used].astype(np.float32) + np.float32(0)]
+    if piece.normals is not None:
+        columns.append(np.rint(piece.normals[used] * 256).astype(np.float32))
+        columns[-1] += np.float32(0)
+    if piece.uv is not None:
+        columns.append(piece.uv[used].astype(np.float32) + np.float32(0))
+    return _unique_rows(np.column_stack(columns))
 
 
 def _unique_rows(rows: npt.NDArray[np.float32]) -> tuple[Ints, Ints]:

@@ -93,7 +93,7 @@ class _MeshReader:
         if points is None:
             self._broken(f"a <{element.tag}> uses positions that do not exist")
             return None
-        faces = triangulate(counts, points.astype(np.float64))
+        faces = triangulate(counts, points)
         return Primitives(
             symbol=element.get("material"),
             vertices=points.astype(np.float64),

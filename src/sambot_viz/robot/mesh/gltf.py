@@ -185,6 +185,10 @@ class _Scene:
             rgba=look.rgba,
             uv=self._uv(attributes, uv_set, len(vertices)) if look.texture else None,
             texture=look.texture,
+            # Vertices split for a texture that is not shown are joined again, and so
+            # are those of files that do not share any.
+            shared=len(index) > len(vertices)
+            and (look.texture is not None or "TEXCOORD_0" not in attributes),
         )
 
     def _attribute(

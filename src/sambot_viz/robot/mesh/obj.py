@@ -157,16 +157,20 @@ def _piece(
         )
         return None
     # Counted from one, or backwards from what had been listed so far.
-    seen = np.array(group.seen, dtype=np.int64)
-    index = np.where(corners > 0, corners - 1, corners + seen)
-    index = np.where(corners == _MISSING, -1, index)
+    index = corners - 1
+    if corners.min() < 0:
+        seen = np.array(group.seen, dtype=np.int64)
+        index = np.where((corners < 0) & (corners != _MISSING), corners + seen, index)
+        index = np.where(corners == _MISSING, -1, index)
     positions, uvs, normals = tables
-    there = (index[:, 0] >= 0) & (index[:, 0] < len(positions))
-    points = np.full((len(index), 3), np.nan, dtype=np.float64)
-    points[there] = positions[index[there, 0]]
+    points = _pick(positions, index[:, 0])
+    if points is None:
+        there = (index[:, 0] >= 0) & (index[:, 0] < len(positions))
+        points = np.full((len(index), 3), np.nan, dtype=np.float32)
+        points[there] = positions[index[there, 0]]
     return Piece(
         vertices=points,
-        faces=triangulate(counts, np.nan_to_num(points)),
+        faces=triangulate(counts, points),
         normals=_pick(normals, index[:, 2]),
         uv=_pick(uvs, index[:, 1]),
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from sambot_viz.robot.mesh.assembly import Piece
@@ -18,6 +20,10 @@ def placed(piece: Piece, T: Matrix) -> Piece:
     """
     linear = T[:3, :3]
     normals, faces = piece.normals, piece.faces
+    size = float(linear[0, 0])
+    if size > 0 and np.array_equal(linear, size * np.eye(3)):
+        # Most nodes only apply the unit: nothing turns.
+        return replace(piece, vertices=piece.vertices * size + T[:3, 3])
     if normals is not None:
         # The cofactor matrix turns normals rightly and exists for every transform.
         x, y, z = linear
@@ -26,11 +32,5 @@ def placed(piece: Piece, T: Matrix) -> Piece:
     if np.linalg.det(linear) < 0:
         faces = faces[:, ::-1]
         normals = None if normals is None else -normals
-    return Piece(
-        vertices=piece.vertices @ np.transpose(linear) + T[:3, 3],
-        faces=faces,
-        normals=normals,
-        rgba=piece.rgba,
-        uv=piece.uv,
-        texture=piece.texture,
-    )
+    vertices = piece.vertices @ np.transpose(linear) + T[:3, 3]
+    return replace(piece, vertices=vertices, faces=faces, normals=normals)

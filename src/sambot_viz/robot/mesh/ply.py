@@ -90,7 +90,7 @@ def _pieces(contents: _Contents) -> list[Piece]:
     corners = contents.corners
     inside = (corners >= 0) & (corners < len(vertices))
     points = np.zeros((len(corners), 3))
-    points[inside] = np.nan_to_num(vertices[corners[inside]])
+    points[inside] = vertices[corners[inside]]
     faces = triangulate(contents.counts, points)
     normals = _stack(contents.vertex, ("nx", "ny", "nz"))
     return [Piece(vertices, corners[faces], normals=normals, rgba=WHITE)]

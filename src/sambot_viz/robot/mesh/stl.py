@@ -20,8 +20,7 @@ _HEADER = 84
 _FACET = np.dtype(
     [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 )
-_VERTEX = re.compile(rb"^\s*vertex\s+([^\r\n]*)", re.IGNORECASE | re.MULTILINE)
-_ENDFACET = re.compile(rb"^\s*endfacet\b", re.IGNORECASE | re.MULTILINE)
+_VERTEX = re.compile(rb"vertex([^\r\n]*)")
 _AGAIN = "export the mesh again, or copy the file again if it was cut off"
 
 
@@ -60,8 +59,10 @@ def read_stl(data: bytes, findings: Findings) -> list[Piece]:
 
 
 def _ascii(data: bytes, path: Path) -> Piece:
-    rows = _VERTEX.findall(data)
-    facets = len(_ENDFACET.findall(data))
+    # Keywords come in either case; the first line may hold any name.
+    text = data.lower()
+    rows = _VERTEX.findall(text, text.find(b"\n") + 1)
+    facets = text.count(b"endfacet")
     if not rows:
         raise mesh_error(
             path, "mesh-empty", "the ASCII STL file contains no triangles", _AGAIN
