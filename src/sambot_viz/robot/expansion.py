@@ -212,6 +212,7 @@ def _failure(data: Mapping[str, Any]) -> XacroFailure:
         calls=tuple(XacroCall(*call) for call in data["calls"]),
         includes=tuple(data["includes"]),
         missing_package=(missing[0], tuple(missing[1])) if missing else None,
+        known_packages=tuple(data["known_packages"]),
         lazy=tuple(data["lazy"]),
         definitions=tuple(Definition(*entry) for entry in data["definitions"]),
     )

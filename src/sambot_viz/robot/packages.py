@@ -152,17 +152,23 @@ class PackageIndex:
     def _neighbourhood(self) -> Iterator[Path]:
         """The folders to search, from the model's own up to its workspace.
 
-        Without a sign of a workspace the search ends two folders above the model's
-        package, or in the model's folder when it belongs to no package: what lies
-        further up has nothing to do with the model.
+        Without a sign of a workspace the search ends three folders above the model's
+        package (the folder of checkouts, when packages stand in groups), or in the
+        model's folder when it belongs to no package: what lies further up has nothing
+        to do with the model.
         """
         folders = list(self.ancestors())
-        marked = [n for n, folder in enumerate(folders) if _workspace_root(folder)]
         packages = [n for n, folder in enumerate(folders) if package_name(folder)]
+        inside = packages[-1] if packages else 0
+        marked = [
+            n
+            for n, folder in enumerate(folders)
+            if n >= inside and _workspace_root(folder)
+        ]
         if marked:
             end = marked[0]
         else:
-            end = packages[-1] + 2 if packages else 0
+            end = inside + 3 if packages else 0
         yield from folders[: end + 1]
 
     def _beside(self, name: str) -> Path | None:
@@ -251,6 +257,8 @@ def _workspace_root(folder: Path) -> bool:
     if (folder / "src").is_dir() and (
         (folder / "install").is_dir() or (folder / "build").is_dir()
     ):
+        return True
+    if folder.name == "src":
         return True
     in_workspace = any(parent.name == "src" for parent in folder.parents)
     return (folder / ".git").exists() and not in_workspace

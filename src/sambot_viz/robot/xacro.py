@@ -57,6 +57,7 @@ class XacroFailure:
         calls: the same chain as places of the calls, innermost first.
         includes: files being read, innermost first; the last is the main file.
         missing_package: (name, places searched) when ``$(find name)`` failed.
+        known_packages: names of the packages that were found while searching.
         lazy: properties whose value was being worked out, innermost first.
         definitions: what was defined so far, for near names.
     """
@@ -73,6 +74,7 @@ class XacroFailure:
     calls: tuple[XacroCall, ...] = ()
     includes: tuple[str, ...] = ()
     missing_package: tuple[str, tuple[str, ...]] | None = None
+    known_packages: tuple[str, ...] = ()
     lazy: tuple[str, ...] = ()
     definitions: tuple[Definition, ...] = ()
 

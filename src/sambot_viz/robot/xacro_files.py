@@ -11,17 +11,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from sambot_viz.robot.packages import PackageIndex
+from sambot_viz.robot.packages import Lookup, PackageIndex
 from sambot_viz.robot.resolve import inside_package, other_letter_case
 from sambot_viz.robot.xacro_guard import Guard
 
 
 class PackageNotFoundError(KeyError):
-    """What ament_index_python raises; its look-up stands in `lookup`."""
+    """What ament_index_python raises; with what the look-up found."""
 
-    def __init__(self, name: str, searched: tuple[str, ...]) -> None:
-        super().__init__(f"package '{name}' not found")
-        self.missing_package = (name, searched)
+    def __init__(self, lookup: Lookup) -> None:
+        super().__init__(f"package '{lookup.name}' not found")
+        self.missing_package = (lookup.name, lookup.searched)
+        self.known_packages = lookup.known
 
 
 class XacroFiles:
@@ -57,7 +58,7 @@ class XacroFiles:
     def _share_directory(self, name: str) -> str:
         lookup = self._index.find(name)
         if lookup.path is None:
-            raise PackageNotFoundError(name, lookup.searched)
+            raise PackageNotFoundError(lookup)
         if lookup.path not in self._roots:
             self._roots.append(lookup.path)
         return str(lookup.path)

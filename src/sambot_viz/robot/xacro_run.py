@@ -133,6 +133,7 @@ class Expansion:
             "includes": stack,
             "lazy": self._lazy,
             "missing_package": getattr(cause, "missing_package", None),
+            "known_packages": getattr(cause, "known_packages", ()),
             "definitions": list(self._definitions.values()),
         }
 
