@@ -55,6 +55,12 @@ def joint(name: str, kind: str, parent: int, child: int, inside: str = "") -> st
     )
 
 
+def test_a_robot_of_one_link_has_one_pose():
+    poses = robot_with("", 1).forward_kinematics()
+    assert list(poses) == ["l0"]
+    assert np.array_equal(poses["l0"], np.eye(4))
+
+
 def test_a_prismatic_axis_is_a_direction_not_a_factor():
     robot = robot_with(joint("j", "prismatic", 0, 1, '<axis xyz="0 0 2"/>'), 2)
     assert robot.forward_kinematics({"j": 0.5})["l1"][2, 3] == 0.5

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -70,10 +71,10 @@ class Kinematics:
         self.joints: tuple[str, ...] = tuple(joint.name for joint in order)
         self._order = order
         self._row = {name: row for row, name in enumerate(self.joints)}
-        ends = [*starts[1:], len(order)]
+        bounds = itertools.pairwise([*starts, len(order)])
         self._levels = [
             _Level(slice(a + 1, b + 1), np.array(parents[a:b], np.int64))
-            for a, b in zip(starts, ends, strict=True)
+            for a, b in bounds
         ]
         count = len(order)
         self._origins: _Floats = np.empty((count, 4, 4))
