@@ -76,7 +76,7 @@ class Source:
         tail: index after the value.
         end: index after the comment behind the value and its line break.
         column: how far the entry was indented.
-        first: it was the first one of its collection.
+        inline: it stood behind a dash, without an indentation of its own.
     """
 
     lead: int
@@ -86,7 +86,7 @@ class Source:
     tail: int
     end: int
     column: int
-    first: bool
+    inline: bool
 
 
 @dataclass(eq=False, slots=True)

@@ -25,8 +25,8 @@ _parse_events: Any = cast(Any, yaml).parse
 _NULLS = frozenset({"", "~", "null", "Null", "NULL"})
 _TO_LINE_END = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n|\Z)")
 _GAP = re.compile(r"(?:[ \t\r\n]+|#[^\r\n]*)*")
-_ANCHORS = re.compile(r"(?:[ \t\r\n]+|#[^\r\n]*|[&!][^\s]*)*")
-"""The gap before the first entry, where the anchor and the tag of the whole stand."""
+_ANCHORS = re.compile(r"(?:[ \t]*[&!][^\s]*)+[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n)")
+"""The anchor and the tag of a whole map or list stand on a line above it."""
 
 DEEPEST = 200
 """Maps in maps beyond this depth are an attack or an accident, no display tree."""
@@ -76,7 +76,8 @@ class _Reader:
         self.copies = 0
         self.flow = 0
 
-    def node(self, event: Any, depth: int) -> Node:
+    def node(self, event: Any, depth: int, after: int | None = None) -> Node:
+        """Read a node; `after` is where the key or dash before it ends."""
         if depth > DEEPEST:
             raise _fault(event, "lists and maps are nested too deeply")
         if isinstance(event, yaml.AliasEvent):
@@ -87,7 +88,7 @@ class _Reader:
         if isinstance(event, yaml.ScalarEvent):
             node: Node = _scalar(event)
         else:
-            node = self._collection(event, depth)
+            node = self._collection(event, depth, after)
         if anchor is not None:
             self.anchors[anchor] = node
         return node
@@ -106,27 +107,39 @@ class _Reader:
         node.alias = True
         return node
 
-    def _collection(self, event: Any, depth: int) -> Node:
+    def _collection(self, event: Any, depth: int, after: int | None) -> Node:
         is_map = isinstance(event, yaml.MappingStartEvent)
         node = Map() if is_map else List()
         node.span = _span(event)
         node.flow = bool(event.flow_style)
         self.flow += node.flow
-        end = node.span.start
+        end = start = self._body_start(node, after)
         while not isinstance(
             first := next(self.events), (yaml.MappingEndEvent, yaml.SequenceEndEvent)
         ):
             key = self.node(first, depth + 1) if is_map else None
-            value = self.node(next(self.events) if is_map else first, depth + 1)
+            after = _known(key).end if key else self._after_dash(end)
+            value = self.node(next(self.events) if key else first, depth + 1, after)
             entry = self._entry(node, key, value, end)
             node.entries.append(entry)
             end = entry.source.end if entry.source else _known(value).end
         if node.flow:
             end = first.end_mark.index
         self.flow -= node.flow
-        node.span = Span(node.span.start, end, node.span.line, node.span.column)
+        node.span = Span(start, end, node.span.line, node.span.column)
         node.original = tuple(node.entries)
         return node
+
+    def _body_start(self, node: Map | List, after: int | None) -> int:
+        """Where a map or list begins: with the comments above its first entry."""
+        start = _known(node).start
+        if node.flow or self.flow or after is None:
+            return start
+        broken = self.text.find("\n", after, start)
+        return broken + 1 if broken >= 0 else start
+
+    def _after_dash(self, lead: int) -> int:
+        return _matched(_GAP, self.text, _matched(_ANCHORS, self.text, lead)) + 1
 
     def _entry(self, parent: Collection, key: Node | None, value: Node, lead: int):
         span = _known(key or value)
@@ -144,8 +157,9 @@ class _Reader:
         self, parent: Collection, key: Node | None, value: Node, lead: int
     ) -> Source | None:
         """The place of an entry that has lines of its own."""
-        first = not parent.entries
-        start = _matched(_ANCHORS if first else _GAP, self.text, lead)
+        if not parent.entries:
+            lead = _matched(_ANCHORS, self.text, lead)
+        start = _matched(_GAP, self.text, lead)
         if key is None and self.text[start : start + 1] != "-":
             parent.opaque = True
             return None
@@ -163,7 +177,7 @@ class _Reader:
             tail=tail,
             end=self._line_end(tail),
             column=start - line,
-            first=first,
+            inline=not parent.entries and lead > line,
         )
 
     def _line_end(self, tail: int) -> int:

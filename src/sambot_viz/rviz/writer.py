@@ -62,7 +62,7 @@ class Writer:
         if node.flow:
             values = (entry.value for entry in node.entries)
             return not node.reshaped and all(map(self._can_patch, values))
-        return not node.opaque and bool(node.entries)
+        return not node.opaque and bool(node.entries and node.original)
 
     def _patched(self, node: Node, flow: bool = False) -> str:
         """The old text of a node with the changes in it."""
@@ -78,12 +78,11 @@ class Writer:
             return text + self._newline if broken else text
         if node.flow:
             return self._patched_flow(node)
-        first = node.original[0] if node.original else None
-        anchor = (
-            self._text[start : first.source.start] if first and first.source else ""
-        )
-        column = first.source.column if first and first.source else 0
-        return anchor + self._entries(node.entries, column)
+        source = node.original[0].source if node.original else None
+        if source is None:
+            raise AssertionError("a collection without entries cannot be patched")
+        anchor = self._text[start : source.lead]
+        return anchor + self._entries(node.entries, source.column, source.inline)
 
     def _patched_flow(self, node: Map | List) -> str:
         parts: list[str] = []
@@ -94,12 +93,13 @@ class Writer:
             at = after
         return "".join(parts) + self._text[at:end]
 
-    def _entries(self, entries: list[Entry], column: int) -> str:
+    def _entries(self, entries: list[Entry], column: int, inline: bool = True) -> str:
+        """Entries one below the other; `inline` the first one needs no indentation."""
         parts: list[str] = []
         for entry in entries:
             if parts and not parts[-1].endswith(("\n", "\r")):
                 parts.append(self._newline)
-            parts.append(self._entry(entry, column, first=not parts))
+            parts.append(self._entry(entry, column, inline and not parts))
         return "".join(parts)
 
     def _entry(self, entry: Entry, column: int, first: bool) -> str:
@@ -117,15 +117,13 @@ class Writer:
             head += "" if entry.key is None else ":"
             comment = self._comment(source)
             body = head + self._fresh_value(entry, source.column, comment)
-        skip = first or source.first
+        skip = first or source.inline
         shifted = self._shifted(lead + body, column - source.column, skip)
-        return " " * column + shifted if source.first and not first else shifted
+        return " " * column + shifted if source.inline and not first else shifted
 
     def _lead(self, source: Source, first: bool) -> str:
         """Comments and blank lines before an entry, and its indentation."""
         lead = self._text[source.lead : source.start]
-        if source.first:
-            return ""
         return lead.lstrip(" \t\r\n") if first else lead
 
     def _comment(self, source: Source) -> str:
