@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -40,6 +42,31 @@ def test_what_is_no_mesh_is_refused_in_one_sentence(
     assert problem.severity == "error" and problem.file == str(path)
     assert "\n" not in str(caught.value)
     assert isinstance(caught.value, errors.RobotError)
+
+
+def test_a_pointer_beside_the_mesh_is_said(write: Callable[..., Path]) -> None:
+    write("a.mtl", POINTER)
+    mesh = read_mesh(
+        write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    )
+    assert [problem.code for problem in mesh.problems] == ["mesh-lfs-pointer"]
+    write("a.bin", POINTER)
+    content = """{"nodes": [{"mesh": 0}], "meshes": [{"primitives": [
+      {"attributes": {"POSITION": 0}}]}], "buffers": [{"uri": "a.bin"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [
+      {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]}"""
+    with pytest.raises(MeshError, match=r"'a\.bin' is a git-LFS pointer"):
+        read_mesh(write("a.gltf", content))
+
+
+def test_nothing_heavy_is_imported_before_it_is_needed() -> None:
+    code = (
+        "import sys, sambot_viz.robot.meshes;"
+        "heavy = {'trimesh', 'PIL', 'lxml', 'collada', 'scipy', 'viser'};"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    run = [sys.executable, "-c", code]
+    assert subprocess.run(run, capture_output=True, text=True).stdout == "[]\n"
 
 
 def test_a_missing_file_and_a_folder_are_said(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from urllib.parse import unquote, unquote_to_bytes
 
 from sambot_viz.robot.mesh.assembly import Findings
 from sambot_viz.robot.mesh.gltf_json import Broken, Json, entry
-from sambot_viz.robot.mesh.textures import find_beside
+from sambot_viz.robot.mesh.textures import find_beside, is_lfs_pointer
 
 
 class Resources:
@@ -39,7 +39,11 @@ class Resources:
         return self._buffers[number]
 
     def uri(self, uri: str) -> bytes | None:
-        """The bytes behind a data URI or a file name; None when there are none."""
+        """The bytes behind a data URI or a file name; None when there are none.
+
+        Raises:
+            Broken: the file is a git-LFS pointer.
+        """
         if uri.startswith("data:"):
             head, _, body = uri.partition(",")
             if not head.endswith(";base64"):
@@ -55,5 +59,7 @@ class Resources:
             data = path.read_bytes()
         except OSError:
             return None
+        if is_lfs_pointer(data):
+            raise Broken(f"'{path.name}' is a git-LFS pointer; run 'git lfs pull'")
         self.findings.read(path)
         return data

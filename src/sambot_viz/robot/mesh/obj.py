@@ -16,7 +16,7 @@ from sambot_viz.robot.mesh.arrays import parse_floats, parse_ints, table_of, tri
 from sambot_viz.robot.mesh.assembly import Findings, Floats, Piece
 from sambot_viz.robot.mesh.looks import Look, load_texture
 from sambot_viz.robot.mesh.model import GREY
-from sambot_viz.robot.mesh.textures import TextureStore, find_beside
+from sambot_viz.robot.mesh.textures import TextureStore, find_beside, is_lfs_pointer
 
 _TWO_SLASHES = re.compile(rb"/\d*/")
 _MISSING = np.iinfo(np.int64).min
@@ -224,6 +224,12 @@ def _read_libraries(
                 "put it beside the mesh",
             )
             continue
+        if is_lfs_pointer(data):
+            findings.warn(
+                "mesh-lfs-pointer",
+                f"the material file '{name}' is a git-LFS pointer; grey is shown",
+                "run 'git lfs pull' in its repository",
+            )
         findings.read(path)
         looks.update(_read_library(data, findings, images))
     return looks

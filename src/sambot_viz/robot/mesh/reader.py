@@ -9,7 +9,7 @@ import numpy as np
 
 from sambot_viz.robot.mesh.assembly import Findings, Piece, assemble
 from sambot_viz.robot.mesh.model import Mesh, mesh_error
-from sambot_viz.robot.mesh.textures import TextureStore
+from sambot_viz.robot.mesh.textures import TextureStore, is_lfs_pointer
 
 LARGEST = 500 * 1024 * 1024
 """Files above this size [bytes] are refused unless somebody asks for more."""
@@ -69,7 +69,7 @@ def _read_bytes(path: Path, largest: int) -> bytes:
         raise mesh_error(
             path, "mesh-unreadable", f"the file cannot be read: {reason}"
         ) from error
-    if data.startswith(b"version https://git-lfs"):
+    if is_lfs_pointer(data):
         raise mesh_error(
             path,
             "mesh-lfs-pointer",

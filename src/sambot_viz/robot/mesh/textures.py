@@ -81,7 +81,7 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
     Raises:
         TextureError: no image, or one that is broken.
     """
-    if data.startswith(b"version https://git-lfs"):
+    if is_lfs_pointer(data):
         raise TextureError("it is a git-LFS pointer; run 'git lfs pull'")
     # Pillow takes a twentieth of a second to import, most robots have no texture.
     from PIL import Image, UnidentifiedImageError
@@ -125,6 +125,9 @@ def _encode(image: Image, longest_side: int) -> Texture:
         image = image.convert("I").point(lambda value: value / 256).convert("L")
     alpha = "A" in image.getbands() or "transparency" in image.info
     image = image.convert("RGBA" if alpha else "RGB")
+    if alpha and image.getchannel("A").getextrema() == (255, 255):
+        # An alpha channel that hides nothing would only forbid JPEG.
+        alpha, image = False, image.convert("RGB")
     if not fits:
         image.thumbnail((longest_side, longest_side))
     lossy = not alpha and (kind == "JPEG" or not fits)
@@ -136,6 +139,11 @@ def _encode(image: Image, longest_side: int) -> Texture:
     else:
         image.save(out, "PNG", compress_level=4)
     return Texture(out.getvalue(), mime, *image.size)
+
+
+def is_lfs_pointer(data: bytes) -> bool:
+    """Whether this only stands for a file that git-LFS keeps elsewhere."""
+    return data.startswith(b"version https://git-lfs")
 
 
 def find_beside(mesh: Path, name: str) -> Path | None:
