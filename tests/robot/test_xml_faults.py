@@ -132,6 +132,22 @@ def test_an_unclosed_tag_is_told_where_it_was_opened_and_where_to_close_it() -> 
     assert problem.hint == "add </link> after <visual …> on line 3"
 
 
+def test_an_opening_tag_that_is_missing_is_wanted_before_its_content() -> None:
+    problem = only(
+        '<robot name="r">\n  <material/>\n    <visual/>\n  </link>\n</robot>\n'
+    )
+
+    assert problem.code == "xml-opening-tag-missing"
+    assert problem.line == 3
+
+
+def test_a_robot_that_was_never_opened_is_one_problem() -> None:
+    problem = only('<link name="a"/>\n<link name="b"/>\n</robot>\n')
+
+    assert problem.code == "xml-opening-tag-missing"
+    assert problem.line == 1
+
+
 def test_every_slip_is_told_at_once() -> None:
     problems = explained("<robot name=r>\n<a b='1' b='2'/>\n<!-- - -- -->\n</robot>")
 

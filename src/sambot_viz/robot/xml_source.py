@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
+from sambot_viz.errors import Problem
 from sambot_viz.robot.xml_tokens import Slip, Token, tokenize
 
 
@@ -33,6 +34,13 @@ class Source:
         start = self._starts[line - 1]
         end = self.text.find("\n", start)
         return self.text[start : len(self.text) if end < 0 else end].rstrip("\r")
+
+    def error(
+        self, file: str, code: str, offset: int, message: str, hint: str
+    ) -> Problem:
+        """A problem of severity "error" at an offset."""
+        line, column = self.line(offset), self.column(offset)
+        return Problem("error", code, message, hint, file, line, column)
 
     @cached_property
     def _read(self) -> tuple[list[Token], list[Slip]]:

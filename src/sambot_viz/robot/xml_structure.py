@@ -11,6 +11,7 @@ import difflib
 from dataclasses import dataclass, field
 
 from sambot_viz.errors import Problem
+from sambot_viz.robot.xml_root_end import behind_root
 from sambot_viz.robot.xml_source import Source
 from sambot_viz.robot.xml_tokens import Token
 
@@ -61,26 +62,27 @@ class _Walk:
 
     def run(self) -> None:
         tags = self.source.tags
+        if tags and tags[-1].closes and tags[-1].name == "robot":
+            if not any(t.name == "robot" and not t.closes for t in tags):
+                self._robot_missing(tags)
+                return
         for index, token in enumerate(tags):
             if self.root_end is not None:
-                self._behind_root(index)
-                return
+                break
             if len(self.problems) > _MOST:
                 return
             if token.kind == "close":
                 self._close(index)
             else:
                 self._start(token)
-        if self.stack:
+        if self.root is not None and self.root_end is not None:
+            found = behind_root(self.source, self.file, self.root, self.root_end)
+            self.problems += [found] if found else []
+        elif self.stack:
             self._end_of_file()
-        elif self.root_end is not None:
-            self._text_behind_root()
 
     def _add(self, code: str, at: int, message: str, hint: str) -> None:
-        line, column = self.source.line(at), self.source.column(at)
-        self.problems.append(
-            Problem("error", code, message, hint, self.file, line, column)
-        )
+        self.problems.append(self.source.error(self.file, code, at, message, hint))
 
     def _line(self, token: Token) -> int:
         return self.source.line(token.start)
@@ -179,7 +181,7 @@ class _Walk:
 
     def _unclosed(self, entry: _Open, closed: Token | None) -> None:
         opened = entry.token
-        shown = self._shown(opened)
+        shown = opened.shown
         line = self._line(opened)
         if opened.name in _LEAVES and not entry.children:
             self._add(
@@ -200,11 +202,6 @@ class _Walk:
             f"{shown} opened on line {line} is never closed",
             f"add </{opened.name}> {where}",
         )
-
-    def _shown(self, token: Token) -> str:
-        name = token.get("name")
-        named = f' name="{name}"' if name and token.name != name else ""
-        return f"<{token.name}{named}>"
 
     def _named(self, token: Token) -> str:
         if token.kind == "comment":
@@ -235,7 +232,14 @@ class _Walk:
         before = [t for t in self.source.tags if t.end <= token.start]
         twin = next((t for t in reversed(before) if t.name == token.name), None)
         inner = self.stack[-1].token if self.stack else None
-        if twin is not None and twin.kind == "empty":
+        orphan = self._first_orphan(token)
+        closed_at_once = twin is not None and twin.kind == "empty"
+        if orphan is not None and not (
+            closed_at_once and twin is self._sibling_before(orphan)
+        ):
+            self._opening_missing(token, orphan)
+            return
+        if twin is not None and closed_at_once:
             message = (
                 f"</{token.name}> on line {line} closes <{token.name} …/> of line "
                 f"{self._line(twin)} again: the slash before > has closed it already"
@@ -252,6 +256,44 @@ class _Walk:
             hint = f"delete it, or write the <{token.name}> that is missing before it"
         self._add("xml-closing-tag-surplus", token.start, message, hint)
 
+    def _first_orphan(self, closed: Token) -> Token | None:
+        """The first of the elements that are indented as if inside `closed`."""
+        if not self.stack:
+            return None
+        column = self.source.column(closed.start)
+        if self.source.column(self.stack[-1].token.start) >= column:
+            return None
+        orphan: Token | None = None
+        for child in reversed(self.stack[-1].children):
+            if self.source.column(child.start) <= column:
+                break
+            orphan = child
+        return orphan
+
+    def _sibling_before(self, child: Token) -> Token | None:
+        children = self.stack[-1].children
+        index = children.index(child)
+        return children[index - 1] if index else None
+
+    def _opening_missing(self, closed: Token, orphan: Token) -> None:
+        line = self._line(orphan)
+        self._add(
+            "xml-opening-tag-missing",
+            orphan.start,
+            f"</{closed.name}> on line {self._line(closed)} closes a <{closed.name}> "
+            f"that was never opened; what belongs inside begins on line {line}",
+            f"write <{closed.name} …> before line {line}, or delete </{closed.name}>",
+        )
+
+    def _robot_missing(self, tags: list[Token]) -> None:
+        self._add(
+            "xml-opening-tag-missing",
+            tags[0].start,
+            f"</robot> on line {self._line(tags[-1])} closes a <robot> that was never "
+            "opened",
+            f'write <robot name="…"> before line {self._line(tags[0])}',
+        )
+
     def _end_of_file(self) -> None:
         """The text ends with tags open: one was forgotten, or the file is cut off."""
         forgotten = [e for e in self.stack[1:] if self._place_to_close(e, None)]
@@ -262,7 +304,7 @@ class _Walk:
         at = max(len(self.source.text.rstrip()) - 1, 0)
         names = [entry.token.name for entry in self.stack]
         root = self.stack[0].token
-        inner = f", inside {self._shown(self.stack[-1].token)}" if names[1:] else ""
+        inner = f", inside {self.stack[-1].token.shown}" if names[1:] else ""
         ends = "".join(f"</{name}>" for name in reversed(names[:4]))
         self._add(
             "xml-root-not-closed",
@@ -272,74 +314,3 @@ class _Walk:
             f"add {ends} at the end"
             + ("; perhaps the file was cut off" if names[1:] else ""),
         )
-
-    def _behind_root(self, index: int) -> None:
-        """Tags behind the end of the root element."""
-        if self.root is None or self.root_end is None:
-            return
-        token = self.source.tags[index]
-        name = self.root.name
-        end = self._line(self.root_end)
-        rest = self.source.tags[index:]
-        if token.name == name and not token.closes:
-            self._add(
-                "xml-two-robots",
-                token.start,
-                f"a second <{name}> begins on line {self._line(token)} after the "
-                f"first was closed on line {end}: a file holds one",
-                f"move its content into the first <{name}>, or into a file of its own",
-            )
-            return
-        if token.closes and len(rest) == 1:
-            self._add(
-                "xml-closing-tag-surplus",
-                token.start,
-                f"</{token.name}> on line {self._line(token)} closes nothing: "
-                f"</{name}> on line {end} has ended the file's one root element",
-                f"delete </{token.name}> on line {self._line(token)}",
-            )
-            return
-        self._closed_early(token, rest)
-
-    def _closed_early(self, token: Token, rest: list[Token]) -> None:
-        if self.root is None or self.root_end is None:
-            return
-        name, end = self.root.name, self._line(self.root_end)
-        last = rest[-1]
-        shown = self._named(token) if token.closes else self._shown(token)
-        begins = f"the content that starts with {shown} on line {self._line(token)}"
-        if self.root_end.kind == "empty":
-            message = (
-                f"<{name} …/> on line {end} is closed at once by its slash, before "
-                f"{begins}"
-            )
-            hint = f"write > instead of /> on line {end} and </{name}> as the last line"
-        elif last.closes and last.name == name:
-            message = f"line {end} closes </{name}> too early, before {begins}"
-            hint = (
-                f"delete </{name}> on line {end}; the one on line {self._line(last)} "
-                "is the right one"
-            )
-        else:
-            message = f"line {end} closes </{name}> too early, before {begins}"
-            hint = f"move </{name}> from line {end} to the last line of the file"
-        # The place is where the content goes on, because there the reader sees that
-        # it is outside; the line of the early tag is the first thing in the message.
-        self._add("xml-root-closed-early", token.start, message, hint)
-
-    def _text_behind_root(self) -> None:
-        if self.root is None or self.root_end is None:
-            return
-        for token in self.source.tokens:
-            text = self.source.text[token.start : token.end]
-            if token.start >= self.root_end.end and token.kind in ("text", "cdata"):
-                if text.strip():
-                    at = token.start + len(text) - len(text.lstrip())
-                    self._add(
-                        "xml-text-after-root",
-                        at,
-                        f"there is text after </{self.root.name}>: "
-                        f"“{text.strip().splitlines()[0][:40]}”",
-                        "delete it, or make it a comment: <!-- … -->",
-                    )
-                    return

@@ -100,6 +100,14 @@ class Token:
         """Whether this is a closing tag."""
         return self.kind == "close"
 
+    @property
+    def shown(self) -> str:
+        """The tag in a message: </a>, <a>, or <a name="…"> when it has a name."""
+        if self.closes:
+            return f"</{self.name}>"
+        name = self.get("name")
+        return f'<{self.name} name="{name}">' if name else f"<{self.name}>"
+
     def get(self, name: str) -> str | None:
         """The value of an attribute as written, or None."""
         return next((a.value for a in self.attributes if a.name == name), None)
