@@ -452,8 +452,28 @@ def test_a_config_is_saved_and_loaded_again(tmp_path: Path, declarations: Declar
     assert RvizConfig.load(path, declarations).displays[0].get("Alpha") == 0.75
 
 
-def test_all_real_files_open(real_files: list[Path], declarations: Declarations):
+def test_all_real_files_open_and_are_written_as_they_were(
+    real_files: list[Path], declarations: Declarations
+):
     for path in real_files:
         config = RvizConfig.load(path, declarations)
         assert config.displays or "visual_tests" in path.name
         assert {problem.severity for problem in config.problems} <= {"warning"}
+        assert config.to_yaml().encode() == path.read_bytes(), path.name
+
+
+def test_rviz_s_own_file_with_all_of_ros_1_opens(
+    shared: Path, declarations: Declarations
+):
+    config = RvizConfig.load(
+        shared / "data/rviz/ros2__rviz__all_ros1.rviz", declarations
+    )
+    assert config.ros1
+    known = [d.class_id for d in config.displays if d.supported]
+    assert known == ["rviz/Grid", "rviz/Group", "rviz/RobotModel", "rviz/TF"]
+    kinds = [d.kind for d in config.displays]
+    assert "rviz_default_plugins/Wrench" in kinds
+    assert "rviz_plugin_tutorials/Imu" in kinds
+    assert config.global_options.get("Fixed Frame") == "sentinel_frame"
+    assert config.global_options.get("Default Light") is True
+    assert "rviz/FrameAligned" in [view.class_id for view in config.saved_views]

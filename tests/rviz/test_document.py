@@ -293,12 +293,6 @@ def test_python_s_own_yaml_reader_gives_the_same(monkeypatch: pytest.MonkeyPatch
     assert "      Text: short\n" in changed(HAND_WRITTEN, keys, "short")
 
 
-def test_real_files_are_written_as_they_were(real_files: list[Path]):
-    for path in real_files:
-        document = Document.load(path)
-        assert document.to_yaml().encode() == path.read_bytes(), path.name
-
-
 def test_rviz_s_own_files_written_anew_are_the_same_text(real_files: list[Path]):
     differing: list[str] = []
     some = real_files[::5]

@@ -71,7 +71,7 @@ class Writer:
             return self._text[start:end]
         if isinstance(node, Scalar):
             text = scalar_text(node, flow)
-            if start and not self._text[start - 1].isspace():
+            if start == end and not self._text[start - 1].isspace():
                 # A missing value begins right behind its colon or dash.
                 text = f" {text}"
             broken = self._text[start:end].endswith(("\n", "\r"))
