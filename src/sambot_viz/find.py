@@ -20,10 +20,16 @@ _MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """The files to show: a model, and a config if one belongs to it."""
+    """The files to show.
+
+    Attributes:
+        model: the model file.
+        config: the .rviz file, or None when none was named and none belongs to the
+            model; then the bundled one serves, with a fixed frame of the robot.
+    """
 
     model: Path
-    config: Path
+    config: Path | None
 
 
 def find(model: Path | None, config: Path | None = None) -> Found:
@@ -39,13 +45,13 @@ def find(model: Path | None, config: Path | None = None) -> Found:
     if config is not None and not config.is_file():
         raise UsageError(_missing("config", config))
     if model is None:
-        return Found(resources.model_path(), config or resources.config_path())
+        return Found(resources.model_path(), config)
     if not model.exists():
         raise UsageError(_missing("model", model))
     if not model.is_dir():
-        return Found(model, config or resources.config_path())
+        return Found(model, config)
     found = _model_in(model)
-    return Found(found, config or _config_in(model) or resources.config_path())
+    return Found(found, config or _config_in(model))
 
 
 def _model_in(folder: Path) -> Path:

@@ -89,6 +89,11 @@ class Server:
             shown = f"[{shown}]"
         return f"http://{shown}:{self._viser.get_port()}"
 
+    @property
+    def viser(self) -> viser.ViserServer:
+        """The viser server, to add nodes and widgets of one's own."""
+        return self._viser
+
     def sessions(self) -> list[Session]:
         """All sessions there are at the moment."""
         with self._lock:

@@ -120,6 +120,7 @@ class Session:
             else:
                 self.joints.reload(robot)
             self._build_tree(robot, self._kinematics, self.joints)
+            self._take_globals()
             self.set_problems((*robot.problems, *self.joints.problems))
             self._frames_changed()
 

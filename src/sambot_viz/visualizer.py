@@ -8,6 +8,9 @@ from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
 
+import viser
+
+from sambot_viz import resources
 from sambot_viz.config import declarations, load_config
 from sambot_viz.errors import ServerError
 from sambot_viz.find import find
@@ -81,7 +84,8 @@ class Visualizer:
         else:
             loading = in_thread(partial(self._load, found.model))
         document = config if isinstance(config, RvizConfig) else None
-        document = document or load_config(found.config)
+        bundled = document is None and found.config is None
+        document = document or load_config(found.config or resources.config_path())
         if fixed_frame is not None:
             document.global_options.set("Fixed Frame", fixed_frame)
         options = ServerOptions(host, port, session, gui)
@@ -89,7 +93,10 @@ class Visualizer:
         try:
             if on_open is not None and not _failed(loading):
                 on_open(self.url)
-            self._server.show_robot(loading.result())
+            robot = loading.result()
+            if bundled and fixed_frame is None:
+                _fit_fixed_frame(document, robot)
+            self._server.show_robot(robot)
         except BaseException:
             self._server.stop()
             raise
@@ -98,6 +105,11 @@ class Visualizer:
     def url(self) -> str:
         """The address to open in a browser: "http://127.0.0.1:PORT"."""
         return self._server.url
+
+    @property
+    def viser(self) -> viser.ViserServer:
+        """The viser server, to add nodes and widgets of one's own."""
+        return self._server.viser
 
     @property
     def joint_positions(self) -> Mapping[str, float]:
@@ -188,5 +200,10 @@ def _documents(document: RvizConfig, mode: SessionMode) -> Callable[[], RvizConf
     """The one document for all browsers, or a copy for each."""
     if mode == "shared":
         return lambda: document
-    text = document.to_yaml()
-    return lambda: RvizConfig.parse(text, declarations())
+    return lambda: RvizConfig.parse(document.to_yaml(), declarations())
+
+
+def _fit_fixed_frame(document: RvizConfig, robot: Robot) -> None:
+    """Let the bundled config, which is sam_bot's, fit any robot: its root serves."""
+    if document.global_options.get("Fixed Frame") not in robot.links:
+        document.global_options.set("Fixed Frame", robot.root)

@@ -134,11 +134,13 @@ class _ItemRows:
 
     def offer_frames(self, frames: Sequence[str]) -> None:
         """The lists of frames offer the frames that exist."""
-        for handle, prop in self._inputs.values():
+        for path, (handle, prop) in self._inputs.items():
             if isinstance(prop, TfFrameProperty) and isinstance(
                 handle, viser.GuiDropdownHandle
             ):
-                handle.options = frame_choices(prop, frames, handle.value)
+                value = self._item.get(path)
+                handle.options = frame_choices(prop, frames, value)
+                handle.value = text(value)
 
     def _add_all(
         self, properties: Sequence[Property], above: str, frames: Sequence[str]

@@ -1,0 +1,186 @@
+"""The command line: what it prints, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from urllib.request import urlopen
+
+import pytest
+
+from sambot_viz import Visualizer
+from sambot_viz.cli import main
+
+Capture = pytest.CaptureFixture[str]
+
+
+@contextmanager
+def running(*words: str, cwd: Path | None = None) -> Iterator[subprocess.Popen[str]]:
+    """The program as a user starts it, ended by its own handle."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "sambot_viz", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=cwd,
+        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+    )
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+def address(process: subprocess.Popen[str]) -> str:
+    assert process.stdout is not None
+    return process.stdout.readline().strip()
+
+
+def test_it_prints_one_line_with_the_address_and_serves_the_page(
+    tmp_path: Path,
+) -> None:
+    with running("--port", "0", cwd=tmp_path) as process:
+        url = address(process)
+        assert re.fullmatch(r"http://127\.0\.0\.1:\d+", url)
+        with urlopen(url) as page:
+            assert page.status == 200
+        process.send_signal(signal.SIGINT)
+        started = time.monotonic()
+        out, err = process.communicate(timeout=10)
+        assert process.returncode == 0
+        assert (out, err) == ("", "")
+        # "Within a second", with room for a busy machine.
+        assert time.monotonic() - started < 5
+
+
+def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
+    import socket
+
+    with running("--port", "0", cwd=tmp_path) as process:
+        port = int(address(process).rsplit(":", 1)[1])
+        for greeting in (b"", b"GET / HT", b"\x16\x03\x01 no http at all\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", port)) as connection:
+                connection.sendall(greeting)
+        with urlopen(f"http://127.0.0.1:{port}") as page:
+            assert page.status == 200
+        process.send_signal(signal.SIGTERM)
+        _, err = process.communicate(timeout=10)
+        assert err == ""
+
+
+def test_the_students_file_ends_with_the_line_the_cause_and_the_mend(
+    shared: Path, capsys: Capture
+) -> None:
+    model = shared / "data/seed/robot_closed_too_early.urdf.xacro"
+    for command in ([str(model)], ["check", str(model)]):
+        assert main([*command, "--port", "0"] if len(command) == 1 else command) == 1
+        out, err = capsys.readouterr()
+        said = out + err
+        assert "xml-root-closed-early" in said
+        assert "line 4 closes </robot> too early" in said
+        assert "move </robot>" in said
+        assert "Traceback" not in said
+
+
+def test_check_is_silent_on_errors_for_a_good_model(
+    repository: Path, capsys: Capture
+) -> None:
+    assert main(["check", str(repository / "assets" / "sam_bot.urdf.xacro")]) == 0
+    assert "error[" not in capsys.readouterr().out
+
+
+def test_check_prints_json_for_graders(tmp_path: Path, capsys: Capture) -> None:
+    model = tmp_path / "two_roots.urdf"
+    model.write_text('<robot name="r">\n<link name="a"/>\n<link name="b"/>\n</robot>')
+    assert main(["check", str(model), "--format", "json"]) == 1
+    report = json.loads(capsys.readouterr().out)
+    assert report["model"] == str(model)
+    keys = {"severity", "code", "message", "hint", "file", "line", "column"}
+    assert report["problems"] and set(report["problems"][0]) == keys
+
+
+def test_expand_prints_the_urdf(repository: Path, capsys: Capture) -> None:
+    assert main(["expand", str(repository / "assets" / "sam_bot.urdf.xacro")]) == 0
+    out = capsys.readouterr().out
+    assert '<robot name="sam_bot">' in out and "xacro:" not in out
+
+
+def test_xacro_arguments_stand_anywhere(tmp_path: Path, capsys: Capture) -> None:
+    model = tmp_path / "r.xacro"
+    model.write_text(
+        '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
+        '<xacro:arg name="size" default="1"/><link name="l$(arg size)"/></robot>'
+    )
+    assert main(["expand", "size:=7", str(model)]) == 0
+    assert '<link name="l7"/>' in capsys.readouterr().out
+    assert main(["expand", f"model:={model}", "size:=8"]) == 0
+    assert '<link name="l8"/>' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (["missing.urdf"], 2, "no model 'missing.urdf': there is no such file"),
+        (["-d", "missing.rviz"], 2, "no config 'missing.rviz'"),
+        (["--port", "70000"], 1, "port 70000 does not exist"),
+        (["--port", "many"], 2, "invalid int value: 'many'"),
+        (["--bogus"], 2, "unrecognized arguments: --bogus"),
+        (["gui:=perhaps"], 2, "gui:=perhaps is neither true nor false"),
+        (["a.urdf", "--model", "b.urdf"], 2, "two models given: 'a.urdf' and 'b.urdf'"),
+        (["check", "--format", "xml"], 2, "invalid choice: 'xml'"),
+        (["--host", "203.0.113.7", "--port", "0"], 1, "no such address"),
+    ],
+)
+def test_a_bad_command_line_is_one_clear_line(
+    words: list[str], code: int, said: str, capsys: Capture
+) -> None:
+    try:
+        ended = main(words)
+    except SystemExit as end:
+        ended = end.code
+    _, err = capsys.readouterr()
+    assert ended == code
+    assert said in err and err.count("\n") == 1 and "Traceback" not in err
+
+
+def test_a_taken_port_is_one_clear_line(capsys: Capture) -> None:
+    with Visualizer(port=0) as viz:
+        port = viz.url.rsplit(":", 1)[1]
+        assert main(["--port", port]) == 1
+    _, err = capsys.readouterr()
+    assert f"port {port} on 127.0.0.1 is taken" in err and err.count("\n") == 1
+
+
+def test_a_config_with_a_yaml_error_names_the_line(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    config = tmp_path / "broken.rviz"
+    config.write_text("Panels:\n  - Class: a\n Name: b\n")
+    assert main(["-d", str(config), "--port", "0"]) == 1
+    assert f"{config}:3" in capsys.readouterr().err
+
+
+def test_a_package_folder_shows_its_own_model_and_config(
+    tmp_path: Path, repository: Path
+) -> None:
+    package = tmp_path / "my_bot"
+    (package / "urdf").mkdir(parents=True)
+    (package / "rviz").mkdir()
+    model = package / "urdf" / "my_bot.urdf"
+    model.write_text('<robot name="my"><link name="hull"/></robot>')
+    config = repository / "rviz" / "urdf_config.rviz"
+    (package / "rviz" / "view.rviz").write_text(config.read_text())
+    from sambot_viz.find import find
+
+    found = find(package)
+    assert (found.model, found.config) == (model, package / "rviz" / "view.rviz")

@@ -1,0 +1,57 @@
+"""The private names of viser that we use are where we use them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+import viser
+from viser import _messages
+
+from sambot_viz import compat
+from sambot_viz.server import listen
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = listen("127.0.0.1", 0)
+    yield server
+    with compat.without_banner():
+        server.stop()
+
+
+def handlers(server: viser.ViserServer) -> dict[type, list[object]]:
+    return server._websock_server._incoming_handlers  # type: ignore[return-value]
+
+
+def test_the_share_handlers_are_there_and_are_taken_away(
+    server: viser.ViserServer,
+) -> None:
+    assert _messages.ShareUrlRequest in handlers(server)
+    assert _messages.ShareUrlDisconnect in handlers(server)
+    compat.drop_share_handlers(server)
+    assert _messages.ShareUrlRequest not in handlers(server)
+    assert _messages.ShareUrlDisconnect not in handlers(server)
+
+
+def test_the_gui_handler_is_there_and_is_wrapped(server: viser.ViserServer) -> None:
+    before = handlers(server)[_messages.GuiUpdateMessage]
+    assert before
+    compat.guard_gui_updates(server)
+    assert handlers(server)[_messages.GuiUpdateMessage] != before
+
+
+def test_nodes_are_counted(server: viser.ViserServer) -> None:
+    before = compat.node_count(server.scene)
+    server.scene.add_frame("/a")
+    assert compat.node_count(server.scene) == before + 1
+
+
+def test_starting_and_stopping_prints_nothing(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    server = listen("127.0.0.1", 0)
+    with compat.without_banner():
+        server.stop()
+    out, err = capfd.readouterr()
+    assert (out, err) == ("", "")

@@ -1,0 +1,233 @@
+"""The Python API: a robot in a server of one's own, and what reaches the browsers."""
+
+from __future__ import annotations
+
+import math
+import socket
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from protocol_client import ProtocolClient, Received
+
+from sambot_viz import (
+    JointError,
+    RobotError,
+    ServerError,
+    UsageError,
+    Visualizer,
+    load_robot,
+)
+from sambot_viz.errors import FrameError
+
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+Connect = Callable[..., ProtocolClient]
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as visualizer:
+        yield visualizer
+
+
+def port_of(viz: Visualizer) -> int:
+    return int(viz.url.rsplit(":", 1)[1])
+
+
+@pytest.fixture
+def client(viz: Visualizer, protocol: Connect) -> ProtocolClient:
+    client = protocol(port_of(viz))
+    client.settle(viz.viser)
+    return client
+
+
+def test_the_bundled_sam_bot_is_shown_without_arguments(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    assert viz.url.startswith("http://127.0.0.1:")
+    assert dict(viz.joint_positions) == {LEFT: 0.0, RIGHT: 0.0}
+    assert {m.fields["props"]["text"] for m in labels(client)} == {
+        "base_link",
+        "base_footprint",
+        "drivewhl_l_link",
+        "drivewhl_r_link",
+        "front_caster",
+    }
+
+
+def test_there_is_a_slider_for_each_wheel_with_its_range_and_start(
+    client: ProtocolClient,
+) -> None:
+    for joint in (LEFT, RIGHT):
+        uuid = client.uuid_of(joint)
+        slider = next(m for m in client.messages if m.fields.get("uuid") == uuid)
+        assert slider.type == "GuiSliderMessage"
+        props = slider.fields["props"]
+        assert (props["min"], props["max"]) == (-math.pi, math.pi)
+        assert slider.fields["value"] == 0.0
+
+
+@pytest.mark.parametrize(
+    "value", [99.0, -99.0, math.nan, math.inf, "fast", [1.0], {"a": 1}, None]
+)
+def test_a_bad_value_from_a_browser_moves_nothing_out_of_range(
+    viz: Visualizer, client: ProtocolClient, value: object
+) -> None:
+    client.set_value(client.uuid_of(LEFT), value)
+    client.settle(viz.viser)
+    assert -math.pi <= viz.joint_positions[LEFT] <= math.pi
+
+
+def test_center_and_randomize_move_all_joints(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    def press(label: str) -> None:
+        client.send(
+            "GuiUpdateMessage", uuid=client.uuid_of(label), updates={"value": True}
+        )
+        client.settle(viz.viser)
+
+    press("Randomize")
+    assert 0.0 not in viz.joint_positions.values()
+    press("Center")
+    assert set(viz.joint_positions.values()) == {0.0}
+
+
+def test_browsers_cannot_write_the_inner_state_of_a_widget(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    uuid = client.uuid_of(LEFT)
+    client.send("GuiUpdateMessage", uuid=uuid, updates={"update_cb": []})
+    client.send("GuiUpdateMessage", uuid=uuid, updates={"removed": True})
+    client.settle(viz.viser)
+    client.set_value(uuid, 0.7)
+    client.settle(viz.viser)
+    assert viz.joint_positions[LEFT] == 0.7
+
+
+def test_no_gui_leaves_the_joints_panel_out(protocol: Connect) -> None:
+    with Visualizer(port=0, gui=False) as viz:
+        client = protocol(port_of(viz))
+        assert LEFT not in client.widgets
+        assert "Fixed Frame" in client.widgets
+
+
+def test_the_fixed_frame_changes_live(viz: Visualizer, client: ProtocolClient) -> None:
+    mark = client.mark()
+    client.set_value(client.uuid_of("Fixed Frame"), "base_footprint")
+    client.settle(viz.viser)
+    moved = [m for m in client.since(mark) if m.type == "SetPositionMessage"]
+    assert [m.fields["position"] for m in moved] == [pytest.approx((0, 0, 0.15))]
+
+
+def test_a_display_is_switched_off_and_on(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    box = next(
+        m.fields["uuid"]
+        for m in client.messages
+        if m.type == "GuiCheckboxMessage" and m.fields["props"]["label"] == "TF"
+    )
+    mark = client.mark()
+    client.set_value(box, False)
+    client.settle(viz.viser)
+    gone = {m.fields["name"] for m in client.since(mark) if "Remove" in m.type}
+    assert {m.fields["name"] for m in labels(client)} <= gone
+    mark = client.mark()
+    client.set_value(box, True)
+    client.settle(viz.viser)
+    assert client.types(since=mark)["LabelMessage"] == 5
+
+
+def labels(client: ProtocolClient) -> list[Received]:
+    return [m for m in client.messages if m.type == "LabelMessage"]
+
+
+def test_a_static_transform_is_found_and_can_be_looked_up(viz: Visualizer) -> None:
+    viz.set_static_transform("base_link", "base_laser", xyz=(0.1, 0.0, 0.2))
+    T = viz.frames.lookup("base_link", "base_laser").matrix
+    assert T[:3, 3] == pytest.approx((0.1, 0.0, 0.2))
+    wheel = viz.frames.lookup("base_link", "drivewhl_l_link").matrix
+    assert wheel[:3, 3] == pytest.approx((-0.12, 0.18, -0.05))
+
+
+def test_a_ring_of_frames_is_refused(viz: Visualizer) -> None:
+    with pytest.raises(FrameError):
+        viz.set_static_transform("front_caster", "base_link")
+
+
+def test_frames_follow_the_joints(viz: Visualizer) -> None:
+    viz.set_joint_positions({LEFT: math.pi / 2})
+    T = viz.frames.lookup("base_link", "drivewhl_l_link").matrix
+    assert np.allclose(T[:3, :3] @ [1, 0, 0], [0, 0, -1])
+
+
+def test_a_wrong_joint_name_offers_the_right_one(viz: Visualizer) -> None:
+    with pytest.raises(JointError, match=f"did you mean '{LEFT}'"):
+        viz.set_joint_positions({"drivewhl_l_jiont": 1.0})
+    with pytest.raises(JointError):
+        viz.set_joint_positions({LEFT: math.nan})
+
+
+def test_the_port_is_free_again_after_the_end() -> None:
+    with Visualizer(port=0) as viz:
+        port = port_of(viz)
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        probe.bind(("127.0.0.1", port))
+
+
+def test_a_taken_port_is_an_error_that_says_what_to_do() -> None:
+    with Visualizer(port=0) as viz, pytest.raises(ServerError, match="--port 0"):
+        Visualizer(port=port_of(viz))
+
+
+def test_an_address_of_another_machine_is_an_error() -> None:
+    with pytest.raises(ServerError, match="no such address"):
+        Visualizer(host="203.0.113.7", port=0)
+
+
+def test_a_wrong_model_leaves_no_server_behind(tmp_path: Path) -> None:
+    model = tmp_path / "wrong.urdf"
+    model.write_text('<robot name="r">\n  <link name="a">\n</robot>\n')
+    with pytest.raises(RobotError):
+        Visualizer(model=model, port=0)
+
+
+def test_a_missing_file_is_an_error_with_the_nearest_name(tmp_path: Path) -> None:
+    (tmp_path / "robot.urdf").write_text("<robot/>")
+    with pytest.raises(UsageError, match=r"did you mean 'robot\.urdf'"):
+        Visualizer(model=tmp_path / "robto.urdf")
+
+
+def test_a_robot_object_and_korean_folders_work(
+    tmp_path: Path, protocol: Connect
+) -> None:
+    folder = tmp_path / "내 로봇 폴더"
+    folder.mkdir()
+    model = folder / "로봇.urdf"
+    model.write_text(
+        "<!-- 우리 로봇 -->\n"
+        '<robot name="로봇"><link name="몸"><visual><geometry><box size="1 1 1"/>'
+        "</geometry></visual></link></robot>",
+        encoding="utf-8",
+    )
+    with Visualizer(model=load_robot(model), port=0) as viz:
+        client = protocol(port_of(viz))
+        assert [m.fields["props"]["text"] for m in labels(client)] == ["몸"]
+        assert client.value_of("Fixed Frame") == "몸"
+
+
+def test_private_sessions_have_a_robot_each(protocol: Connect) -> None:
+    with Visualizer(port=0, session="private") as viz:
+        first, second = protocol(port_of(viz)), protocol(port_of(viz))
+        first.wait_until(lambda: LEFT in first.widgets)
+        second.wait_until(lambda: LEFT in second.widgets)
+        first.settle(viz.viser)
+        second.settle(viz.viser)
+        mark = second.mark()
+        first.set_value(first.uuid_of(LEFT), 0.5)
+        first.settle(viz.viser)
+        second.settle(viz.viser)
+        assert second.since(mark) == []
