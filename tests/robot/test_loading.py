@@ -128,3 +128,10 @@ def test_a_folder_is_told_with_the_models_in_it(tmp_path: Path):
     problem = errors(tmp_path)[0]
     assert problem.code == "model-is-folder"
     assert "a.urdf" in problem.hint
+
+
+def test_a_robot_goes_on_to_yourdfpy_whatever_its_encoding(tmp_path: Path):
+    text = '<?xml version="1.0" encoding="euc-kr"?><robot name="로봇"><link name="a"/>'
+    model = tmp_path / "m.urdf"
+    model.write_bytes(f"{text}</robot>".encode("euc-kr"))
+    assert load_robot(model).to_yourdfpy().robot.name == "로봇"

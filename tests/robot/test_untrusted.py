@@ -132,3 +132,13 @@ def test_a_mesh_outside_the_model_and_its_packages_is_not_found(tmp_path: Path):
 
     assert found(trusted=True) == [True, True, True]
     assert found(trusted=False) == [True, False, False]
+
+
+def test_a_text_has_no_folder_to_read_from(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    (tmp_path / "part.xacro").write_text(f'{HEAD}<link name="part"/></robot>')
+    monkeypatch.chdir(tmp_path)
+    assert "outside the model's folder" in refusal(
+        '<xacro:include filename="part.xacro"/>'
+    )

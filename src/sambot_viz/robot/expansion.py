@@ -89,7 +89,7 @@ def expand_model(
         ExpansionError: xacro or a limit ended it.
         ExpansionXmlError: the model or an included file is no XML.
     """
-    folder = str(Path(file).absolute().parent) if text is None else os.getcwd()
+    folder = str(Path(file).absolute().parent) if text is None else None
     job = {
         "file": file,
         "text": text,

@@ -40,11 +40,19 @@ class FileFinder:
 
     def __init__(
         self,
-        folder: Path,
+        folder: Path | None,
         package_path: Sequence[Path | str],
         findings: Findings,
         trusted: bool = True,
     ) -> None:
+        """Prepare.
+
+        Args:
+            folder: the model's folder, or None for a model given as text.
+            package_path: as for `load_robot`.
+            findings: where problems go.
+            trusted: False finds nothing outside the model's folder and packages.
+        """
         index = PackageIndex(folder, package_path)
         self._resolver = FileResolver(index, folder)
         self._findings = findings

@@ -19,7 +19,7 @@ from sambot_viz.robot.xacro import ExpansionError, ExpansionXmlError
 from sambot_viz.robot.xacro_faults import explain_xacro
 from sambot_viz.robot.xml import Element, parse_xml
 from sambot_viz.robot.xml_faults import explain_xml
-from sambot_viz.robot.xml_text import XmlFault
+from sambot_viz.robot.xml_text import XmlFault, declared_as_utf8
 
 PathLike = str | os.PathLike[str]
 
@@ -172,7 +172,7 @@ def _robot(
     trusted: bool,
 ) -> Robot:
     findings = Findings()
-    folder = source.path.absolute().parent if source.path is not None else Path.cwd()
+    folder = source.path.absolute().parent if source.path is not None else None
     files = FileFinder(folder, package_path, findings, trusted)
     urdf = read_urdf(
         document, findings, files.mesh, files.texture, expanded is not None
@@ -181,13 +181,13 @@ def _robot(
     if urdf is None or findings.rejected:
         raise RobotError(problems)
     read = expanded.files if expanded is not None else ()
-    own = (source.path.absolute(),) if source.path is not None else ()
+    own = (Path(os.path.abspath(source.path)),) if source.path is not None else ()
     return Robot(
         urdf.name,
         urdf.root,
         urdf.links,
         urdf.joints,
         tuple(problems),
-        expanded.text if expanded is not None else source.text,
+        expanded.text if expanded is not None else declared_as_utf8(source.text),
         tuple(dict.fromkeys((*own, *read))),
     )

@@ -21,7 +21,7 @@ import numpy.typing as npt
 from sambot_viz.errors import Problem
 
 if TYPE_CHECKING:
-    import yourdfpy
+    import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
 Matrix = npt.NDArray[np.float64]
 Vector3 = tuple[float, float, float]
@@ -317,8 +317,8 @@ class Robot:
         """
         import io
 
-        import yourdfpy
+        import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
-        return yourdfpy.URDF.load(
+        return yourdfpy.URDF.load(  # pyright: ignore[reportUnknownMemberType]
             io.BytesIO(self.urdf.encode()), build_scene_graph=True, load_meshes=False
         )

@@ -157,9 +157,8 @@ class Expansion:
             ("print_location", _say_nothing),
         ):
             x._global_symbols["xacro"][name] = function
-        index = PackageIndex(
-            Path(job["folder"]), job["package_path"], job["environment"]
-        )
+        folder = Path(job["folder"]) if job["folder"] else None
+        index = PackageIndex(folder, job["package_path"], job["environment"])
         XacroFiles(index, self._guard, self._warn).install(x)
         if self._guard is not None:
             self._guard.install(x)

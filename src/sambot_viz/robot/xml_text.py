@@ -80,3 +80,12 @@ def mended_prolog(text: str) -> str:
     if match is None or _GOOD_VERSION.match(match[1]):
         return text
     return '<?xml version="1.0"' + "\n" * match[1].count("\n") + text[match.end(1) :]
+
+
+def declared_as_utf8(text: str) -> str:
+    """The text with a declaration that fits when it is written as UTF-8."""
+    match = _DECLARATION.match(text)
+    if match is None:
+        return text
+    named = re.sub(r"""(\bencoding\s*=\s*)("[^"]*"|'[^']*')""", r'\1"utf-8"', match[0])
+    return named + text[match.end() :]
