@@ -228,7 +228,7 @@ def test_a_diffuse_texture_is_white_times_the_image(
 ) -> None:
     write("textures/Skin.PNG", png())
     extra = (
-        '<library_images><image id="img"><init_from>file:///C:/work/skin.png'
+        '<library_images><image id="img"><init_from>file:///C:/export/skin.png'
         "</init_from></image></library_images>"
     )
     effect = '<phong><diffuse><texture texture="smp" texcoord="UV"/></diffuse></phong>'

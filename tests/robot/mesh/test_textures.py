@@ -110,7 +110,7 @@ def test_the_same_image_is_the_same_object(write: Write, png: Png) -> None:
         ("./sub/skin.png", "meshes/sub/skin.png"),
         ("SKIN.PNG", "meshes/skin.png"),
         ("textures/skin.png", "meshes/textures/Skin.png"),
-        (r"C:\work\skin.png", "meshes/skin.png"),
+        (r"C:\export\skin.png", "meshes/skin.png"),
         ("file:///home/someone/skin.png", "meshes/textures/skin.png"),
         ("my%20skin.png", "meshes/my skin.png"),
         ("100%.png", "meshes/100%.png"),
