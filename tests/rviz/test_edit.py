@@ -169,6 +169,14 @@ def test_a_duplicate_stands_behind_its_original_and_lives_by_itself(
     assert names(reread(config, declarations).displays) == names(config.displays)
 
 
+def test_what_is_doubtful_is_told_once_however_often_it_is_copied(parse: Parse):
+    config = parse(TREE.replace("Name: a  # first", "Alpha: 7"))
+    assert len(config.problems) == 1
+    copy = config.duplicate(config.displays[0])
+    assert copy.get("Alpha") == 1.0
+    assert len(config.problems) == 1
+
+
 def test_a_display_moves_with_its_comments(parse: Parse, declarations: Declarations):
     config = parse(TREE)
     a, group, d = config.displays

@@ -214,7 +214,10 @@ def test_one_leading_slash_of_a_frame_is_dropped():
 def test_a_list_where_a_frame_belongs_keeps_the_default():
     value, said = read(TfFrameProperty("Fixed Frame"), "[PLANNING_FRAME]")
     assert value is None
-    assert said == ["'Fixed Frame' has a list where the name of a frame belongs"]
+    assert said == [
+        "'Fixed Frame' has a list where the name of a frame belongs; "
+        "the default <Fixed Frame> is used"
+    ]
 
 
 def test_a_broken_regular_expression_filters_nothing_and_is_kept():

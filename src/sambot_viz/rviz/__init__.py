@@ -1,7 +1,14 @@
 """The .rviz document: reading, typed properties, lossless writing.
 
 `RvizConfig` is a file; `ConfigItem` (a display, a view, a tool, Global Options) gives
-typed values by path; the classes of `properties` declare what values there are.
+typed values by path; the classes of `properties` declare what values there are::
+
+    config = RvizConfig.load("urdf_config.rviz", Declarations(displays={...}))
+    grid = config.displays[0]
+    grid.get("Line Style/Line Width")     # 0.03
+    grid.set("Alpha", 7)                  # 1.0: clamped, and in the document
+    config.modified, config.problems      # True, ()
+    config.save("urdf_config.rviz")       # one line of the file differs
 """
 
 from __future__ import annotations

@@ -50,9 +50,10 @@ class Findings:
         self.file = file
         self.problems: list[Problem] = []
 
-    def add(self, code: str, node: Node | None, message: str, hint: str = "") -> None:
-        """Note a warning at a node."""
-        span = node.span if node is not None else None
-        line, column = (span.line, span.column) if span else (None, None)
+    def add(self, code: str, node: Node, message: str, hint: str = "") -> None:
+        """Note a warning at a node; copies were told of at their originals."""
+        if node.span is None:
+            return
+        line, column = node.span.line, node.span.column
         problem = Problem("warning", code, message, hint, self.file, line, column)
         self.problems.append(problem)

@@ -6,7 +6,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_name import GROUP, kind_of, short_name, written_in_ros1
 from sambot_viz.rviz.entries import DisplayConfig, new_map
 from sambot_viz.rviz.manager import Manager
-from sambot_viz.rviz.nodes import Entry, List, Map, copied, items_of
+from sambot_viz.rviz.nodes import Entry, List, Map, copied_map, items_of
 
 
 class DisplayList(Manager):
@@ -74,9 +74,7 @@ class DisplayList(Manager):
 
     def duplicate(self, display: DisplayConfig) -> DisplayConfig:
         """Copy a display with all it holds, right behind it, under the same name."""
-        node = copied(display.node)
-        if not isinstance(node, Map):
-            raise AssertionError("a display is a map")
+        node = copied_map(display.node)
         group = display.parent
         copy = self._display(node, group)
         self._insert(copy, Entry(None, node), group, self._index(group, display))

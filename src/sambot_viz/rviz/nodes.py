@@ -233,8 +233,16 @@ def copied(node: Node) -> Node:
     """A copy that belongs to no place in the file."""
     if isinstance(node, Scalar):
         return Scalar(node.text, node.null, node.quote)
-    entries = [Entry(e.key, copied(e.value), quote=e.quote) for e in node.entries]
-    return Map(entries) if isinstance(node, Map) else List(entries)
+    return copied_map(node) if isinstance(node, Map) else List(_copied_entries(node))
+
+
+def copied_map(node: Map) -> Map:
+    """A copy of a map that belongs to no place in the file."""
+    return Map(_copied_entries(node))
+
+
+def _copied_entries(node: Map | List) -> list[Entry]:
+    return [Entry(e.key, copied(e.value), quote=e.quote) for e in node.entries]
 
 
 def same(first: Node, second: Node) -> bool:

@@ -113,7 +113,12 @@ class Property:
         if node is None or isinstance(node, Map):
             return None
         if isinstance(node, List):
-            report(node, f"'{self.name}' has a list where {self._expected} belongs", "")
+            report(
+                node,
+                f"'{self.name}' has a list where {self._expected} belongs; "
+                f"{self._default_text()} is used",
+                f"write {self._expected}",
+            )
             return None
         return None if node.null else self._parse(node, report)
 

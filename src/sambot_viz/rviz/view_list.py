@@ -12,7 +12,7 @@ from sambot_viz.rviz.class_name import (
 )
 from sambot_viz.rviz.entries import ViewConfig, new_map
 from sambot_viz.rviz.manager import Manager
-from sambot_viz.rviz.nodes import Entry, List, Map, copied, items_of
+from sambot_viz.rviz.nodes import Entry, List, Map, copied_map, items_of
 
 CURRENT = "Current View"
 ORBIT = "rviz_default_plugins/Orbit"
@@ -107,7 +107,7 @@ class ViewList(Manager):
             name: its label; the class's short name when not given, as in RViz.
         """
         kind = self._view.kind
-        node = _copy(self._view)
+        node = copied_map(self._view.node)
         node.put_text("Name", short_name(kind) if name is None else name)
         self._saved_list().entries.append(Entry(None, node))
         view = ViewConfig(node, self._declarations.views.get(kind), self._findings)
@@ -116,7 +116,7 @@ class ViewList(Manager):
 
     def use_view(self, saved: ViewConfig) -> ViewConfig:
         """Copy a saved view into the current one."""
-        node = _copy(saved)
+        node = copied_map(saved.node)
         node.put_text("Name", CURRENT)
         view = ViewConfig(
             node, self._declarations.views.get(saved.kind), self._findings
@@ -139,10 +139,3 @@ class ViewList(Manager):
     def _put_current(self, view: ViewConfig) -> None:
         self._views_map().put("Current", view.node)
         self._view = view
-
-
-def _copy(view: ViewConfig) -> Map:
-    node = copied(view.node)
-    if not isinstance(node, Map):
-        raise AssertionError("a view is a map")
-    return node
