@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import gc
 import importlib
-import importlib.util
 import os
 import re
 import sys
@@ -23,6 +22,7 @@ from sambot_viz.robot.xacro_places import (
     packed,
     parse_placed,
 )
+from sambot_viz.robot.xacro_speed import import_lazily, skipping_plain_text
 from sambot_viz.robot.xml_text import XmlFault, decode, mended_prolog
 
 _XACRO_WORDS = frozenset(
@@ -57,7 +57,7 @@ class Expansion:
 
     def __init__(self, job: dict[str, Any]) -> None:
         self._job = job
-        _import_lazily("yaml")
+        import_lazily("yaml")
         self._xacro: Any = importlib.import_module("xacro")
         self._places = PlaceKeeper()
         self._node: Any = None
@@ -140,6 +140,7 @@ class Expansion:
     def _patch(self) -> None:
         x, job = self._xacro, self._job
         x.parse = self._parse
+        x.eval_text = skipping_plain_text(x.eval_text)
         x.eval_all = self._following(x.eval_all)
         x.handle_macro_call = self._macro_call(x.handle_macro_call)
         x.grab_property = self._defining("property", x.grab_property)
@@ -275,21 +276,6 @@ class Expansion:
         place = getattr(self._node, "sambot_place", (self._job["file"], None, None))
         self._warnings.append([" ".join(map(str, words)), *place])
         return ""
-
-
-def _import_lazily(name: str) -> None:
-    """Put a module in place that is read only when it is used.
-
-    xacro imports yaml at the first ``$(arg …)``, for a conversion that never comes;
-    that would be a third of the child's time.
-    """
-    spec = importlib.util.find_spec(name)
-    if spec is None or spec.loader is None:
-        return
-    spec.loader = importlib.util.LazyLoader(spec.loader)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
 
 
 def _say_nothing(*_words: Any, **_options: Any) -> str:
