@@ -9,15 +9,14 @@ import viser
 from viser import _messages
 
 from sambot_viz import compat
-from sambot_viz.server import listen
+from sambot_viz.listening import close, listen
 
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
     server = listen("127.0.0.1", 0)
     yield server
-    with compat.without_banner():
-        server.stop()
+    close(server)
 
 
 def handlers(server: viser.ViserServer) -> dict[type, list[object]]:
@@ -51,7 +50,6 @@ def test_starting_and_stopping_prints_nothing(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
     server = listen("127.0.0.1", 0)
-    with compat.without_banner():
-        server.stop()
+    close(server)
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")

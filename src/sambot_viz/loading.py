@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Future
 from threading import Thread
+from typing import TYPE_CHECKING, TypeAlias
 
-from sambot_viz.robot.model import Robot
+if TYPE_CHECKING:
+    from sambot_viz.robot.model import Robot
 
-Loading = Future[Robot]
+Loading: TypeAlias = "Future[Robot]"
 """A robot that is being read."""
 
 

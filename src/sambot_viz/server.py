@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import errno
-import socket
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,6 +11,7 @@ import viser
 
 from sambot_viz import compat
 from sambot_viz.errors import ServerError
+from sambot_viz.listening import close, listen, url_of
 from sambot_viz.panels.layout import Layout
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
@@ -49,6 +48,7 @@ class Server:
         options: where to listen, and for whom.
         make_config: a fresh .rviz document; called once per session.
         load_file: reads another model, for a RobotModel from a file.
+        listening: a viser server that listens already; None makes one.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -59,6 +59,7 @@ class Server:
         options: ServerOptions,
         make_config: MakeConfig,
         load_file: Callable[[str], Robot] | None = None,
+        listening: viser.ViserServer | None = None,
     ) -> None:
         self.options = options
         self._make_config = make_config
@@ -68,7 +69,7 @@ class Server:
         self._joined = threading.Condition()
         self._robot: Robot | None = None
         self._private: dict[int, tuple[Session, Layout | None]] = {}
-        self._viser = listen(options.host, options.port)
+        self._viser = listening or listen(options.host, options.port)
         self._stopped = threading.Event()
         compat.drop_share_handlers(self._viser)
         compat.guard_gui_updates(self._viser)
@@ -83,11 +84,7 @@ class Server:
     @property
     def url(self) -> str:
         """The address to open: "http://127.0.0.1:8080"."""
-        host = self.options.host
-        shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]", "": "127.0.0.1"}.get(host, host)
-        if ":" in shown and not shown.startswith("["):
-            shown = f"[{shown}]"
-        return f"http://{shown}:{self._viser.get_port()}"
+        return url_of(self._viser)
 
     @property
     def viser(self) -> viser.ViserServer:
@@ -133,8 +130,7 @@ class Server:
         self._stopped.set()
         for session in self.sessions():
             session.close()
-        with compat.without_banner():
-            self._viser.stop()
+        close(self._viser)
 
     def _open(self, audience: object) -> tuple[Session, Layout | None]:
         session = Session(
@@ -171,53 +167,3 @@ class Server:
             if layout is not None:
                 layout.close()
             session.close()
-
-
-def listen(host: str, port: int) -> viser.ViserServer:
-    """A viser server on exactly this address.
-
-    viser itself takes the next free port in silence, and tries forever on an address
-    that this machine does not have.
-
-    Raises:
-        ServerError: the address cannot be listened on, with what to do about it.
-    """
-    _try_to_bind(host, port)
-    compat.quiet_websockets()
-    with compat.without_banner():
-        server = viser.ViserServer(host=host, port=port, verbose=False)
-    if port not in (0, server.get_port()):
-        with compat.without_banner():
-            server.stop()
-        raise _taken(host, port)
-    return server
-
-
-def _try_to_bind(host: str, port: int) -> None:
-    if not 0 <= port <= 65535:
-        raise ServerError(f"port {port} does not exist; choose one from 1 to 65535")
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    with socket.socket(family, socket.SOCK_STREAM) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((host, port))
-        except (OSError, UnicodeError) as error:
-            code = error.errno if isinstance(error, OSError) else None
-            if code == errno.EADDRINUSE:
-                raise _taken(host, port) from error
-            if code == errno.EACCES:
-                raise ServerError(
-                    f"port {port} needs the rights of an administrator; choose one "
-                    "from 1024 on, or --port 0 for any free one"
-                ) from error
-            raise ServerError(
-                f"cannot listen on '{host}': this machine has no such address; use "
-                "127.0.0.1 for this machine only, or 0.0.0.0 for all its networks"
-            ) from error
-
-
-def _taken(host: str, port: int) -> ServerError:
-    return ServerError(
-        f"port {port} on {host} is taken by another program; choose another with "
-        "--port, or --port 0 for any free one"
-    )

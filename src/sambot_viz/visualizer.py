@@ -48,8 +48,8 @@ class Visualizer:
             methods below then act on all of them.
         xacro_args: arguments for xacro, name → text.
         package_path: folders in which ROS packages are looked for.
-        on_open: called with the address as soon as the page can be opened, which is
-            before a large robot is loaded.
+        server: a viser server that listens already (host and port then say nothing);
+            None makes one. It is stopped with this.
 
     Raises:
         RobotError: the model cannot be shown.
@@ -70,7 +70,7 @@ class Visualizer:
         session: SessionMode = "shared",
         xacro_args: Mapping[str, str] | None = None,
         package_path: Sequence[PathLike] = (),
-        on_open: Callable[[str], None] | None = None,
+        server: viser.ViserServer | None = None,
     ) -> None:
         self._xacro_args = dict(xacro_args or {})
         self._package_path = tuple(package_path)
@@ -89,10 +89,9 @@ class Visualizer:
         if fixed_frame is not None:
             document.global_options.set("Fixed Frame", fixed_frame)
         options = ServerOptions(host, port, session, gui)
-        self._server = Server(options, _documents(document, session), self._load)
+        documents = _documents(document, session)
+        self._server = Server(options, documents, self._load, server)
         try:
-            if on_open is not None and not _failed(loading):
-                on_open(self.url)
             robot = loading.result()
             if bundled and fixed_frame is None:
                 _fit_fixed_frame(document, robot)
@@ -190,10 +189,6 @@ class Visualizer:
         if not sessions:
             raise ServerError("no browser has opened a private session yet")
         return sessions[0]
-
-
-def _failed(loading: Loading) -> bool:
-    return loading.done() and loading.exception() is not None
 
 
 def _documents(document: RvizConfig, mode: SessionMode) -> Callable[[], RvizConfig]:

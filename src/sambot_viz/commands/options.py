@@ -7,10 +7,12 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from sambot_viz.errors import UsageError
-from sambot_viz.robot.model import Robot
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.model import Robot
 
 _ARGUMENT = re.compile(r"\s*([A-Za-z_][\w.-]*)\s*:=(.*)", re.DOTALL)
 

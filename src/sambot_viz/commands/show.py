@@ -7,16 +7,18 @@ import signal
 import threading
 from functools import partial
 from pathlib import Path
+from xml.etree import ElementTree
 
 from sambot_viz import report
 from sambot_viz._version import __version__
 from sambot_viz.commands.options import (
+    ModelOptions,
     Parser,
     add_model_options,
     parse,
 )
 from sambot_viz.errors import UsageError
-from sambot_viz.find import find
+from sambot_viz.find import Found, find
 from sambot_viz.loading import in_thread
 
 EPILOG = """\
@@ -37,27 +39,57 @@ def run(words: list[str]) -> int:
     config = options.display_config or wanted.words.get("rvizconfig")
     found = find(wanted.model, Path(config) if config else None)
     gui = _gui(options.gui, wanted.words.get("gui"))
-    # The robot is read while viser, which takes longer, is being imported.
-    loading = in_thread(partial(wanted.load, found.model))
-    from sambot_viz.visualizer import Visualizer
+    _refuse_early(wanted, found)
+    from sambot_viz.listening import close, listen, url_of
 
     stop = threading.Event()
     _stop_on_signals(stop)
-    with Visualizer(
-        model=loading,
-        config=found.config,
-        host=options.host,
-        port=options.port,
-        fixed_frame=options.fixed_frame,
-        gui=gui,
-        session=options.session,
-        xacro_args=wanted.xacro_args,
-        package_path=wanted.package_path,
-        on_open=partial(_announce, open_it=options.open),
-    ):
-        report.write(loading.result().problems)
-        stop.wait()
+    server = listen(options.host, options.port)
+    try:
+        _announce(url_of(server), options.open)
+        # From here on a browser can load the page; the rest is imported meanwhile.
+        loading = in_thread(partial(wanted.load, found.model))
+        from sambot_viz.visualizer import Visualizer
+
+        with Visualizer(
+            model=loading,
+            config=found.config,
+            fixed_frame=options.fixed_frame,
+            gui=gui,
+            session=options.session,
+            xacro_args=wanted.xacro_args,
+            package_path=wanted.package_path,
+            server=server,
+        ):
+            report.write(loading.result().problems)
+            stop.wait()
+    finally:
+        close(server)
     return 0
+
+
+def _refuse_early(wanted: ModelOptions, found: Found) -> None:
+    """Tell what is plainly wrong before an address is shown.
+
+    Raises:
+        RobotError: the model is no XML.
+        ConfigError: the config is no .rviz document.
+    """
+    if not _is_xml(found.model):
+        wanted.load(found.model)
+    if found.config is not None:
+        from sambot_viz.rviz import Declarations, RvizConfig
+
+        RvizConfig.load(found.config, Declarations())
+
+
+def _is_xml(path: Path) -> bool:
+    """Whether a model is well-formed; a quick look that imports next to nothing."""
+    try:
+        ElementTree.fromstring(path.read_bytes())
+    except (ElementTree.ParseError, ValueError, LookupError, OSError):
+        return False
+    return True
 
 
 def _parser() -> argparse.ArgumentParser:
