@@ -7,7 +7,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.display import Display, Handle, remove_all
-from sambot_viz.displays.lines import lines_glb
+from sambot_viz.displays.lines import in_pieces, lines_glb
 from sambot_viz.displays.poses import Position, Wxyz
 from sambot_viz.displays.solids import Rgb
 from sambot_viz.rviz import (
@@ -162,7 +162,7 @@ class GridDisplay(Display):
             )
         return scene.add_glb(
             name,
-            lines_glb(segments, color, alpha),
+            lines_glb(in_pieces(segments, float(get("Cell Size"))), color, alpha),
             cast_shadow=False,
             receive_shadow=False,
             wxyz=wxyz,

@@ -24,6 +24,34 @@ def _linear(channel: int) -> float:
     return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
 
 
+MOST_PIECES = 20000
+"""More pieces than this are not made of lines (0.5 MB)."""
+
+
+def in_pieces(
+    segments: npt.NDArray[np.float32], longest: float
+) -> npt.NDArray[np.float32]:
+    """Cut lines into pieces.
+
+    A GL line with an end behind the camera is dropped as a whole by some renderers
+    (software WebGL does so); of a line in pieces only the nearest piece is lost.
+
+    Args:
+        segments: (N, 2, 3) float32 [m].
+        longest: length that a piece should not exceed [m].
+
+    Returns:
+        (M, 2, 3) float32; M ≥ N.
+    """
+    start, step = segments[:, 0], segments[:, 1] - segments[:, 0]
+    length = float(np.linalg.norm(step, axis=1).max())
+    count = max(1, min(int(np.ceil(length / longest)), MOST_PIECES // len(segments)))
+    at = np.arange(count + 1, dtype=np.float32)[:, None, None] / count
+    points = start[None] + at * step[None]
+    pieces = np.stack([points[:-1], points[1:]], axis=2)
+    return np.concatenate(list(pieces)).astype(np.float32)
+
+
 def lines_glb(
     segments: npt.NDArray[np.float32], color: tuple[int, int, int], alpha: float
 ) -> bytes:
