@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz.robot.assets import Asset
 from sambot_viz.robot.mesh.model import Mesh, MeshError, Texture
 from sambot_viz.robot.mesh.reader import LARGEST, read_mesh
-from sambot_viz.robot.mesh.textures import LONGEST_SIDE, TextureStore
+from sambot_viz.robot.mesh.textures import LONGEST_SIDE, TextureError, TextureStore
 
 _Stamp = tuple[tuple[Path, int, int], ...]
 
@@ -19,6 +21,10 @@ class _Entry:
 
     stamp: _Stamp
     outcome: Mesh | MeshError
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        return tuple(path for path, *_ in self.stamp)
 
 
 class MeshStore:
@@ -55,9 +61,7 @@ class MeshStore:
             lock = self._locks.setdefault(path, threading.Lock())
         with lock:
             entry = self._entries.get(path)
-            if entry is None or entry.stamp != _stamp(
-                tuple(p for p, *_ in entry.stamp)
-            ):
+            if entry is None or entry.stamp != _stamp(entry.files):
                 entry = self._entries[path] = self._read(path)
         if isinstance(entry.outcome, MeshError):
             raise MeshError(entry.outcome.problem)
@@ -70,6 +74,26 @@ class MeshStore:
             TextureError: it cannot be used; the text says why.
         """
         return self.images.from_file(path)
+
+    def is_read(self, asset: Asset) -> bool:
+        """Whether `get` or `texture` has its answer at hand, also a refusal."""
+        if asset.kind == "texture":
+            return self.images.is_read(asset.path)
+        entry = self._entries.get(asset.path)
+        return entry is not None and entry.stamp == _stamp(entry.files)
+
+    def read(self, asset: Asset) -> None:
+        """Read a file, so that `is_read` holds; a refusal is kept for `get`."""
+        with contextlib.suppress(MeshError, TextureError):
+            if asset.kind == "texture":
+                self.texture(asset.path)
+            else:
+                self.get(asset.path)
+
+    def files(self, asset: Asset) -> tuple[Path, ...]:
+        """The file and, as far as it was read, the images and materials it names."""
+        entry = self._entries.get(asset.path)
+        return (asset.path,) if entry is None else entry.files
 
     def _read(self, path: Path) -> _Entry:
         before = _stamp((path,))

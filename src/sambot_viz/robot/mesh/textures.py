@@ -27,6 +27,9 @@ _MIME: dict[str, Literal["image/png", "image/jpeg"]] = {
 _FOLDERS = ("", "textures", "../materials/textures", "../textures")
 
 
+_Stamp = tuple[int, int]
+
+
 class TextureError(ValueError):
     """An image that cannot be used; the text says why."""
 
@@ -38,7 +41,8 @@ class TextureStore:
         """`longest_side`: the cap [pixels]; larger images are made smaller."""
         self.longest_side = longest_side
         self._lock = threading.Lock()
-        self._known: dict[object, Texture] = {}
+        self._known: dict[bytes, Texture] = {}
+        self._files: dict[Path, tuple[_Stamp, Texture | str]] = {}
 
     def from_file(self, path: Path) -> Texture:
         """The image in a file.
@@ -46,16 +50,27 @@ class TextureStore:
         Raises:
             TextureError: it cannot be read, or is no image.
         """
+        stamp = _stamp(path)
+        known = self._files.get(path)
+        if known is None or known[0] != stamp:
+            known = self._files[path] = (stamp, self._read(path))
+        if isinstance(known[1], str):
+            raise TextureError(known[1])
+        return known[1]
+
+    def is_read(self, path: Path) -> bool:
+        """Whether `from_file` has its answer at hand, also a refusal."""
+        known = self._files.get(path)
+        return known is not None and known[0] == _stamp(path)
+
+    def _read(self, path: Path) -> Texture | str:
+        """The image in a file, or why it cannot be used."""
         try:
-            stat = path.stat()
-            key = (path, stat.st_mtime_ns, stat.st_size)
-            known = self._known.get(key)
-            if known is None:
-                known = self._known[key] = self.from_bytes(path.read_bytes())
+            return self.from_bytes(path.read_bytes())
         except OSError as error:
-            reason = error.strerror or "it cannot be read"
-            raise TextureError(reason.lower()) from error
-        return known
+            return (error.strerror or "it cannot be read").lower()
+        except ValueError as error:
+            return str(error)
 
     def from_bytes(self, data: bytes) -> Texture:
         """The image in these bytes (PNG, JPEG, TGA, BMP, TIFF, WebP, …).
@@ -69,6 +84,14 @@ class TextureStore:
             if known is None:
                 known = self._known[key] = encode_texture(data, self.longest_side)
         return known
+
+
+def _stamp(path: Path) -> _Stamp:
+    try:
+        stat = path.stat()
+    except (OSError, ValueError):
+        return (0, -1)
+    return (stat.st_mtime_ns, stat.st_size)
 
 
 def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
