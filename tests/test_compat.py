@@ -53,3 +53,13 @@ def test_starting_and_stopping_prints_nothing(
     close(server)
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")
+
+
+def test_a_node_that_went_with_its_parent_is_known_to_be_removed(
+    server: viser.ViserServer,
+) -> None:
+    parent = server.scene.add_frame("/a", show_axes=False)
+    child = server.scene.add_frame("/a/b", show_axes=False)
+    assert not compat.is_removed(child)
+    parent.remove()
+    assert compat.is_removed(child)

@@ -62,6 +62,11 @@ def node_count(scene: viser.SceneApi) -> int:
     return len(scene._handle_from_node_name)  # pyright: ignore[reportPrivateUsage]
 
 
+def is_removed(handle: viser.SceneNodeHandle) -> bool:
+    """Whether a node is gone, itself or with one above it; viser warns then."""
+    return handle._impl.removed  # pyright: ignore[reportPrivateUsage]
+
+
 @contextlib.contextmanager
 def without_banner() -> Generator[None]:
     """Keep viser's own lines off the terminal while it starts or stops."""

@@ -13,6 +13,7 @@ from typing import ClassVar
 
 import viser
 
+from sambot_viz import compat
 from sambot_viz.displays.frame_nodes import FrameNodes
 from sambot_viz.displays.status import StatusList
 from sambot_viz.frames import FrameTree, LookupRefused
@@ -133,4 +134,5 @@ Handle = viser.SceneNodeHandle
 def remove_all(handles: Iterable[Handle]) -> None:
     """Take nodes out of the scene, also when their parent is gone already."""
     for handle in handles:
-        handle.remove()
+        if not compat.is_removed(handle):
+            handle.remove()
