@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal, cast
 
 import viser
 
 from sambot_viz import compat
-from sambot_viz.errors import ServerError
+from sambot_viz.errors import Problem, ServerError
 from sambot_viz.listening import close, listen, url_of
 from sambot_viz.panels.layout import Layout
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session import Audience, Session
+from sambot_viz.session import Audience, Reloaded, Session
 
 SessionMode = Literal["shared", "private"]
 MakeConfig = Callable[[], RvizConfig]
@@ -32,6 +32,7 @@ class ServerOptions:
         session: one robot for all browsers, or one for each.
         gui: whether there is a Joints panel.
         panels: whether there are any panels; without them the view fills the page.
+        allowed_origins: web pages of other origins that may use the server.
     """
 
     host: str = "127.0.0.1"
@@ -39,6 +40,7 @@ class ServerOptions:
     session: SessionMode = "shared"
     gui: bool = True
     panels: bool = True
+    allowed_origins: Sequence[str] = ()
 
 
 class Server:
@@ -64,12 +66,15 @@ class Server:
         self.options = options
         self._make_config = make_config
         self._load_file = load_file
-        self._meshes = MeshStore()
+        self.meshes = MeshStore()
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._robot: Robot | None = None
+        self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self._private: dict[int, tuple[Session, Layout | None]] = {}
-        self._viser = listening or listen(options.host, options.port)
+        self._viser = listening or listen(
+            options.host, options.port, options.allowed_origins
+        )
         self._stopped = threading.Event()
         compat.drop_share_handlers(self._viser)
         compat.guard_gui_updates(self._viser)
@@ -85,6 +90,11 @@ class Server:
     def url(self) -> str:
         """The address to open: "http://127.0.0.1:8080"."""
         return url_of(self._viser)
+
+    @property
+    def robot(self) -> Robot | None:
+        """The robot that is shown."""
+        return self._robot
 
     @property
     def viser(self) -> viser.ViserServer:
@@ -103,6 +113,18 @@ class Server:
             self._robot = robot
         for session in self.sessions():
             session.show_robot(robot)
+
+    def refresh(self) -> None:
+        """Draw anew what comes from mesh files and textures that have changed."""
+        for session in self.sessions():
+            session.refresh()
+
+    def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
+        """Tell every session, present and to come, why a save is not shown."""
+        with self._lock:
+            self._reload_problems[of] = tuple(problems)
+        for session in self.sessions():
+            session.set_reload_problems(of, problems)
 
     def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
         """The browser that came last, as soon as there is one.
@@ -137,12 +159,14 @@ class Server:
             cast(Audience, audience),
             self._viser.get_event_loop(),
             self._make_config(),
-            self._meshes,
+            self.meshes,
             self._load_file,
         )
         session.show_config()
         if self._robot is not None:
             session.show_robot(self._robot)
+        for of, problems in self._reload_problems.items():
+            session.set_reload_problems(of, problems)
         if not self.options.panels:
             return session, None
         return session, Layout(session, joints=self.options.gui)

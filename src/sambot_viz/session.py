@@ -35,6 +35,8 @@ from sambot_viz.views.view import FAR, View
 
 Event = Literal["robot", "config", "frames", "joints", "status", "problems"]
 Listener = Callable[[Event], None]
+Reloaded = Literal["model", "config", "watch"]
+"""What a save may fail to change: the model or the config that is shown."""
 VISER_FIRST_POSITION = (3.0, 3.0, 3.0)
 """Where viser puts the camera of a page that it opens."""
 
@@ -80,6 +82,7 @@ class Session:
         self.tree = FrameTree()
         self.displays: list[Display] = []
         self.problems: tuple[Problem, ...] = ()
+        self.reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self.listeners: list[Listener] = []
         self._kinematics: Kinematics | None = None
         self._extra: dict[str, tuple[str, Transform]] = {}
@@ -109,6 +112,15 @@ class Session:
                 if item.kind in DISPLAYS
             ]
             self._apply_boxes()
+
+    def set_config(self, config: RvizConfig) -> None:
+        """Show another document: its displays and options; cameras stay."""
+        with self.change():
+            self.config = config
+            self._take_globals()
+            self.context.nodes.sync(self.tree, self.context.fixed_frame)
+            self.show_config()
+            self._frames_changed()
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot, or the same after an edit: joints keep their values."""
@@ -217,11 +229,22 @@ class Session:
             display.config.set_enabled(enabled)
             self._apply_boxes()
 
+    def refresh(self) -> None:
+        """Draw anew what has changed; what has not is not sent again."""
+        with self.change():
+            self._redraw()
+
     def set_problems(self, problems: Sequence[Problem]) -> None:
         """Tell the audience what is wrong with the model."""
         with self.lock:
             self.problems = tuple(problems)
             self._tell("problems")
+
+    def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
+        """Tell why what was saved last is not what is shown; nothing when it is."""
+        if self.reload_problems.get(of, ()) != tuple(problems):
+            with self.change("problems"):
+                self.reload_problems[of] = tuple(problems)
 
     def point_camera(self, client: viser.ClientHandle) -> None:
         """Give a browser that just opened the page the config's view.

@@ -12,10 +12,11 @@ import viser
 
 from sambot_viz import resources
 from sambot_viz.config import declarations, load_config
-from sambot_viz.errors import ServerError
+from sambot_viz.errors import Problem, ServerError
 from sambot_viz.find import find
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.loading import Loading, finished, in_thread
+from sambot_viz.reload import Documents, Reloader
 from sambot_viz.robot.loading import load_robot
 from sambot_viz.robot.model import Robot, Vector3
 from sambot_viz.rviz import RvizConfig
@@ -48,8 +49,15 @@ class Visualizer:
             methods below then act on all of them.
         xacro_args: arguments for xacro, name → text.
         package_path: folders in which ROS packages are looked for.
+        allowed_origins: web pages of other origins that may use the server, such as
+            "https://lab.example.org" for one behind a proxy.
         server: a viser server that listens already (host and port then say nothing);
             None makes one. It is stopped with this.
+        trusted: False for a model of unknown origin (see `load_robot`).
+        watch: whether the page follows the files: the model with all that it
+            includes, its meshes and textures, and the config. A save with a mistake
+            leaves the last good robot standing and says what is wrong.
+        on_reload: told what is wrong (or nothing) after every reload of the model.
 
     Raises:
         RobotError: the model cannot be shown.
@@ -70,8 +78,13 @@ class Visualizer:
         session: SessionMode = "shared",
         xacro_args: Mapping[str, str] | None = None,
         package_path: Sequence[PathLike] = (),
+        allowed_origins: Sequence[str] = (),
         server: viser.ViserServer | None = None,
+        trusted: bool = True,
+        watch: bool = False,
+        on_reload: Callable[[Sequence[Problem]], None] | None = None,
     ) -> None:
+        self._trusted = trusted
         self._xacro_args = dict(xacro_args or {})
         self._package_path = tuple(package_path)
         path = Path(model) if isinstance(model, Path | str) else None
@@ -86,16 +99,27 @@ class Visualizer:
         document = config if isinstance(config, RvizConfig) else None
         bundled = document is None and found.config is None
         document = document or load_config(found.config or resources.config_path())
-        if fixed_frame is not None:
-            document.global_options.set("Fixed Frame", fixed_frame)
-        options = ServerOptions(host, port, session, gui)
-        documents = _documents(document, session)
+        _set_fixed_frame(document, fixed_frame)
+        options = ServerOptions(
+            host, port, session, gui, allowed_origins=allowed_origins
+        )
+        documents = Documents(document, None if session == "shared" else _copy)
         self._server = Server(options, documents, self._load, server)
+        self._reloader: Reloader | None = None
         try:
             robot = loading.result()
             if bundled and fixed_frame is None:
                 _fit_fixed_frame(document, robot)
             self._server.show_robot(robot)
+            if watch:
+                self._reloader = Reloader(
+                    self._server,
+                    self._load,
+                    None if isinstance(config, RvizConfig) else found.config,
+                    documents,
+                    partial(_set_fixed_frame, fixed_frame=fixed_frame),
+                    on_reload,
+                )
         except BaseException:
             self._server.stop()
             raise
@@ -166,6 +190,8 @@ class Visualizer:
 
     def stop(self) -> None:
         """Stop the server and free the port; a second call does nothing."""
+        if self._reloader is not None:
+            self._reloader.close()
         self._server.stop()
 
     def __enter__(self) -> Visualizer:
@@ -181,7 +207,10 @@ class Visualizer:
 
     def _load(self, path: PathLike) -> Robot:
         return load_robot(
-            path, xacro_args=self._xacro_args, package_path=self._package_path
+            path,
+            xacro_args=self._xacro_args,
+            package_path=self._package_path,
+            trusted=self._trusted,
         )
 
     def _first(self) -> Session:
@@ -191,11 +220,13 @@ class Visualizer:
         return sessions[0]
 
 
-def _documents(document: RvizConfig, mode: SessionMode) -> Callable[[], RvizConfig]:
-    """The one document for all browsers, or a copy for each."""
-    if mode == "shared":
-        return lambda: document
-    return lambda: RvizConfig.parse(document.to_yaml(), declarations())
+def _copy(document: RvizConfig) -> RvizConfig:
+    return RvizConfig.parse(document.to_yaml(), declarations())
+
+
+def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:
+    if fixed_frame is not None:
+        document.global_options.set("Fixed Frame", fixed_frame)
 
 
 def _fit_fixed_frame(document: RvizConfig, robot: Robot) -> None:

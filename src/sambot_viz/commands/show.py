@@ -44,7 +44,7 @@ def run(words: list[str]) -> int:
 
     stop = threading.Event()
     _stop_on_signals(stop)
-    server = listen(options.host, options.port)
+    server = listen(options.host, options.port, options.allow_origin)
     try:
         _announce(url_of(server), options.open)
         # From here on a browser can load the page; the rest is imported meanwhile.
@@ -60,6 +60,9 @@ def run(words: list[str]) -> int:
             xacro_args=wanted.xacro_args,
             package_path=wanted.package_path,
             server=server,
+            trusted=wanted.trusted,
+            watch=options.watch,
+            on_reload=report.write,
         ):
             report.write(loading.result().problems)
             stop.wait()
@@ -112,10 +115,25 @@ def _parser() -> argparse.ArgumentParser:
     add("--host", default="127.0.0.1", help="where to listen (default: %(default)s)")
     add("--port", type=int, default=8080, help="default: %(default)s; 0: any free one")
     add(
+        "--allow-origin",
+        action="append",
+        default=[],
+        metavar="ORIGIN",
+        help="a web page of another origin that may use the server, such as "
+        "https://lab.example.org for one behind a proxy",
+    )
+    add(
         "--session",
         choices=("shared", "private"),
         default="shared",
         help="one robot for all browsers, or one for each (default: %(default)s)",
+    )
+    add(
+        "--watch",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="show the model, its meshes and the config again when they are saved "
+        "(default: yes)",
     )
     add("--open", action="store_true", help="open the page in this machine's browser")
     return parser

@@ -1,0 +1,180 @@
+"""Noticing that files were saved.
+
+One thread looks at the files when the system says that something happened in their
+folders, and once a second in any case: that finds what the system does not report
+(network drives, a link that points elsewhere, a folder that was made anew), and takes
+over when it cannot watch at all. What counts is the state of the files: how an editor
+saves, in place, by renaming or in two steps, makes no difference.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+
+from watchfiles import Change, watch
+
+QUIET = 30
+"""Changes are looked at when nothing more has come for so long [ms] …"""
+LONGEST_WAIT = 200
+"""… and after so long in any case [ms]."""
+LOOK_PERIOD = 1.0
+"""How often the files are looked at when nothing was reported [s]."""
+SETTLE = 0.3
+"""A file that is gone or empty is given so long to come back [s]: some editors empty
+or remove the old file before they write the new one."""
+_RETRY = 0.02
+_LONGEST_CLOSE = 5.0
+_CLOCK_STEP = 10_000_000
+"""Times of files may be so much [ns] behind the clock."""
+
+Stamp = tuple[int, int, int]
+_Changes = set[tuple[Change, str]]
+OnChange = Callable[[frozenset[Path], frozenset[Path]], None]
+
+
+def stamp(path: Path) -> Stamp | None:
+    """What differs after a save: time of change [ns], size [B], number of the file.
+
+    Links are followed; None when there is no such file.
+    """
+    try:
+        found = path.stat()
+    except (OSError, ValueError):
+        return None
+    return (found.st_mtime_ns, found.st_size, found.st_ino)
+
+
+class FileWatcher:
+    """Calls back when files change; see the module.
+
+    Args:
+        files: the files that count; asked at every look, so it may change.
+        folders: more folders in which events count.
+        on_change: takes the files that have changed and every path something was
+            reported for; it runs in the watcher's thread, one call at a time.
+        on_trouble: called once, with the reason, when the system cannot watch.
+    """
+
+    def __init__(
+        self,
+        files: Callable[[], Iterable[Path]],
+        folders: Callable[[], Iterable[Path]],
+        on_change: OnChange,
+        on_trouble: Callable[[str], None],
+    ) -> None:
+        self._files = files
+        self._more_folders = folders
+        self._on_change = on_change
+        self._on_trouble = on_trouble
+        self._stop = threading.Event()
+        self._looked = time.time_ns()
+        self._known: dict[Path, Stamp | None] = self._stamps()
+        self._thread = threading.Thread(
+            target=self._run, name="sambot-viz-watch", daemon=True
+        )
+
+    def start(self) -> None:
+        """Watch from now on; what changed since the construction is found too."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop watching, and wait a while for a call that is under way."""
+        self._stop.set()
+        if threading.current_thread() is not self._thread:
+            self._thread.join(_LONGEST_CLOSE)
+
+    @property
+    def closed(self) -> bool:
+        """Whether nobody waits for changes any more."""
+        return self._stop.is_set()
+
+    def _run(self) -> None:
+        try:
+            while not self._stop.is_set():
+                self._watch(self._folders())
+        except _CannotWatchError as error:
+            self._on_trouble(str(error))
+        while not self._stop.wait(LOOK_PERIOD):
+            self._look(frozenset())
+
+    def _watch(self, folders: Mapping[Path, int]) -> None:
+        """Watch these folders until others are to be watched."""
+        self._look(frozenset())
+        changes = watch(
+            *folders,
+            watch_filter=None,
+            debounce=LONGEST_WAIT,
+            step=QUIET,
+            stop_event=self._stop,
+            rust_timeout=int(LOOK_PERIOD * 1000),
+            yield_on_timeout=True,
+            raise_interrupt=False,
+            recursive=False,
+            ignore_permission_denied=True,
+        )
+        for reported in _told_apart(changes):
+            self._look(frozenset(Path(path) for _, path in reported))
+            if self._stop.is_set() or self._folders() != folders:
+                return
+
+    def _look(self, reported: frozenset[Path]) -> None:
+        """Compare the files with what they were, and call back if they differ."""
+        self._wait_for_hollow_files()
+        before, self._known = self._known, self._stamps()
+        since, self._looked = self._looked, time.time_ns() - _CLOCK_STEP
+        changed = frozenset(
+            path
+            for path, now in self._known.items()
+            if (before[path] != now if path in before else _saved_since(now, since))
+        )
+        if (changed or reported) and not self._stop.is_set():
+            self._on_change(changed, reported)
+
+    def _wait_for_hollow_files(self) -> None:
+        """Give files that are gone or empty, and were not, time to come back."""
+        end = time.monotonic() + SETTLE
+        full = [path for path, before in self._known.items() if not _hollow(before)]
+        while time.monotonic() < end:
+            full = [path for path in full if _hollow(stamp(path))]
+            if not full or self._stop.wait(_RETRY):
+                return
+
+    def _stamps(self) -> dict[Path, Stamp | None]:
+        return {path: stamp(path) for path in self._files()}
+
+    def _folders(self) -> dict[Path, int]:
+        """The folders to watch, with their numbers: a folder made anew has another."""
+        wanted: dict[Path, None] = dict.fromkeys(self._more_folders())
+        for path in self._files():
+            # A save is reported where the file lies, a new link where the link does.
+            wanted[path.parent] = wanted[path.resolve().parent] = None
+        found = {folder: stamp(folder) for folder in wanted}
+        return {folder: now[2] for folder, now in found.items() if now is not None}
+
+
+class _CannotWatchError(Exception):
+    """The system does not watch, for example because too much is watched already."""
+
+
+def _told_apart(changes: Iterator[_Changes]) -> Iterator[_Changes]:
+    """The same, with errors of the watching as such; callbacks may raise others."""
+    while True:
+        try:
+            reported = next(changes)
+        except StopIteration:
+            return
+        except (OSError, RuntimeError) as error:
+            raise _CannotWatchError(str(error)) from error
+        yield reported
+
+
+def _saved_since(now: Stamp | None, since: int) -> bool:
+    """Whether a file that is new among ours was saved after it may have been read."""
+    return now is not None and now[0] > since
+
+
+def _hollow(found: Stamp | None) -> bool:
+    return found is None or found[1] == 0
