@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import errno
 import socket
+from collections.abc import Sequence
 
 import viser
 
-from sambot_viz import compat
+from sambot_viz import compat, origins
 from sambot_viz.errors import ServerError
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
@@ -25,18 +26,26 @@ def url_of(server: viser.ViserServer) -> str:
     return f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
 
 
-def listen(host: str, port: int) -> viser.ViserServer:
+def listen(
+    host: str, port: int, allowed_origins: Sequence[str] = ()
+) -> viser.ViserServer:
     """A viser server on exactly this address.
 
     viser itself takes the next free port in silence, and tries forever on an address
     that this machine does not have.
+
+    Args:
+        host: address to listen on.
+        port: 0 takes a free one.
+        allowed_origins: web pages of other origins that may use the server, such as
+            "https://lab.example.org" for one behind a proxy.
 
     Raises:
         ServerError: the address cannot be listened on, with what to do about it.
     """
     _try_to_bind(host, port)
     compat.quiet_websockets()
-    with compat.without_banner():
+    with compat.without_banner(), origins.checked(host, allowed_origins):
         server = viser.ViserServer(host=host, port=port, verbose=False)
     if port not in (0, server.get_port()):
         close(server)
