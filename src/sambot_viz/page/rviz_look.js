@@ -87,14 +87,26 @@ vec3 sambotEncode(vec3 c) {
     for (const child of object.children) visit(child);
   };
 
+  // RViz draws translucent things from far to near by the distance of their origins;
+  // three.js goes by their depth along the view, which is another order.
+  let eye = null;
+  const distance = (object) => {
+    const m = object.matrixWorld.elements, e = eye.elements;
+    return (m[12] - e[12]) ** 2 + (m[13] - e[13]) ** 2 + (m[14] - e[14]) ** 2;
+  };
+  const farFirst = (a, b) => a.groupOrder - b.groupOrder || a.renderOrder - b.renderOrder
+    || distance(b.object) - distance(a.object) || a.id - b.id;
+
   let hooked = null;
   const hook = () => {
     const mutable = window.__viserMutable;
     const scene = mutable && mutable.scene;
     if (!scene || scene === hooked) return;
     hooked = scene;
-    scene.onBeforeRender = (renderer) => {
+    scene.onBeforeRender = (renderer, _, camera) => {
       renderer.toneMapping = 0;
+      eye = camera.matrixWorld;
+      renderer.setTransparentSort(farFirst);
       labels = 0;
       visit(scene);
       look.labels = labels;

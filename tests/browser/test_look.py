@@ -1,0 +1,73 @@
+"""The page script takes effect: colours, names and order are RViz's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, load_config, resources
+
+pytestmark = pytest.mark.browser
+
+Open = Callable[..., ViewerPage]
+BACKGROUND, TOP, SIDE = (48, 48, 48), (19, 127, 127), (19, 96, 96)
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    """A translucent sam_bot with its names, seen from RViz's default direction."""
+    config = load_config(resources.config_path())
+    config.view.set("Distance", 1.5)
+    for display in config.displays:
+        if display.name == "RobotModel":
+            display.set("Alpha", 0.6)
+        else:
+            display.set_enabled(display.name == "TF")
+            if display.name == "TF":
+                display.set("Show Axes", False)
+                display.set("Show Arrows", False)
+    with Visualizer(config=config, port=0) as visualizer:
+        yield visualizer
+
+
+def shares(pixels: np.ndarray, color: tuple[int, int, int]) -> float:
+    """The share of pixels that have a colour, give or take one."""
+    near = np.abs(pixels[..., :3].astype(int) - color).max(axis=-1) <= 1
+    return float(near.mean())
+
+
+def test_lit_faces_background_and_names_have_rvizs_colours(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for("window.sambotVizLook?.labels === 5")
+    viewer.wait_until_drawn()
+    pixels = viewer.pixels()
+    # The numbers are RViz's own (spec/rviz-core.md §10 N-19); without the script
+    # faces are far lighter.
+    assert shares(pixels, TOP) > 0.01
+    assert shares(pixels, SIDE) > 0.01
+    assert shares(pixels, BACKGROUND) > 0.5
+    assert shares(pixels, (255, 255, 255)) > 0.0001
+    look = viewer.page.evaluate("window.sambotVizLook")
+    assert look["lit"] > 0 and look["names"] > 0 and look["boxes"] > 0
+
+
+def test_names_have_no_box(viz: Visualizer, open_viewer: Open) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for("window.sambotVizLook?.labels === 5")
+    viewer.wait_until_drawn()
+    # viser's boxes are 85 % white, which nothing else in this picture is.
+    assert shares(viewer.pixels(), (224, 224, 224)) < 0.001
+
+
+def test_the_script_names_nothing_of_any_model_and_fetches_nothing(
+    repository: Path,
+) -> None:
+    script = (repository / "src/sambot_viz/page/rviz_look.js").read_text("utf-8")
+    for forbidden in ("http", "fetch(", "XMLHttpRequest", "import(", "eval("):
+        assert forbidden not in script
