@@ -179,13 +179,15 @@ class Server:
             session = opened[0]
         else:
             session = self.shared
-        session.point_camera(client)
+        session.views.join(client)
         with self._joined:
             self._joined.notify_all()
 
     async def _leave(self, client: viser.ClientHandle) -> None:
         with self._lock:
             opened = self._private.pop(client.client_id, None)
+        if self.shared is not None:
+            self.shared.views.leave(client.client_id)
         if opened is not None:
             session, layout = opened
             if layout is not None:

@@ -29,16 +29,12 @@ from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
-from sambot_viz.views.orbit import OrbitView
-from sambot_viz.views.registry import VIEWS
-from sambot_viz.views.view import FAR, View
+from sambot_viz.view_control import ViewControl
 
-Event = Literal["robot", "config", "frames", "joints", "status", "problems"]
+Event = Literal["robot", "config", "frames", "joints", "status", "problems", "view"]
 Listener = Callable[[Event], None]
 Reloaded = Literal["model", "config", "watch"]
 """What a save may fail to change: the model or the config that is shown."""
-VISER_FIRST_POSITION = (3.0, 3.0, 3.0)
-"""Where viser puts the camera of a page that it opens."""
 
 
 class Audience(Protocol):
@@ -98,6 +94,7 @@ class Session:
         )
         self._pacer = Pacer(loop, self._period(), self._draw_moved)
         self._take_globals()
+        self.views = ViewControl(self)
 
     # Opening
 
@@ -246,40 +243,6 @@ class Session:
             with self.change("problems"):
                 self.reload_problems[of] = tuple(problems)
 
-    def point_camera(self, client: viser.ClientHandle) -> None:
-        """Give a browser that just opened the page the config's view.
-
-        A page that comes back after a broken connection keeps the view it has; a
-        fresh one is known by viser's own first camera.
-        """
-        camera = client.camera
-        if not np.allclose(camera.position, VISER_FIRST_POSITION, atol=1e-3):
-            return
-        view = self.view.camera(self._target())
-        with client.atomic():
-            camera.up_direction = view.up
-            camera.position = view.position
-            camera.look_at = view.look_at
-            camera.fov = view.fov
-            camera.near = view.near
-            camera.far = FAR
-        client.flush()
-
-    @property
-    def view(self) -> View:
-        """The config's current view; an unknown type is shown as Orbit."""
-        item = self.config.view
-        return VIEWS.get(item.kind, OrbitView)(item)
-
-    def _target(self) -> tuple[float, float, float]:
-        """Origin of the view's target frame in the fixed frame [m]."""
-        fixed = self.context.fixed_frame
-        frame = self.context.frame(self.config.view.get("Target Frame"))
-        if frame == fixed or not self.tree.can_lookup(fixed, frame):
-            return (0.0, 0.0, 0.0)
-        x, y, z = self.tree.lookup(fixed, frame).translation
-        return (float(x), float(y), float(z))
-
     # Asking
 
     def global_status(self) -> Status:
@@ -295,6 +258,7 @@ class Session:
 
     def close(self) -> None:
         """Send nothing any more."""
+        self.views.close()
         self._pacer.close()
 
     # Inside

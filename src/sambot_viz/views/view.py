@@ -1,38 +1,43 @@
-"""What every RViz view controller is: properties, and the camera they mean."""
+"""What every RViz view controller is: properties, and the camera they mean.
+
+A view is computed both ways: `camera` gives the camera of the present properties,
+`read` gives the properties of a camera that a mouse has moved. Between the fixed
+frame and a view stands its target frame (spec/rviz-views-tools.md §1.3): a view's own
+numbers are relative to it.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sambot_viz.rviz import Property, ViewConfig
+from sambot_viz.views.camera import Camera, Vector, add, subtract, turned
 
-Vector = tuple[float, float, float]
+Values = Mapping[str, Any]
+"""Property → value, for those that are to be set."""
 
-FIELD_OF_VIEW = math.pi / 4
-"""Vertical field of view of every perspective view [rad] (§8.3)."""
-FAR = 100000.0
-"""Far plane of every view [m]."""
+STEEPEST = math.pi / 2 - 0.001
+"""Largest pitch of all views [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
-class Camera:
-    """Where a camera stands, in the fixed frame.
+class Target:
+    """The target frame, in the fixed frame.
 
     Attributes:
-        position: of the camera [m].
-        look_at: the point in the middle of the picture [m].
-        up: which way is up in the picture.
-        fov: vertical field of view [rad].
-        near: distance of the near plane [m].
+        position: its origin [m].
+        yaw: how far it is turned about the vertical [rad].
     """
 
-    position: Vector
-    look_at: Vector
-    up: Vector = (0.0, 0.0, 1.0)
-    fov: float = FIELD_OF_VIEW
-    near: float = 0.01
+    position: Vector = (0.0, 0.0, 0.0)
+    yaw: float = 0.0
+
+
+WORLD = Target()
+"""The fixed frame as its own target."""
 
 
 class View:
@@ -42,19 +47,88 @@ class View:
         kind: the ROS 2 class id, such as "rviz_default_plugins/Orbit".
         help: one sentence for the list of views.
         properties: the declaration of everything a user can set.
+        follows_yaw: whether it turns with the target frame.
+        orthographic: whether parallel lines stay parallel in its picture.
+        config: its values in the document.
     """
 
     kind: ClassVar[str]
     help: ClassVar[str]
     properties: ClassVar[tuple[Property, ...]]
+    follows_yaw: ClassVar[bool] = False
+    orthographic: ClassVar[bool] = False
 
     def __init__(self, config: ViewConfig) -> None:
         self.config = config
 
-    def camera(self, target: Vector) -> Camera:
-        """The camera of the present properties.
+    # What each view says of itself; all in the target frame.
 
-        Args:
-            target: origin of the target frame in the fixed frame [m].
-        """
+    def local_camera(self) -> Camera:
+        """The camera of the present properties, in the target frame."""
         raise NotImplementedError
+
+    def read_local(self, camera: Camera) -> Values:
+        """The properties that mean a camera of the target frame."""
+        raise NotImplementedError
+
+    def look_at_local(self, point: Vector) -> Values:
+        """The properties with which it looks at a point of the target frame [m]."""
+        raise NotImplementedError
+
+    def mimic(self, old: View) -> Values:
+        """What a view of this type takes over from another (§1.9)."""
+        raise NotImplementedError
+
+    def zero(self) -> Values:
+        """What RViz's "Zero" sets."""
+        raise NotImplementedError
+
+    def shifted(self, offset: Vector) -> Values:
+        """The properties of the same picture when the target jumps by −offset [m]."""
+        raise NotImplementedError
+
+    # The same in the fixed frame.
+
+    def camera(self, target: Target = WORLD) -> Camera:
+        """The camera of the present properties, in the fixed frame."""
+        return to_fixed(self.local_camera(), self._turned(target))
+
+    def read(self, camera: Camera, target: Target = WORLD) -> Values:
+        """The properties that mean a camera of the fixed frame."""
+        return self.read_local(to_target(camera, self._turned(target)))
+
+    def look_at(self, point: Vector, target: Target = WORLD) -> Values:
+        """The properties with which it looks at a point of the fixed frame [m]."""
+        target = self._turned(target)
+        local = turned(subtract(point, target.position), -target.yaw)
+        return self.look_at_local(local)
+
+    def moved(self, camera: Camera, before: Target, now: Target) -> Camera:
+        """A camera of the fixed frame after its target has moved."""
+        return to_fixed(to_target(camera, self._turned(before)), self._turned(now))
+
+    @property
+    def near(self) -> float:
+        """Distance of the near plane [m]."""
+        return float(self.config.get("Near Clip Distance"))
+
+    def _turned(self, target: Target) -> Target:
+        return target if self.follows_yaw else Target(target.position)
+
+
+def to_fixed(camera: Camera, target: Target) -> Camera:
+    """A camera of the target frame, in the fixed frame."""
+    return camera.placed(
+        add(target.position, turned(camera.position, target.yaw)),
+        add(target.position, turned(camera.look_at, target.yaw)),
+        turned(camera.up, target.yaw),
+    )
+
+
+def to_target(camera: Camera, target: Target) -> Camera:
+    """A camera of the fixed frame, in the target frame."""
+    return camera.placed(
+        turned(subtract(camera.position, target.position), -target.yaw),
+        turned(subtract(camera.look_at, target.position), -target.yaw),
+        turned(camera.up, -target.yaw),
+    )

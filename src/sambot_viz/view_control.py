@@ -1,0 +1,249 @@
+"""The view of a session, and the cameras of its browsers.
+
+A session has one view, the current one of its .rviz document; each browser has its
+own camera. What is set in the Views panel (a type, a number, Zero, a saved view)
+moves the cameras of all browsers. What a mouse moves is that browser's camera alone,
+and the document takes it over: it says what the camera that moved last shows. With
+`follow_presenter`, that camera takes all others with it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import viser
+
+from sambot_viz.pacer import Pacer
+from sambot_viz.rviz import FIXED_FRAME, ViewConfig
+from sambot_viz.rviz.declared import Findings
+from sambot_viz.rviz.nodes import copied_map
+from sambot_viz.views.browser_camera import BrowserCamera
+from sambot_viz.views.camera import Camera, Vector, subtract
+from sambot_viz.views.orbit import OrbitView
+from sambot_viz.views.registry import VIEWS
+from sambot_viz.views.view import Target, Values, View
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Event, Session
+
+READ_PERIOD = 0.1
+"""The document follows a moving camera this often [s]."""
+
+
+class ViewControl:
+    """See the module.
+
+    Args:
+        session: whose view it is.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self.follow_presenter = False
+        self._session = session
+        self._browsers: dict[int, BrowserCamera] = {}
+        self._target = Target()
+        self._view: tuple[ViewConfig, View] | None = None
+        self._mover: int | None = None
+        self._reader = Pacer(session.loop, READ_PERIOD, self._read)
+        session.listeners.append(self._hear)
+
+    def close(self) -> None:
+        """Send nothing any more."""
+        self._reader.close()
+
+    # Asking
+
+    @property
+    def view(self) -> View:
+        """The current view; a type nobody knows is shown as Orbit (§1.1)."""
+        item = self._session.config.view
+        if self._view is None or self._view[0] is not item:
+            known = VIEWS.get(item.kind)
+            self._view = (item, known(item) if known else _stand_in(item))
+        return self._view[1]
+
+    @property
+    def supported(self) -> bool:
+        """Whether the current view's type is known."""
+        return self._session.config.view.kind in VIEWS
+
+    @property
+    def camera(self) -> Camera:
+        """The camera of the current view, in the fixed frame."""
+        return self.view.camera(self._find_target())
+
+    # Browsers
+
+    def join(self, client: viser.ClientHandle) -> None:
+        """Give a browser that opened the page the current view.
+
+        A page that comes back after a broken connection keeps the view it has.
+        """
+        browser = BrowserCamera(client)
+        with self._session.lock:
+            self._browsers[client.client_id] = browser
+            self._target = self._find_target()
+            if browser.is_fresh or browser.is_flat != self.view.orthographic:
+                browser.point(self.camera)
+
+        async def moved(handle: viser.CameraHandle) -> None:
+            del handle
+            self._camera_moved(client.client_id)
+
+        client.camera.on_update(moved)
+
+    def leave(self, client_id: int) -> None:
+        """A browser has closed the page."""
+        with self._session.lock:
+            self._browsers.pop(client_id, None)
+
+    # Changing the view of the session
+
+    def set(self, path: str, value: Any) -> None:
+        """Set a property of the current view, and move all cameras."""
+        with self._session.change("view"):
+            view = self.view
+            if path == "Target Frame":
+                before = self._find_target()
+                view.config.set(path, value)
+                self._target = self._find_target()
+                # The picture stays where it is (§1.3).
+                offset = subtract(before.position, self._target.position)
+                self._apply(view.shifted(offset))
+            else:
+                view.config.set(path, value)
+            self._point_all()
+
+    def set_kind(self, kind: str) -> None:
+        """Choose a type of view; the new one takes over what the old one showed."""
+        with self._session.change("view"):
+            old, config = self.view, self._session.config
+            frame = old.config.get("Target Frame")
+            new = config.set_view_class(kind)
+            view = VIEWS[kind](new)
+            # All values but these are the new type's own (§1.9).
+            for path, declared in new.declared.items():
+                if path in new.properties and path != "Target Frame":
+                    new.set(path, declared.property.default)
+            new.set("Target Frame", frame)
+            self._apply(view.mimic(old))
+            self._point_all()
+
+    def zero(self) -> None:
+        """Bring the current view to where RViz's "Zero" brings it."""
+        with self._session.change("view"):
+            self._apply(self.view.zero())
+            self._point_all()
+
+    def look_at(self, point: Vector, client_id: int | None = None) -> None:
+        """Look at a point of the fixed frame [m].
+
+        Args:
+            point: where.
+            client_id: the browser whose camera turns; None for all.
+        """
+        with self._session.change("view"):
+            target = self._find_target()
+            browser = None if client_id is None else self._browsers.get(client_id)
+            if browser is not None:
+                self._apply(self.view.read(browser.camera, target))
+            self._apply(self.view.look_at(point, target))
+            self._show(browser)
+
+    # The saved views
+
+    def save(self) -> ViewConfig:
+        """Add the current view to the saved ones, named after its type."""
+        with self._session.change("view"):
+            return self._session.config.save_view()
+
+    def use(self, saved: ViewConfig) -> None:
+        """Make a copy of a saved view the current one."""
+        with self._session.change("view"):
+            self._session.config.use_view(saved)
+            self._target = self._find_target()
+            self._point_all()
+
+    def rename(self, saved: ViewConfig, name: str) -> None:
+        """Give a saved view another name; an empty one changes nothing."""
+        if name.strip():
+            with self._session.change("view"):
+                saved.rename(name.strip())
+
+    def remove(self, saved: ViewConfig) -> None:
+        """Take a saved view out of the document."""
+        with self._session.change("view"):
+            self._session.config.remove_view(saved)
+
+    # Inside
+
+    def _apply(self, values: Values) -> None:
+        for path, value in values.items():
+            self.view.config.set(path, value)
+
+    def _show(self, browser: BrowserCamera | None) -> None:
+        """Move one camera to the current view, or all."""
+        if browser is None or self.follow_presenter:
+            self._point_all()
+        else:
+            browser.point(self.camera)
+
+    def _point_all(self, besides: BrowserCamera | None = None) -> None:
+        camera = self.camera
+        for browser in self._browsers.values():
+            if browser is not besides:
+                browser.point(camera)
+
+    def _camera_moved(self, client_id: int) -> None:
+        """A browser reports its camera; most reports are echoes of what we sent."""
+        with self._session.lock:
+            browser = self._browsers.get(client_id)
+            if browser is None or not browser.take():
+                return
+            self._mover = client_id
+        self._reader.request()
+
+    def _read(self) -> None:
+        """The document takes over the camera that moved last."""
+        with self._session.lock:
+            mover, self._mover = self._mover, None
+            browser = None if mover is None else self._browsers.get(mover)
+            if browser is None:
+                return
+            with self._session.change("view"):
+                self._apply(self.view.read(browser.camera, self._find_target()))
+                if self.follow_presenter:
+                    self._point_all(besides=browser)
+
+    def _hear(self, event: Event) -> None:
+        if event in ("joints", "frames", "robot"):
+            self._follow_target()
+
+    def _follow_target(self) -> None:
+        """Cameras go with the target frame (§1.3)."""
+        if not self._browsers:
+            return
+        before, now = self._target, self._find_target()
+        if now != before:
+            self._target = now
+            for browser in self._browsers.values():
+                browser.point(self.view.moved(browser.camera, before, now))
+
+    def _find_target(self) -> Target:
+        """The target frame in the fixed one; where it was last when it is away."""
+        session = self._session
+        fixed, name = session.context.fixed_frame, self.view.config.get("Target Frame")
+        if name in (FIXED_FRAME, fixed):
+            return Target()
+        if not session.tree.can_lookup(fixed, str(name)):
+            return self._target
+        T = session.tree.lookup(fixed, str(name)).matrix
+        x, y, z = (float(v) for v in T[:3, 3])
+        return Target((x, y, z), math.atan2(T[1, 0], T[0, 0]))
+
+
+def _stand_in(item: ViewConfig) -> View:
+    """An Orbit view of its own for a type nobody knows, which stays as it is."""
+    copy = copied_map(item.node)
+    return OrbitView(ViewConfig(copy, OrbitView.properties, Findings(None)))

@@ -1,0 +1,22 @@
+"""The properties that every view has (spec/rviz-views-tools.md §1.2)."""
+
+from __future__ import annotations
+
+from sambot_viz.rviz import BoolProperty, FloatProperty, Property, TfFrameProperty
+
+COMMON_PROPERTIES: tuple[Property, ...] = (
+    FloatProperty(
+        "Near Clip Distance",
+        default=0.01,
+        minimum=0.001,
+        maximum=10000.0,
+        unit="m",
+        help="What is nearer to the camera is not drawn.",
+    ),
+    BoolProperty("Invert Z Axis", default=False, help="Turn the picture upside down."),
+    TfFrameProperty(
+        "Target Frame",
+        default="<Fixed Frame>",
+        help="The frame that the view follows.",
+    ),
+)

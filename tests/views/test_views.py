@@ -1,0 +1,301 @@
+"""The five views: poses, and back (spec/rviz-views-tools.md §1.3–1.10)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sambot_viz.views.camera import ORTHO_FIELD_OF_VIEW, Camera, add, times
+from sambot_viz.views.registry import VIEWS
+from sambot_viz.views.view import Target, Values, View
+
+MakeView = Callable[..., View]
+ALL = [kind.rpartition("/")[2] for kind in VIEWS]
+PERSPECTIVE = [name for name in ALL if name != "TopDownOrtho"]
+
+
+def put(view: View, values: Values) -> View:
+    """The view after some of its values were set."""
+    for path, value in values.items():
+        view.config.set(path, value)
+    return view
+
+
+def value(view: View, path: str) -> Any:
+    """A value of the view, as something approx can compare."""
+    return view.config.get(path)
+
+
+def same_picture(one: Camera, two: Camera) -> bool:
+    """Whether two cameras show the same."""
+    return bool(
+        np.allclose(one.position, two.position, atol=1e-3)
+        and np.allclose(one.forward, two.forward, atol=1e-5)
+        and np.allclose(one.image_up, two.image_up, atol=1e-5)
+    )
+
+
+def test_orbit_stands_where_the_worked_values_say(make_view: MakeView) -> None:
+    camera = make_view("Orbit").camera()
+    assert camera.position == pytest.approx((5, 5, 7.0711), abs=1e-4)
+    assert camera.forward == pytest.approx((-0.5, -0.5, -0.7071), abs=1e-4)
+    assert camera.image_up == pytest.approx((-0.5, -0.5, 0.7071), abs=1e-4)
+    assert camera.fov == math.pi / 4
+    camera = make_view("Orbit", Yaw=0.0, Pitch=0.5).camera()
+    assert camera.position == pytest.approx((8.7758, 0, 4.7943), abs=1e-4)
+    assert camera.image_up == pytest.approx((-0.4794, 0, 0.8776), abs=1e-4)
+    camera = make_view("Orbit", Yaw=0.0, Pitch=0.0).camera()
+    assert camera.position == pytest.approx((10, 0, 0))
+
+
+def test_an_inverted_orbit_stands_below_with_its_head_down(make_view: MakeView) -> None:
+    view = make_view("Orbit", Yaw=0.3, Pitch=0.5, Invert_Z_Axis=True)
+    camera = view.camera()
+    assert camera.position[2] == pytest.approx(-10 * math.sin(0.5))
+    assert camera.up == (0.0, 0.0, -1.0)
+
+
+def test_xy_orbit_is_raised_by_a_fifth_of_the_distance(make_view: MakeView) -> None:
+    camera = make_view("XYOrbit").camera()
+    assert camera.position == pytest.approx((4, 4, 8.4853), abs=1e-4)
+    assert camera.forward == pytest.approx((-0.5, -0.5, -0.7071), abs=1e-4)
+
+
+def test_the_ortho_view_looks_down_with_its_angle(make_view: MakeView) -> None:
+    camera = make_view("TopDownOrtho", X=-2.0, Y=2.0).camera()
+    assert camera.position == (-2, 2, 500)
+    assert camera.right == pytest.approx((1, 0, 0))
+    assert camera.image_up == pytest.approx((0, 1, 0))
+    turned = make_view("TopDownOrtho", Angle=-1.615, Scale=127.9).camera()
+    assert turned.image_up == pytest.approx((1, 0, 0), abs=0.05)
+    assert turned.scale == 127.9
+
+
+def test_fps_looks_down_for_a_positive_pitch(make_view: MakeView) -> None:
+    camera = make_view("FPS", Yaw=0.4, Pitch=0.3, Position=(1, 2, 3)).camera()
+    assert camera.position == (1, 2, 3)
+    c = math.cos(0.3)
+    wanted = (math.cos(0.4) * c, math.sin(0.4) * c, -math.sin(0.3))
+    assert camera.forward == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_camera_is_read_back_as_the_properties_it_came_from(
+    make_view: MakeView, name: str
+) -> None:
+    view = make_view(name)
+    set_by_hand: dict[str, Values] = {
+        "TopDownOrtho": {"Scale": 44.0, "Angle": -1.2, "X": 3.0, "Y": -4.0},
+        "FPS": {"Yaw": 2.0, "Pitch": -0.7, "Position": (1.0, -2.0, 3.0)},
+    }
+    values = set_by_hand.get(
+        name,
+        {"Yaw": 4.0, "Pitch": -0.4, "Distance": 3.0, "Focal Point": (1.0, 2.0, 0.5)},
+    )
+    put(view, values)
+    target = Target((2.0, 3.0, -1.0), 0.8)
+    read = view.read(view.camera(target), target)
+    for path, wanted in values.items():
+        assert read[path] == pytest.approx(wanted), path
+
+
+def test_an_inverted_orbit_is_read_back(make_view: MakeView) -> None:
+    view = make_view("Orbit", Invert_Z_Axis=True, Yaw=1.0, Pitch=0.5)
+    read = view.read(view.camera())
+    assert (read["Yaw"], read["Pitch"]) == pytest.approx((1.0, 0.5))
+
+
+@pytest.mark.parametrize("height", [600, 1080])
+def test_the_stand_in_of_the_ortho_view_is_right_in_the_target_plane(
+    make_view: MakeView, height: int
+) -> None:
+    camera = make_view("TopDownOrtho", Scale=37.0, X=1.0).camera()
+    for fov in (None, ORTHO_FIELD_OF_VIEW):
+        drawn = camera.in_perspective(height, fov)
+        half = drawn.distance * math.tan(drawn.fov / 2)
+        assert height / (2 * half) == pytest.approx(37.0)
+        assert drawn.in_parallel(height).scale == pytest.approx(37.0)
+        assert drawn.look_at == camera.look_at
+        assert drawn.near < drawn.distance < drawn.far
+    assert camera.in_perspective(height).distance == pytest.approx(500)
+
+
+def test_a_target_moves_the_view_but_does_not_turn_it(make_view: MakeView) -> None:
+    view = make_view("Orbit", Yaw=0.0, Pitch=0.0)
+    camera = view.camera(Target((1.0, 2.0, 3.0), 1.5))
+    assert camera.position == pytest.approx((11, 2, 3))
+    assert camera.look_at == pytest.approx((1, 2, 3))
+
+
+def test_the_follower_turns_with_its_target(make_view: MakeView) -> None:
+    view = make_view("ThirdPersonFollower", Yaw=math.pi, Pitch=0.5)
+    behind = view.camera(Target((1.0, 0.0, 0.0), math.pi / 2))
+    assert behind.position[0] == pytest.approx(1.0)
+    assert behind.position[1] < -5
+    assert behind.forward[1] > 0.8
+    moved = view.moved(behind, Target((1.0, 0.0, 0.0), math.pi / 2), Target())
+    assert same_picture(moved, view.camera())
+
+
+def test_zero_is_what_rviz_resets_to(make_view: MakeView) -> None:
+    fps = make_view("FPS")
+    put(fps, fps.zero())
+    assert value(fps, "Yaw") == pytest.approx(3.92699, abs=1e-5)
+    assert value(fps, "Pitch") == pytest.approx(0.955317, abs=1e-6)
+    assert value(fps, "Position") == (5, 5, 10)
+    orbit = make_view("Orbit", Distance=2.0, Near_Clip_Distance=0.5)
+    put(orbit, orbit.zero())
+    assert value(orbit, "Distance") == 10
+    assert value(orbit, "Near Clip Distance") == 0.5
+    assert value(orbit, "Focal Shape Fixed Size") is False
+    ortho = make_view("TopDownOrtho", Scale=3.0, X=1.0)
+    put(ortho, ortho.zero())
+    assert (value(ortho, "Scale"), value(ortho, "X")) == (10, 0)
+
+
+def test_orbit_turns_where_it_stands_to_look_at_a_point(make_view: MakeView) -> None:
+    view = make_view("Orbit")
+    before = view.camera().position
+    put(view, view.look_at((1.0, 2.0, 3.0)))
+    assert view.camera().position == pytest.approx(before)
+    assert value(view, "Focal Point") == pytest.approx((1, 2, 3))
+
+
+def test_the_others_look_at_a_point_in_their_own_way(make_view: MakeView) -> None:
+    xy = make_view("XYOrbit")
+    put(xy, xy.look_at((1.0, 2.0, 3.0)))
+    assert value(xy, "Focal Point") == pytest.approx((1, 2, 0))
+    ortho = make_view("TopDownOrtho", Scale=20.0)
+    put(ortho, ortho.look_at((1.0, 2.0, 3.0), Target((1.0, 1.0, 1.0))))
+    assert (value(ortho, "X"), value(ortho, "Y")) == (0, 1)
+    assert value(ortho, "Scale") == 20
+    fps = make_view("FPS")
+    put(fps, fps.look_at((5.0, 9.0, 10.0)))
+    assert value(fps, "Yaw") == pytest.approx(math.pi / 2)
+    assert value(fps, "Pitch") == pytest.approx(0.0)
+
+
+# Switching types (§1.9).
+
+
+@pytest.mark.parametrize("name", ["Orbit", "XYOrbit", "ThirdPersonFollower"])
+def test_from_above_an_orbit_looks_down_from_a_hundred_metres(
+    make_view: MakeView, name: str
+) -> None:
+    old = make_view("TopDownOrtho", X=10.0, Y=12.0)
+    new = make_view(name)
+    put(new, new.mimic(old))
+    assert value(new, "Yaw") == pytest.approx(-1.5708, abs=1e-4)
+    assert value(new, "Pitch") == pytest.approx(1.5698, abs=1e-4)
+    assert value(new, "Focal Point") == (10, 12, 0)
+    assert value(new, "Distance") == 100
+
+
+def test_orbit_keeps_the_angles_of_xy_orbit(make_view: MakeView) -> None:
+    old = make_view("XYOrbit", Yaw=0.0, Pitch=0.5, Focal_Point=(4.0, 5.0, 0.0))
+    new = make_view("Orbit")
+    put(new, new.mimic(old))
+    assert value(new, "Yaw") == pytest.approx(0.0, abs=1e-6)
+    assert value(new, "Pitch") == pytest.approx(0.5)
+    assert same_picture(new.camera(), old.camera())
+
+
+def test_orbit_copies_orbit(make_view: MakeView) -> None:
+    old = make_view("Orbit", Yaw=2.0, Distance=3.0, Focal_Point=(1.0, 2.0, 3.0))
+    new = make_view("Orbit")
+    put(new, new.mimic(old))
+    for path in ("Yaw", "Pitch", "Distance", "Focal Point"):
+        assert value(new, path) == pytest.approx(value(old, path))
+
+
+@pytest.mark.parametrize("name", ["Orbit", "XYOrbit", "ThirdPersonFollower"])
+def test_fps_takes_over_the_camera_of_any_orbit(make_view: MakeView, name: str) -> None:
+    old = make_view(name, Yaw=2.0, Pitch=0.3, Focal_Point=(1.0, 2.0, 0.0))
+    new = make_view("FPS")
+    put(new, new.mimic(old))
+    assert same_picture(new.camera(), old.camera())
+
+
+def test_fps_hangs_over_the_ortho_view(make_view: MakeView) -> None:
+    new = make_view("FPS")
+    put(new, new.mimic(make_view("TopDownOrtho", X=3.0)))
+    assert value(new, "Position") == (3, 0, 500)
+    assert value(new, "Pitch") == pytest.approx(math.pi / 2 - 0.001)
+
+
+def test_the_ortho_view_comes_over_what_the_old_one_looked_at(
+    make_view: MakeView,
+) -> None:
+    old = make_view("Orbit", Focal_Point=(10.0, 12.0, 1.0))
+    new = make_view("TopDownOrtho")
+    put(new, new.mimic(old))
+    assert new.camera().position == (10, 12, 500)
+    put(new, new.mimic(make_view("FPS", Position=(1.0, 2.0, 3.0))))
+    assert (value(new, "X"), value(new, "Y")) == (1, 2)
+
+
+def test_xy_orbit_brings_the_middle_of_the_picture_to_the_ground(
+    make_view: MakeView,
+) -> None:
+    old = make_view("Orbit", Yaw=0.0, Pitch=0.5)
+    new = make_view("XYOrbit")
+    put(new, new.mimic(old))
+    camera, new_camera = old.camera(), new.camera()
+    assert value(new, "Focal Point")[2] == pytest.approx(0.0, abs=1e-9)
+    assert new_camera.position == pytest.approx(camera.position)
+    assert new_camera.forward == pytest.approx(camera.forward)
+
+
+def test_a_view_of_the_sky_leaves_xy_orbit_its_defaults(make_view: MakeView) -> None:
+    new = make_view("XYOrbit")
+    assert new.mimic(make_view("FPS", Pitch=-0.5)) == {}
+
+
+# What the mouse does, as the page's camera does it.
+
+
+def dragged(camera: Camera, yaw: float, pitch: float) -> Camera:
+    """The camera after it was turned about the point in the middle."""
+    away = np.subtract(camera.position, camera.look_at)
+    distance = float(np.linalg.norm(away))
+    azimuth = math.atan2(away[1], away[0]) + yaw
+    elevation = math.asin(away[2] / distance) + pitch
+    c = math.cos(elevation)
+    direction = (
+        math.cos(azimuth) * c,
+        math.sin(azimuth) * c,
+        math.sin(elevation),
+    )
+    position = add(camera.look_at, times(direction, distance))
+    return camera.placed(position, camera.look_at, camera.up)
+
+
+@pytest.mark.parametrize("name", ["Orbit", "XYOrbit", "FPS"])
+def test_a_turn_of_the_camera_is_a_change_of_yaw_and_pitch(
+    make_view: MakeView, name: str
+) -> None:
+    view = make_view(name, Yaw=0.0, Pitch=0.5)
+    read = view.read(dragged(view.camera(), 0.05, 0.05))
+    assert read["Yaw"] == pytest.approx(0.05)
+    assert read["Pitch"] == pytest.approx(0.55)
+    if name == "FPS":
+        assert read["Position"] == pytest.approx((5, 5, 10), abs=1e-3)
+    else:
+        assert read["Distance"] == pytest.approx(10)
+
+
+@pytest.mark.parametrize("name", PERSPECTIVE)
+def test_a_camera_that_comes_nearer_is_read_so(make_view: MakeView, name: str) -> None:
+    view = make_view(name)
+    camera = view.camera()
+    step = times(camera.forward, 0.1 * camera.distance)
+    nearer = camera.placed(add(camera.position, step), camera.look_at, camera.up)
+    read = view.read(nearer)
+    if name == "FPS":
+        assert read["Position"] == pytest.approx(nearer.position)
+    else:
+        assert read["Distance"] == pytest.approx(9.0)
