@@ -52,7 +52,8 @@ def test_lit_faces_background_and_names_have_rvizs_colours(
     assert shares(pixels, TOP) > 0.01
     assert shares(pixels, SIDE) > 0.01
     assert shares(pixels, BACKGROUND) > 0.5
-    assert shares(pixels, (255, 255, 255)) > 0.0001
+    # Names are thin: few of their pixels are fully white.
+    assert (pixels[..., :3].min(axis=-1) > 180).mean() > 0.0002
     look = viewer.page.evaluate("window.sambotVizLook")
     assert look["lit"] > 0 and look["names"] > 0 and look["boxes"] > 0
 
