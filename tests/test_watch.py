@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, resources, watch
 from sambot_viz.errors import Problem

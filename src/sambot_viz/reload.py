@@ -50,7 +50,7 @@ class Reloader:
         config: the .rviz file, or None when there is none to follow.
         documents: where sessions take their document from.
         prepare: makes the program's own settings in a document that was read anew.
-        report: told what is wrong after every reload of the model.
+        report: told what is wrong with the model whenever that has changed.
     """
 
     def __init__(
@@ -72,6 +72,7 @@ class Reloader:
         self._report = report
         self._shown_text = documents.current.to_yaml()
         self._suspects: tuple[Path, ...] = ()
+        self._told = () if robot is None else robot.problems
         self._watcher = FileWatcher(
             self._files, self._folders, self._changed, self._cannot_watch
         )
@@ -113,15 +114,14 @@ class Reloader:
 
     # What is done
 
-    def _changed(self, changed: frozenset[Path], reported: frozenset[Path]) -> None:
+    def _changed(self, changed: frozenset[Path], appeared: frozenset[Path]) -> None:
         model, assets = self._model_files(), self._asset_files()
         if self._config is not None and self._config in changed:
             self._reload_config(self._config)
         gone = any(not path.is_file() for path in changed & assets)
-        unknown = reported - model - assets - {self._config}
         if self._model is None:
             return
-        if changed & model or gone or (unknown and self._hoping):
+        if changed & model or gone or (appeared and self._hoping):
             self._reload_model(self._model)
         elif changed & assets:
             self._server.refresh()
@@ -133,16 +133,20 @@ class Reloader:
             files = (Path(p.file) for p in error.problems if p.file is not None)
             self._suspects = (path, *files)
             self._server.set_reload_problems("model", error.problems)
-            problems = error.problems
+            self._tell(error.problems)
         else:
             if self._watcher.closed:
                 return
             self._suspects = ()
             self._server.set_reload_problems("model", ())
             self._server.show_robot(robot)
-            problems = robot.problems
-        if self._report is not None:
+            self._tell(robot.problems)
+
+    def _tell(self, problems: tuple[Problem, ...]) -> None:
+        """Report what is wrong with the model, unless that was told already."""
+        if self._report is not None and problems != self._told:
             self._report(problems)
+        self._told = problems
 
     def _reload_config(self, path: Path) -> None:
         try:

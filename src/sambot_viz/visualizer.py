@@ -57,7 +57,8 @@ class Visualizer:
         watch: whether the page follows the files: the model with all that it
             includes, its meshes and textures, and the config. A save with a mistake
             leaves the last good robot standing and says what is wrong.
-        on_reload: told what is wrong (or nothing) after every reload of the model.
+        on_reload: told what is wrong with the model (or nothing) whenever a reload
+            changes that.
 
     Raises:
         RobotError: the model cannot be shown.

@@ -52,9 +52,10 @@ class FileWatcher:
 
     Args:
         files: the files that count; asked at every look, so it may change.
-        folders: more folders in which events count.
-        on_change: takes the files that have changed and every path something was
-            reported for; it runs in the watcher's thread, one call at a time.
+        folders: more folders in which new files are told.
+        on_change: takes the files that have changed, and everything that has newly
+            appeared in the folders; it runs in the watcher's thread, one call at a
+            time.
         on_trouble: called once, with the reason, when the system cannot watch.
     """
 
@@ -116,11 +117,12 @@ class FileWatcher:
             ignore_permission_denied=True,
         )
         for reported in _told_apart(changes):
-            self._look(frozenset(Path(path) for _, path in reported))
+            new = (path for change, path in reported if change == Change.added)
+            self._look(frozenset(map(Path, new)))
             if self._stop.is_set() or self._folders() != folders:
                 return
 
-    def _look(self, reported: frozenset[Path]) -> None:
+    def _look(self, appeared: frozenset[Path]) -> None:
         """Compare the files with what they were, and call back if they differ."""
         self._wait_for_hollow_files()
         before, self._known = self._known, self._stamps()
@@ -130,8 +132,8 @@ class FileWatcher:
             for path, now in self._known.items()
             if (before[path] != now if path in before else _saved_since(now, since))
         )
-        if (changed or reported) and not self._stop.is_set():
-            self._on_change(changed, reported)
+        if (changed or appeared) and not self._stop.is_set():
+            self._on_change(changed, appeared)
 
     def _wait_for_hollow_files(self) -> None:
         """Give files that are gone or empty, and were not, time to come back."""
