@@ -63,3 +63,10 @@ def test_a_node_that_went_with_its_parent_is_known_to_be_removed(
     assert not compat.is_removed(child)
     parent.remove()
     assert compat.is_removed(child)
+
+
+def test_what_stands_on_a_tab_can_be_changed(server: viser.ViserServer) -> None:
+    panel = server.gui.add_panel()
+    tab = panel.add_tab("before")
+    compat.set_tab_label(tab, "after")
+    assert panel._tab_labels == ("after",)  # pyright: ignore[reportPrivateUsage]

@@ -67,6 +67,13 @@ def is_removed(handle: viser.SceneNodeHandle) -> bool:
     return handle._impl.removed  # pyright: ignore[reportPrivateUsage]
 
 
+def set_tab_label(tab: viser.GuiTabHandle, label: str) -> None:
+    """Write something else on a tab; viser only changes its icon."""
+    if tab._label != label:  # pyright: ignore[reportPrivateUsage]
+        tab._label = label  # pyright: ignore[reportPrivateUsage]
+        tab._parent._rebuild_tab_props()  # pyright: ignore[reportPrivateUsage]
+
+
 @contextlib.contextmanager
 def without_banner() -> Generator[None]:
     """Keep viser's own lines off the terminal while it starts or stops."""

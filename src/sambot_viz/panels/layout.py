@@ -11,6 +11,7 @@ import viser
 from sambot_viz import page
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.joints import JointsPanel
+from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.session import Session
 
 LEFT_WIDTH, RIGHT_WIDTH = 300, 270
@@ -56,6 +57,9 @@ class Layout:
         gui.main_panel.dock_left()
         gui.main_panel.set_width(LEFT_WIDTH)
         self._panels: list[Panel] = [DisplaysPanel(session, gui.add_folder(None))]
+        below = gui.add_panel()
+        self._panels.append(ProblemsPanel(session, below))
+        below.dock_below(gui.main_panel)
         tabs = [tab for tab in RIGHT_TABS if joints or not tab.for_joints]
         if tabs:
             right = gui.add_panel()

@@ -1,0 +1,163 @@
+"""The Problems panel: what is wrong, where, and how to mend it.
+
+It stands below the Displays while there is something to tell, and is not there
+otherwise. What was saved with a mistake is told with a note that the robot in the
+picture is the last good one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import PurePath
+
+import viser
+
+from sambot_viz import compat, report
+from sambot_viz.errors import Problem, Severity
+from sambot_viz.session import Event, Session
+from sambot_viz.text import html_text, text
+
+MOST_SHOWN = 60
+"""Problems that are written out; the rest is counted."""
+SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
+_LONGEST_NAME = 60
+_LONGEST_EXCERPT = 100
+_WORD = re.compile(r"</?[\w:.-]+|[\w:.-]+|\S")
+
+
+class ProblemsPanel:
+    """The problems of a session's model and config, errors first.
+
+    Args:
+        session: whose problems these are.
+        panel: the panel to fill; it is hidden while there are none.
+    """
+
+    def __init__(self, session: Session, panel: viser.PanelHandle) -> None:
+        self._session = session
+        self._panel = panel
+        self._tab = panel.add_tab("Problems")
+        self._shown: tuple[list[Problem], str] | None = None
+        with self._tab:
+            self._list = session.audience.gui.add_html("")
+        session.listeners.append(self._hear)
+        self._write()
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._session.listeners.remove(self._hear)
+
+    def _hear(self, event: Event) -> None:
+        if event in ("problems", "config", "robot", "status"):
+            self._write()
+
+    def _write(self) -> None:
+        problems = problems_of(self._session)
+        note = last_good_note(self._session)
+        if (problems, note) == self._shown:
+            return
+        self._shown = (problems, note)
+        compat.set_tab_label(self._tab, title(problems))
+        self._list.content = note + problems_html(problems)
+        self._panel.visible = bool(problems)
+
+
+def problems_of(session: Session) -> list[Problem]:
+    """What is to be told, each once, errors first, then in the order of the files.
+
+    While the model was saved with a mistake, its faults take the place of what was
+    found in the version that is shown: lines have moved since.
+    """
+    saved = session.reload_problems
+    model = saved.get("model", ()) or session.problems
+    config = saved.get("config", ()) or session.config.problems
+    return in_order((*model, *config, *saved.get("watch", ())))
+
+
+def in_order(problems: Iterable[Problem]) -> list[Problem]:
+    """Errors, warnings, infos; of those with the same code and line only the first."""
+    once: dict[object, Problem] = {}
+    for problem in problems:
+        same = problem.message if problem.line is None else ""
+        once.setdefault((problem.code, problem.file, problem.line, same), problem)
+    return sorted(once.values(), key=lambda p: SEVERITIES.index(p.severity))
+
+
+def title(problems: Iterable[Problem]) -> str:
+    """What stands on the tab: "Problems (3)"."""
+    count = Counter(problem.severity for problem in problems)
+    return f"Problems ({count.total()})" if count else "Problems"
+
+
+def last_good_note(session: Session) -> str:
+    """HTML that says that the picture is older than the file, or nothing."""
+    faults = session.reload_problems.get("model", ())
+    if not any(fault.severity == "error" for fault in faults):
+        return ""
+    return (
+        '<div class="sambot-last-good" role="alert">Showing the last good version: '
+        "what was saved has a mistake.</div>"
+    )
+
+
+def problems_html(problems: list[Problem]) -> str:
+    """The list as HTML; everything out of files is escaped."""
+    parts = [_problem_html(problem) for problem in problems[:MOST_SHOWN]]
+    if len(problems) > MOST_SHOWN:
+        rest = Counter(problem.severity for problem in problems[MOST_SHOWN:])
+        kinds = ", ".join(f"{rest[s]} {_plural(s, rest[s])}" for s in rest)
+        parts.append(f'<div class="sambot-note">and {kinds} more</div>')
+    return f'<div class="sambot-problems">{"".join(parts)}</div>'
+
+
+def _problem_html(problem: Problem) -> str:
+    lines = [
+        f'<div class="sambot-problem sambot-{problem.severity}">'
+        f'<div class="sambot-kind"><b>{problem.severity}</b> '
+        f"{_place_html(problem)}</div>"
+        f"<div>{html_text(problem.message)}</div>"
+    ]
+    line = report.excerpt(problem)
+    if line is not None and line.strip():
+        lines.append(f"<pre>{_excerpt_html(line, problem.column)}</pre>")
+    if problem.hint:
+        lines.append(f'<div class="sambot-hint">{html_text(problem.hint)}</div>')
+    lines.append("</div>")
+    return "".join(lines)
+
+
+def _place_html(problem: Problem) -> str:
+    """The place as "file:line:column"; a mouse that rests on it sees the whole path."""
+    if problem.file is None:
+        return ""
+    name = text(PurePath(problem.file).name, _LONGEST_NAME)
+    numbers = (n for n in (problem.line, problem.column) if n is not None)
+    place = ":".join((name, *map(str, numbers)))
+    return (
+        f'<span class="sambot-place" title="{html_text(problem.place)}">'
+        f"{html_text(place)}</span>"
+    )
+
+
+def _excerpt_html(line: str, column: int | None) -> str:
+    """The part of a line around a column, the word that begins there underlined."""
+    at = 0 if column is None else min(column - 1, len(line))
+    start = max(len(line) - len(line.lstrip()), at - _LONGEST_EXCERPT // 2)
+    end = start + _LONGEST_EXCERPT
+    word = _WORD.match(line, at)
+    length = 0 if column is None or word is None else len(word.group())
+    before, marked, after = line[start:at], line[at : at + length], line[at + length :]
+    after = after[: max(0, end - at - length)]
+    return (
+        ("…" if line[:start].strip() else "")
+        + html_text(before)
+        + (f"<u>{html_text(marked)}</u>" if marked else "")
+        + html_text(after)
+        + ("…" if end < len(line) else "")
+    )
+
+
+def _plural(severity: str, count: int) -> str:
+    return severity if count == 1 else f"{severity}s"
