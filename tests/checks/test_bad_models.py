@@ -129,5 +129,5 @@ def test_the_first_seed_is_told_where_its_robot_ends_too_early(shared: Path) -> 
 
     assert problem.code == "xml-root-closed-early"
     assert problem.message.startswith("line 4 closes </robot> too early")
-    assert problem.line == 6
+    assert problem.line == 4
     assert problem.hint == "move </robot> from line 4 to the last line of the file"

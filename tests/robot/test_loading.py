@@ -26,6 +26,7 @@ def test_the_tutorials_xacro_and_its_urdf_are_the_same_robot(shared: Path):
 def test_the_early_closing_tag_is_named_with_its_mend(shared: Path):
     found = errors(shared / "data" / "seed" / "robot_closed_too_early.urdf.xacro")
     assert len(found) == 1
+    assert found[0].line == 4
     assert "line 4" in found[0].message
     assert "move </robot> from line 4" in found[0].hint
 

@@ -47,7 +47,7 @@ CASES = [
     (ROBOT.format("") + "<robot/>\n", "xml-two-robots", 4, "second"),
     (ROBOT.format("") + "end\n", "xml-text-after-root", 4, "end"),
     (ROBOT.format("") + "</robot>\n", "xml-closing-tag-surplus", 4, "nothing"),
-    ("<robot/>\n<link/>\n</robot>", "xml-root-closed-early", 2, "slash"),
+    ("<robot/>\n<link/>\n</robot>", "xml-root-closed-early", 1, "slash"),
     ("<robot>\n<link/>\n", "xml-root-not-closed", 2, "never closed"),
     ("<robot>\n <link>\n  <visual>\n", "xml-root-not-closed", 3, "inside <visual>"),
     ("<robot>\n<link name='a'>\n<link name='b'/>", "xml-tag-not-closed", 2, "link"),
@@ -110,7 +110,7 @@ def test_an_early_end_names_the_line_of_the_end_and_the_mend() -> None:
     problem = only('<robot name="r">\n</robot>\n<!-- c -->\n<link name="a"/>\n')
 
     assert problem.code == "xml-root-closed-early"
-    assert problem.line == 4
+    assert problem.line == 2
     assert problem.message.startswith("line 2 closes </robot> too early")
     assert problem.hint == "move </robot> from line 2 to the last line of the file"
 

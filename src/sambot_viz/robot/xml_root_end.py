@@ -60,9 +60,9 @@ def _closed_early(
         hint = f"delete </{name}> on line {end}; {right}"
     else:
         hint = f"move </{name}> from line {end} to the last line of the file"
-    # The place is where the content goes on, because there the reader sees that it is
-    # outside; the line of the early tag is the first thing in the message.
-    return source.error(file, "xml-root-closed-early", rest[0].start, message, hint)
+    # The place is the early tag itself, because there the mend is made; where the
+    # content goes on is told in the message.
+    return source.error(file, "xml-root-closed-early", root_end.start, message, hint)
 
 
 def _text(source: Source, file: str, root: Token, root_end: Token) -> Problem | None:
