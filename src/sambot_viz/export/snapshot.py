@@ -7,11 +7,11 @@ import time
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.poses import Wxyz, wxyz_of
 from sambot_viz.errors import ServerError
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.server import Server
-from sambot_viz.views.view import Camera
+from sambot_viz.views.browser_camera import BrowserCamera
+from sambot_viz.views.camera import Camera
 
 Picture = npt.NDArray[np.uint8]
 
@@ -32,18 +32,6 @@ _EVERYTHING_IS_THERE = """(() => {
 has one when it is parsed; a label has none), and all names are laid out."""
 
 
-def camera_wxyz(camera: Camera) -> Wxyz:
-    """The orientation of a camera whose z looks forward and whose y points down."""
-    forward = np.array(camera.look_at) - np.array(camera.position)
-    forward /= np.linalg.norm(forward)
-    right = np.cross(forward, np.array(camera.up))
-    length = float(np.linalg.norm(right))
-    # Straight down or up, any direction is level; x to the right as RViz has it.
-    right = np.array([0.0, -1.0, 0.0]) if length < 1e-9 else right / length
-    down = np.cross(forward, right)
-    return wxyz_of(np.stack([right, down, forward], axis=1))
-
-
 def snapshot(
     server: Server, chromium: Chromium, width: int, height: int, camera: Camera
 ) -> Picture:
@@ -54,7 +42,7 @@ def snapshot(
         chromium: a running browser.
         width: of the picture [pixels].
         height: of the picture [pixels].
-        camera: where to look from.
+        camera: where to look from, such as `Session.views.camera`.
 
     Returns:
         (height, width, 3) uint8, RGB.
@@ -70,14 +58,14 @@ def snapshot(
         page.wait_for(
             _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())
         )
+        # viser draws a picture's background where the page's own camera is, and
+        # nothing beyond 1000 m: the page itself must stand there.
+        BrowserCamera(client).point(camera, flat_fov=None)
         before: Picture | None = None
         while time.monotonic() < end:
             image = client.get_render(
                 height,
                 width,
-                wxyz=camera_wxyz(camera),
-                position=camera.position,
-                fov=camera.fov,
                 transport_format="png",
                 timeout=max(1.0, end - time.monotonic()),
             )

@@ -60,11 +60,19 @@ class BrowserCamera:
         """Whether it shows an orthographic view."""
         return self.camera.scale is not None
 
-    def point(self, camera: Camera) -> None:
-        """Send the browser a camera of the fixed frame."""
+    def point(
+        self, camera: Camera, flat_fov: float | None = ORTHO_FIELD_OF_VIEW
+    ) -> None:
+        """Send the browser a camera of the fixed frame.
+
+        Args:
+            camera: where to look from.
+            flat_fov: the field of view that an orthographic camera is drawn with
+                [rad]; None draws it from 500 m above (see `Camera.in_perspective`).
+        """
         self.camera = camera
         self._answered_by = time.monotonic() + ECHO_TIME
-        drawn = camera.in_perspective(self._height, ORTHO_FIELD_OF_VIEW)
+        drawn = camera.in_perspective(self._height, flat_fov)
         position, up = drawn.position, drawn.up
         if camera.scale is not None:
             lean = times(drawn.image_up, -POLE * drawn.distance)

@@ -1,0 +1,72 @@
+"""Every type of view against a picture of RViz's 3D view.
+
+The pictures were recorded with RViz 1, whose cylinders and spheres have more sides
+than RViz 2's and whose names are drawn with another font: that is what a few pixels
+in a thousand may differ by. A camera that is off by half a degree differs by ten
+times as many.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+if TYPE_CHECKING:
+    from sambot_viz.export.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+DATA = Path(__file__).parent / "data"
+VISIBLE = 32
+"""A channel that differs by more is another colour to the eye (0 to 255)."""
+ALLOWED = 0.004
+"""Part of the pixels that may differ so."""
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Chromium]:
+    from sambot_viz.export.chromium import Chromium
+    from sambot_viz.export.find_browser import find_browser
+
+    if find_browser() is None:
+        pytest.skip("no Chromium or Chrome on this machine")
+    with Chromium(timeout=60.0) as browser:
+        yield browser
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "view_fps",
+        "view_orbit_focal",
+        "view_orbit_invert_z",
+        "view_topdown",
+        "view_wide",
+        "view_xyorbit",
+    ],
+)
+def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> None:
+    from PIL import Image
+
+    from sambot_viz import load_config, load_robot
+    from sambot_viz.export.snapshot import snapshot
+    from sambot_viz.server import Server, ServerOptions
+
+    folder = DATA / name
+    golden = np.asarray(Image.open(folder / "render.png").convert("RGB"), np.int16)
+    height, width, _ = golden.shape
+    options = ServerOptions(port=0, panels=False)
+    server = Server(options, lambda: load_config(folder / "config.rviz"), load_robot)
+    try:
+        server.show_robot(load_robot(DATA / "view_robot.urdf"))
+        session = server.shared
+        assert session is not None
+        picture = snapshot(server, chromium, width, height, session.views.camera)
+    finally:
+        server.stop()
+    difference = np.abs(picture.astype(np.int16) - golden).max(axis=2)
+    assert (difference > VISIBLE).mean() < ALLOWED
