@@ -23,6 +23,7 @@ from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.status import Status
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.joints import JointState
 from sambot_viz.pacer import Pacer
 from sambot_viz.robot.kinematics import Kinematics
@@ -84,6 +85,7 @@ class Session:
         self._extra: dict[str, tuple[str, Transform]] = {}
         self._moved: dict[str, None] = {}
         self._keys = 0
+        self._drawn_tree = self.tree.version
         self._background: tuple[int, int, int] | None = None
         self.context = DisplayContext(
             scene=audience.scene,
@@ -146,8 +148,12 @@ class Session:
             set_transform(joint.parent, joint.child, Transform.trusted(T))
         for child, (parent, transform) in self._extra.items():
             self.tree.set_static(parent, child, transform)
+        for display in self.displays:
+            display.publish()
         self.context.moving = {
-            joint.child: joint.type for joint in robot.joints.values() if joint.movable
+            plain_name(joint.child): joint.type
+            for joint in robot.joints.values()
+            if joint.movable
         }
 
     # Changing
@@ -158,6 +164,9 @@ class Session:
         with self.lock:
             with self.audience.atomic():
                 yield
+                if self.tree.version != self._drawn_tree:
+                    # A display has brought frames of its own.
+                    self._frames_changed()
                 for event in events:
                     self._tell(event)
             self.audience.flush()
@@ -276,7 +285,7 @@ class Session:
             positions = state.all_positions()
             with self.audience.atomic():
                 frames = {
-                    robot.joints[name].child: kinematics.joint_transform(
+                    plain_name(robot.joints[name].child): kinematics.joint_transform(
                         name, positions[name]
                     )
                     for name in moved
@@ -289,6 +298,7 @@ class Session:
             self.audience.flush()
 
     def _frames_changed(self) -> None:
+        self._drawn_tree = self.tree.version
         self.context.nodes.sync(self.tree, self.context.fixed_frame)
         self._redraw()
         self._tell("frames")

@@ -14,6 +14,7 @@ from typing import ClassVar
 import viser
 
 from sambot_viz import compat
+from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.frame_nodes import FrameNodes
 from sambot_viz.displays.status import StatusList
 from sambot_viz.frames import FrameTree, LookupRefused
@@ -123,6 +124,14 @@ class Display:
         if self.shown:
             self.draw()
 
+    def publish(self) -> bool:
+        """Set transforms that come with the display; whether there were any new."""
+        return False
+
+    def entries(self) -> tuple[EntryList, ...]:
+        """The links, joints or frames that have rows of their own."""
+        return ()
+
     def frames_moved(self, frames: Iterable[str]) -> None:
         """Some frames have a new pose in their parents; the nodes are moved already."""
         del frames
@@ -136,3 +145,8 @@ def remove_all(handles: Iterable[Handle]) -> None:
     for handle in handles:
         if not compat.is_removed(handle):
             handle.remove()
+
+
+def any_gone(handles: Iterable[Handle]) -> bool:
+    """Whether some of the nodes went with the frame they hung below."""
+    return any(compat.is_removed(handle) for handle in handles)

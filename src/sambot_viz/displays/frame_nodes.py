@@ -13,6 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 import viser
 
+from sambot_viz.compat import is_removed
 from sambot_viz.displays.poses import inverse, position_of, wxyz_of
 from sambot_viz.frames import FrameTree
 from sambot_viz.robot.model import Matrix
@@ -56,7 +57,10 @@ class FrameNodes:
         wanted = self._wanted_paths(tree)
         for frame in [f for f, path in self._paths.items() if wanted.get(f) != path]:
             del self._paths[frame]
-            self._handles.pop(frame).remove()
+            handle = self._handles.pop(frame)
+            # A node that hung below another one has gone with it.
+            if not is_removed(handle):
+                handle.remove()
         self._fixed_root = self._root_of.get(fixed_frame)
         for frame, path in wanted.items():
             if frame not in self._handles:

@@ -6,6 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal
 
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.link_settings import (
+    ALL_ENABLED,
+    LINK_TREE_PROPERTIES,
+    RobotSettings,
+)
+from sambot_viz.displays.robot_entries import robot_entries
+from sambot_viz.displays.robot_marks import RobotMarks, Wanted
+from sambot_viz.displays.second_robot import publish_frames
 from sambot_viz.displays.shapes import Look, ShapeNode
 from sambot_viz.displays.status import Status
 from sambot_viz.errors import RobotError
@@ -42,13 +51,11 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
                 "Mass",
                 default=False,
                 help="Show each mass as a ball of lead of that mass.",
-                support="none",
             ),
             BoolProperty(
                 "Inertia",
                 default=False,
                 help="Show each inertia as the box that has it.",
-                support="none",
             ),
         ),
     ),
@@ -91,6 +98,7 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         default="",
         help="The frame of a link is <prefix>/<link> when this is not empty.",
     ),
+    *LINK_TREE_PROPERTIES,
 )
 
 
@@ -111,6 +119,7 @@ class RobotModelDisplay(Display):
         self._robot: Robot | None = None
         self._source: tuple[object, ...] = ()
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
+        self._marks = RobotMarks(context, key, self.frame_of)
 
     def frame_of(self, link: str) -> str:
         """The TF frame of a link."""
@@ -123,6 +132,9 @@ class RobotModelDisplay(Display):
         if robot is None:
             self._remove_shapes()
             return
+        if self.publish():
+            self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
+        settings = RobotSettings(self.config, robot)
         alpha = float(self.config.get("Alpha"))
         on: Mapping[Kind, bool] = {
             "visual": bool(self.config.get("Visual Enabled")),
@@ -133,15 +145,20 @@ class RobotModelDisplay(Display):
             frame = self.frame_of(link.name)
             connected = self.context.nodes.connected(frame)
             above = self.context.nodes.path(frame) if connected else ""
+            own = settings.link(link.name)
+            opacity = alpha * own.alpha if connected else 1.0
             for kind, index, shape in _shapes_of(link):
                 key = (link.name, kind, index)
                 wanted.add(key)
                 node = self._node(key, above or "", shape)
-                node.draw(
-                    Look(on[kind], 1.0 if not connected else alpha, not connected)
-                )
+                node.draw(Look(on[kind] and own.enabled, opacity, not connected))
         for key in [key for key in self._shapes if key not in wanted]:
             self._shapes.pop(key)[1].remove()
+        wanted_marks = Wanted(
+            bool(self.config.get("Mass Properties/Mass")),
+            bool(self.config.get("Mass Properties/Inertia")),
+        )
+        self._marks.draw(robot, settings, wanted_marks)
         self._report(robot)
 
     def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
@@ -151,7 +168,7 @@ class RobotModelDisplay(Display):
         at_root = f"{number}." if not above else ""
         name = f"{above}/{self.key}{at_root}{kind[0]}{index}"
         known = self._shapes.get(key)
-        if known is not None and known[0] == name:
+        if known is not None and known[0] == name and not known[1].gone:
             return known[1]
         if known is not None:
             known[1].remove()
@@ -211,8 +228,31 @@ class RobotModelDisplay(Display):
             lines.extend(texts)
         return Status("Error", "\n".join(lines))
 
+    def publish(self) -> bool:
+        """Set the transforms of a robot from a file, unless somebody else does."""
+        if not self.shown or self._robot is None or self._source[0] != "File":
+            return False
+        new = publish_frames(self.context.tree, self._robot, self.frame_of)
+        return bool(new)
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value."""
+        if path == ALL_ENABLED and self._robot is not None:
+            RobotSettings(self.config, self._robot).set_all(
+                bool(self.config.get(ALL_ENABLED))
+            )
+        super().property_changed(path)
+
+    def entries(self) -> tuple[EntryList, ...]:
+        """The links and the joints."""
+        if self._robot is None:
+            return ()
+        return robot_entries(self.context, self.config, self._robot, self.frame_of)
+
     def frames_moved(self, frames: Iterable[str]) -> None:
-        """Nothing to do: the shapes hang below their frames."""
+        """The shapes hang below their frames; only trails have to follow."""
+        if self.shown:
+            self._marks.moved()
 
     def clear(self) -> None:
         """Take the robot out of the scene."""
@@ -223,6 +263,7 @@ class RobotModelDisplay(Display):
         for _, node in self._shapes.values():
             node.remove()
         self._shapes.clear()
+        self._marks.clear()
 
 
 def _shapes_of(link: Link) -> Iterator[tuple[Kind, int, Shape]]:

@@ -9,16 +9,17 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.display import Handle, remove_all
+from sambot_viz.displays.assets import SessionAssets, Source
+from sambot_viz.displays.display import Handle, any_gone, remove_all
 from sambot_viz.displays.poses import Position, Wxyz, position_of, wxyz_of
 from sambot_viz.displays.solids import Rgb, opacity_of, sphere
+from sambot_viz.errors import Problem
+from sambot_viz.robot.assets import Asset, asset_of
 from sambot_viz.robot.mesh.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.meshes import (
-    MeshError,
+    Mesh,
     MeshPart,
-    MeshStore,
     Texture,
-    TextureError,
     apply_scale,
     to_glb,
 )
@@ -97,23 +98,37 @@ class ShapeNode:
     is sent again for another opacity.
 
     Attributes:
-        problem: RViz's sentence when the geometry could not be loaded, else None.
+        waiting: the file of the shape is being read.
     """
 
     def __init__(
-        self, scene: viser.SceneApi, name: str, shape: Shape, meshes: MeshStore
+        self, scene: viser.SceneApi, name: str, shape: Shape, assets: SessionAssets
     ) -> None:
-        self.problem: str | None = None
+        self.waiting = False
         self._scene = scene
         self._name = name
         self._shape = shape
-        self._meshes = meshes
+        self._assets = assets
+        self._asset = asset_of(shape)
+        self._source: Source = None
+        self._generation = -1
         self._look: Look | None = None
         self._pieces: list[_Piece] = []
 
+    def shows(self, shape: Shape) -> bool:
+        """Whether this is the node of that shape, out of the same file."""
+        # Paths take no part in the comparison of shapes.
+        return shape == self._shape and asset_of(shape) == self._asset
+
     def draw(self, look: Look) -> None:
-        """Create the nodes, or change what differs from the last look."""
-        if look == self._look:
+        """Create the nodes, or change what differs from the last look.
+
+        What comes from a file that is not read yet is drawn by a later call, while
+        `waiting` is true; an older version of it stays until then.
+        """
+        if look.visible and self._asset is not None:
+            self._take_source(self._asset)
+        if look == self._look or (self.waiting and not self._pieces):
             return
         if self._pieces and self._must_resend(look):
             self.remove()
@@ -126,6 +141,43 @@ class ShapeNode:
             if isinstance(piece.handle, Painted):
                 _paint(piece.handle, piece, look)
         self._look = look
+
+    @property
+    def problem(self) -> str | None:
+        """RViz's sentence when the geometry could not be loaded, else None."""
+        fault = self._source.message if isinstance(self._source, Problem) else None
+        geometry = self._shape.geometry
+        if not isinstance(geometry, MeshFile):
+            return fault
+        text = f"Could not load mesh resource '{geometry.filename}'"
+        if geometry.path is None:
+            return text
+        return None if fault is None else f"{text}: {fault}"
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong or doubtful in the file of the shape."""
+        if isinstance(self._source, Problem):
+            return (self._source,)
+        return self._source.problems if isinstance(self._source, Mesh) else ()
+
+    def _take_source(self, asset: Asset) -> None:
+        """Take what the file holds now, if it is read, and drop what it held before."""
+        if self._generation == self._assets.generation:
+            return
+        self.waiting = not self._assets.is_there(asset)
+        if self.waiting:
+            return
+        self._generation = self._assets.generation
+        source = self._assets.take(asset)
+        if source != self._source:
+            self.remove()
+            self._source = source
+
+    @property
+    def gone(self) -> bool:
+        """Whether its nodes went with the frame they hung below."""
+        return any_gone(piece.handle for piece in self._pieces)
 
     def remove(self) -> None:
         """Take the nodes out of the scene."""
@@ -151,21 +203,13 @@ class ShapeNode:
         if isinstance(geometry, MeshFile):
             self._create_mesh(geometry, look, pose)
             return
-        texture = None if look.error else self._texture(material)
-        part = _textured(geometry, texture) if texture is not None else None
+        part = None
+        if isinstance(self._source, Texture) and not look.error:
+            part = _textured(geometry, self._source)
         if part is not None:
             self._add_part(self._name, part, WHITE, look, pose)
         else:
             self._create_primitive(geometry, _rgba(material), pose)
-
-    def _texture(self, material: Material | None) -> Texture | None:
-        if material is None or material.texture_path is None:
-            return None
-        try:
-            return self._meshes.texture(material.texture_path)
-        except TextureError as error:
-            self.problem = str(error)
-            return None
 
     def _create_primitive(
         self, geometry: Box | Cylinder | Sphere | Capsule, rgba: Rgba, pose: _Pose
@@ -218,19 +262,11 @@ class ShapeNode:
         self._pieces.append(_Piece(handle, color, rgba[3]))
 
     def _create_mesh(self, geometry: MeshFile, look: Look, pose: _Pose) -> None:
-        self.problem = f"Could not load mesh resource '{geometry.filename}'"
-        if geometry.path is None:
+        if not isinstance(self._source, Mesh):
             self._add_stand_in(pose)
             return
-        try:
-            mesh = self._meshes.get(geometry.path)
-        except MeshError as error:
-            self.problem += f": {error.problem.message}"
-            self._add_stand_in(pose)
-            return
-        self.problem = None
         rgba = _rgba(self._shape.material)
-        for i, part in enumerate(mesh.parts):
+        for i, part in enumerate(self._source.parts):
             own = (
                 rgba if part.rgba is None else (*part.rgba[:3], part.rgba[3] * rgba[3])
             )

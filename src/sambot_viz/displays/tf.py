@@ -8,7 +8,13 @@ from dataclasses import dataclass, field
 
 import viser
 
-from sambot_viz.displays.display import Display, DisplayContext, Handle, remove_all
+from sambot_viz.displays.display import (
+    Display,
+    DisplayContext,
+    Handle,
+    any_gone,
+    remove_all,
+)
 from sambot_viz.displays.poses import Position, position_of
 from sambot_viz.displays.solids import Arrow, add_arrows, add_axes
 from sambot_viz.displays.status import Status
@@ -65,6 +71,11 @@ class _FrameMarks:
     path: str
     axes: viser.BatchedMeshHandle | None = None
     name: viser.LabelHandle | None = None
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        """Its nodes."""
+        return tuple(h for h in (self.axes, self.name) if h is not None)
 
 
 @dataclass
@@ -187,7 +198,7 @@ class TfDisplay(Display):
         if path is None:
             return
         marks = self._marks.get(frame)
-        if marks is not None and marks.path != path:
+        if marks is not None and (marks.path != path or any_gone(marks.handles)):
             self._drop(marks)
             marks = None
         if marks is None:
@@ -231,7 +242,7 @@ class TfDisplay(Display):
                     arrows.append(arrow)
         known = self._arrows.setdefault(parent, _Arrows())
         state = (path, tuple(arrows))
-        if state == known.state:
+        if state == known.state and not any_gone(known.handles):
             return
         remove_all(known.handles)
         known.state, known.handles = state, ()
@@ -276,4 +287,4 @@ class TfDisplay(Display):
 
     @staticmethod
     def _drop(marks: _FrameMarks) -> None:
-        remove_all(h for h in (marks.axes, marks.name) if h is not None)
+        remove_all(marks.handles)
