@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 
 import pytest
 import viser
@@ -77,7 +78,8 @@ def show(arm: Robot) -> Iterator[Show]:
         text = CONFIG.format(body=body, fixed=fixed) if config is None else config
         document = RvizConfig.parse(text, declarations())
         options = ServerOptions(port=0, panels=False)
-        load = (files or {}).__getitem__
+        robots = {Path(name).name: robot for name, robot in (files or {}).items()}
+        load = lambda path: robots[Path(path).name]  # noqa: E731
         server = Server(options, lambda: document, load)
         servers.append(server)
         if robot is not None:

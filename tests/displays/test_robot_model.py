@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -211,13 +212,23 @@ def test_a_tf_prefix_names_the_frames(show: Show) -> None:
 
 SECOND = """
       Description Source: File
-      Description File: other.urdf
+      Description File: {file}
       TF Prefix: b
 """
 
 
-def test_a_robot_from_a_file_brings_its_own_frames(show: Show, arm: Robot) -> None:
-    session = show(SECOND, files={"other.urdf": arm})
+@pytest.fixture
+def second(tmp_path: Path) -> str:
+    """The properties of a RobotModel with a file of its own."""
+    file = tmp_path / "other.urdf"
+    file.write_text("the robot comes from the loader of the test")
+    return SECOND.format(file=file)
+
+
+def test_a_robot_from_a_file_brings_its_own_frames(
+    show: Show, arm: Robot, second: str
+) -> None:
+    session = show(second, files={"other.urdf": arm})
     assert {"base", "upper", "b/base", "b/upper", "b/tool"} <= set(session.tree.frames)
     assert model_of(session).status.rows["b/upper"].level == "Error"
     session.set_static_transform("base", "b/base", Transform.from_xyz_rpy((2, 0, 0)))
@@ -228,9 +239,16 @@ def test_a_robot_from_a_file_brings_its_own_frames(show: Show, arm: Robot) -> No
 
 
 def test_frames_of_a_second_robot_outlive_a_reload_of_the_first(
-    show: Show, arm: Robot
+    show: Show, arm: Robot, second: str
 ) -> None:
-    session = show(SECOND, files={"other.urdf": arm})
+    session = show(second, files={"other.urdf": arm})
     session.show_robot(arm)
     assert "b/tool" in session.tree.frames
     assert session.context.nodes.path("b/tool") is not None
+
+
+def test_a_file_that_is_not_there_is_said_in_the_status(show: Show) -> None:
+    session = show(SECOND.format(file="/nowhere/at/all.urdf"))
+    status = model_of(session).status.rows["URDF"]
+    assert status.level == "Error"
+    assert status.text == "URDF is empty: no file '/nowhere/at/all.urdf'"

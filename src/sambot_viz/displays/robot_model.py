@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Literal
 
+from sambot_viz.displays.description_file import find_description
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.link_settings import (
@@ -17,7 +19,7 @@ from sambot_viz.displays.robot_marks import RobotMarks, Wanted
 from sambot_viz.displays.second_robot import publish_frames
 from sambot_viz.displays.shapes import Look, ShapeNode
 from sambot_viz.displays.status import Status
-from sambot_viz.errors import RobotError
+from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Link, Robot, Shape
 from sambot_viz.rviz import (
     BoolProperty,
@@ -168,11 +170,12 @@ class RobotModelDisplay(Display):
         at_root = f"{number}." if not above else ""
         name = f"{above}/{self.key}{at_root}{kind[0]}{index}"
         known = self._shapes.get(key)
-        if known is not None and known[0] == name and not known[1].gone:
-            return known[1]
         if known is not None:
-            known[1].remove()
-        node = ShapeNode(self.context.scene, name, shape, self.context.meshes)
+            node = known[1]
+            if known[0] == name and node.shows(shape) and not node.gone:
+                return node
+            node.remove()
+        node = ShapeNode(self.context.scene, name, shape, self.context.assets)
         self._shapes[key] = (name, node)
         return node
 
@@ -184,8 +187,11 @@ class RobotModelDisplay(Display):
         else:
             source = ("Topic", id(self.context.robot))
         if source != self._source:
-            self._remove_shapes()
-            self.status.clear()
+            self._marks.clear()
+            if (source[0], *self._source[:1]) != ("Topic", "Topic"):
+                # After an edit of the opened robot, what is the same stays.
+                self._remove_shapes()
+                self.status.clear()
             self._source = source
             self._robot = self._load(source)
         return self._robot
@@ -195,8 +201,14 @@ class RobotModelDisplay(Display):
             return self.context.robot
         if not source[1] or self.context.load_file is None:
             return None
+        opened = self.context.robot
+        near = [file.parent for file in opened.files[:1]] if opened else []
+        path = find_description(str(source[1]), [*near, Path.cwd()])
+        if path is None:
+            self.status.set("URDF", "Error", f"URDF is empty: no file '{source[1]}'")
+            return None
         try:
-            return self.context.load_file(str(source[1]))
+            return self.context.load_file(str(path))
         except RobotError as error:
             text = "URDF failed Model parse"
             self.status.set("URDF", "Error", f"{text}: {error.problems[0].message}")
@@ -216,6 +228,10 @@ class RobotModelDisplay(Display):
         self.status.replace(rows)
 
     def _geometry_status(self) -> Status:
+        waiting = sum(node.waiting for _, node in self._shapes.values())
+        if waiting:
+            shapes = "shape is" if waiting == 1 else "shapes are"
+            return Status("Warn", f"The files of {waiting} {shapes} still being read")
         faults: dict[str, list[str]] = {}
         for (link, _, _), (_, node) in self._shapes.items():
             if node.problem is not None:
@@ -234,6 +250,18 @@ class RobotModelDisplay(Display):
             return False
         new = publish_frames(self.context.tree, self._robot, self.frame_of)
         return bool(new)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong with the files of the shapes."""
+        return tuple(p for _, node in self._shapes.values() for p in node.problems)
+
+    def assets_read(self) -> None:
+        """Draw what has been read."""
+        if self._robot is not None:
+            for _, node in self._shapes.values():
+                node.draw_again()
+            self._report(self._robot)
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
