@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, resources, watch
 from sambot_viz.errors import Problem
@@ -259,3 +260,16 @@ def test_changes_made_in_the_page_are_not_thrown_away(sam_bot: Followed) -> None
     sam_bot.session.config.save(sam_bot.config)
     sam_bot.wait_for(lambda: not sam_bot.failed)
     assert sam_bot.session.context.fixed_frame == "base_link"
+
+
+def test_a_saved_link_is_the_only_one_that_is_sent_again(
+    sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    client = protocol(int(sam_bot.viz.url.rsplit(":", 1)[1]))
+    client.settle(sam_bot.viz.viser)
+    mark = client.mark()
+    sam_bot.save('name="base_length" value="0.42"', 'name="base_length" value="0.5"')
+    client.wait_until(lambda: client.types(mark)["BoxMessage"] == 1)
+    client.settle(sam_bot.viz.viser)
+    assert client.types(mark)["BoxMessage"] == 1
+    assert client.types(mark)["CylinderMessage"] == 0

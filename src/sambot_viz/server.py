@@ -13,6 +13,7 @@ from sambot_viz import compat
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.listening import close, listen, url_of
 from sambot_viz.panels.layout import Layout
+from sambot_viz.reading import AssetReader
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -67,6 +68,7 @@ class Server:
         self._make_config = make_config
         self._load_file = load_file
         self.meshes = MeshStore()
+        self._reader = AssetReader(self.meshes)
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._robot: Robot | None = None
@@ -137,6 +139,19 @@ class Server:
                 raise ServerError(f"no browser opened the page within {timeout:g} s")
             return list(self._viser.get_clients().values())[-1]
 
+    def wait_for_meshes(self, timeout: float) -> None:
+        """Return when every mesh file and texture is read and drawn.
+
+        Args:
+            timeout: for each session [s].
+
+        Raises:
+            ServerError: that took longer.
+        """
+        for session in self.sessions():
+            if not session.context.assets.wait(timeout):
+                raise ServerError(f"the meshes were not read within {timeout:g} s")
+
     def node_count(self) -> int:
         """How many nodes the shared scene has."""
         return compat.node_count(self._viser.scene)
@@ -152,6 +167,7 @@ class Server:
         self._stopped.set()
         for session in self.sessions():
             session.close()
+        self._reader.close()
         close(self._viser)
 
     def _open(self, audience: object) -> tuple[Session, Layout | None]:
@@ -161,6 +177,7 @@ class Server:
             self._make_config(),
             self.meshes,
             self._load_file,
+            self._reader,
         )
         session.show_config()
         if self._robot is not None:

@@ -17,6 +17,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 import viser
 
+from sambot_viz.displays.assets import Reader, SessionAssets
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.frame_nodes import FrameNodes, short_id
 from sambot_viz.displays.registry import DISPLAYS
@@ -60,6 +61,7 @@ class Session:
         config: the .rviz document; the session changes it as the user does.
         meshes: mesh files that are read already (shared by all sessions).
         load_file: reads another model, for a RobotModel from a file.
+        reader: reads mesh files in the background; None reads them while drawing.
     """
 
     def __init__(
@@ -69,6 +71,7 @@ class Session:
         config: RvizConfig,
         meshes: MeshStore,
         load_file: Callable[[str], Robot] | None = None,
+        reader: Reader | None = None,
     ) -> None:
         self.lock = threading.RLock()
         self.loop = loop
@@ -94,6 +97,7 @@ class Session:
             meshes=meshes,
             load_file=load_file,
         )
+        self.context.assets = SessionAssets(meshes, reader, self._assets_read)
         self._pacer = Pacer(loop, self._period(), self._draw_moved)
         self._take_globals()
         self.views = ViewControl(self)
@@ -125,6 +129,7 @@ class Session:
         """Show a robot, or the same after an edit: joints keep their values."""
         with self.change("robot"):
             self.robot = self.context.robot = robot
+            self.context.assets.look_again()
             self._kinematics = Kinematics(robot)
             if self.joints is None:
                 self.joints = JointState(robot)
@@ -238,7 +243,14 @@ class Session:
     def refresh(self) -> None:
         """Draw anew what has changed; what has not is not sent again."""
         with self.change():
+            self.context.assets.look_again()
             self._redraw()
+
+    def _assets_read(self) -> None:
+        with self.change("status"):
+            for display in self.displays:
+                if display.shown:
+                    display.assets_read()
 
     def set_problems(self, problems: Sequence[Problem]) -> None:
         """Tell the audience what is wrong with the model."""

@@ -14,9 +14,11 @@ from typing import ClassVar
 import viser
 
 from sambot_viz import compat
+from sambot_viz.displays.assets import SessionAssets
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.frame_nodes import FrameNodes
 from sambot_viz.displays.status import StatusList
+from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
@@ -32,6 +34,8 @@ class DisplayContext:
         tree: the frames.
         nodes: the frames as scene nodes.
         meshes: mesh files, each read once.
+        assets: the same with what is still being read; by default nobody reads in the
+            background, and every file is there when it is asked for.
         fixed_frame: the frame everything is drawn in.
         background: colour behind the scene, 0 to 255.
         robot: the robot that was opened, or None.
@@ -48,6 +52,11 @@ class DisplayContext:
     robot: Robot | None = None
     moving: Mapping[str, str] = field(default_factory=dict[str, str])
     load_file: Callable[[str], Robot] | None = None
+    assets: SessionAssets = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Read files when they are asked for, unless somebody says otherwise."""
+        self.assets = SessionAssets(self.meshes)
 
     def frame(self, name: object) -> str:
         """The frame a Reference Frame property means."""
@@ -131,6 +140,14 @@ class Display:
     def entries(self) -> tuple[EntryList, ...]:
         """The links, joints or frames that have rows of their own."""
         return ()
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What was found in the files that the display is drawn from."""
+        return ()
+
+    def assets_read(self) -> None:
+        """Some mesh files or textures have been read in the background."""
 
     def frames_moved(self, frames: Iterable[str]) -> None:
         """Some frames have a new pose in their parents; the nodes are moved already."""

@@ -112,6 +112,7 @@ class ShapeNode:
         self._asset = asset_of(shape)
         self._source: Source = None
         self._generation = -1
+        self._wanted: Look | None = None
         self._look: Look | None = None
         self._pieces: list[_Piece] = []
 
@@ -126,6 +127,7 @@ class ShapeNode:
         What comes from a file that is not read yet is drawn by a later call, while
         `waiting` is true; an older version of it stays until then.
         """
+        self._wanted = look
         if look.visible and self._asset is not None:
             self._take_source(self._asset)
         if look == self._look or (self.waiting and not self._pieces):
@@ -141,6 +143,11 @@ class ShapeNode:
             if isinstance(piece.handle, Painted):
                 _paint(piece.handle, piece, look)
         self._look = look
+
+    def draw_again(self) -> None:
+        """Draw what could not be drawn before its file was read."""
+        if self.waiting and self._wanted is not None:
+            self.draw(self._wanted)
 
     @property
     def problem(self) -> str | None:

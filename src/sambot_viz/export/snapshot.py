@@ -54,6 +54,7 @@ def snapshot(
     page = chromium.open(f"{server.url}/?fixedDpr=1", width=width, height=height)
     try:
         client = server.wait_for_browser(LONGEST_WAIT)
+        server.wait_for_meshes(max(1.0, end - time.monotonic()))
         nodes = server.node_count()
         page.wait_for(
             _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())

@@ -71,7 +71,8 @@ def problems_of(session: Session) -> list[Problem]:
     found in the version that is shown: lines have moved since.
     """
     saved = session.reload_problems
-    model = saved.get("model", ()) or session.problems
+    shapes = (p for display in session.displays for p in display.problems)
+    model = saved.get("model", ()) or (*session.problems, *shapes)
     config = saved.get("config", ()) or session.config.problems
     return in_order((*model, *config, *saved.get("watch", ())))
 

@@ -1,0 +1,91 @@
+"""Reading mesh files and textures in a thread, so that nobody waits for them."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+
+from sambot_viz.robot.assets import Asset
+from sambot_viz.robot.meshes import MeshStore
+
+TELL_PERIOD = 0.1
+"""What was read is handed over at most so often [s]: every time costs each browser."""
+
+OnRead = Callable[[frozenset[Asset]], None]
+
+
+class AssetReader:
+    """Reads files one after the other, in the order in which they are asked for.
+
+    One thread for all sessions: reading is Python's own work for the most part, a
+    second thread would only take time from the first, and from the sliders.
+
+    Args:
+        meshes: where the meshes and textures go.
+    """
+
+    def __init__(self, meshes: MeshStore) -> None:
+        self._meshes = meshes
+        self._changed = threading.Condition()
+        self._wanted: dict[Asset, list[OnRead]] = {}
+        self._thread: threading.Thread | None = None
+        self._closed = False
+        self._telling = threading.RLock()
+
+    def request(self, asset: Asset, on_read: OnRead) -> None:
+        """Read a file soon.
+
+        Args:
+            asset: the file.
+            on_read: called in the reading thread with this file, and others that were
+                asked for with the same function and have been read meanwhile.
+        """
+        with self._changed:
+            if self._closed:
+                return
+            callbacks = self._wanted.setdefault(asset, [])
+            if on_read not in callbacks:
+                callbacks.append(on_read)
+            if self._thread is None:
+                self._thread = threading.Thread(
+                    target=self._run, name="sambot-viz-read", daemon=True
+                )
+                self._thread.start()
+            self._changed.notify_all()
+
+    def close(self) -> None:
+        """Read nothing any more; the file that is being read is read to its end."""
+        with self._changed:
+            self._closed = True
+            self._wanted.clear()
+            self._changed.notify_all()
+        with self._telling:
+            # Who is being told now must have ended before the server goes.
+            return
+
+    def _run(self) -> None:
+        done: dict[OnRead, set[Asset]] = {}
+        told = time.monotonic()
+        while True:
+            asset = self._next(wait=not done)
+            if asset is not None:
+                self._meshes.read(asset)
+                with self._changed:
+                    for on_read in self._wanted.pop(asset, ()):
+                        done.setdefault(on_read, set()).add(asset)
+            with self._telling:
+                if self._closed:
+                    return
+                if asset is None or time.monotonic() - told >= TELL_PERIOD:
+                    for on_read, assets in done.items():
+                        on_read(frozenset(assets))
+                    done.clear()
+                    told = time.monotonic()
+
+    def _next(self, wait: bool) -> Asset | None:
+        """The file to read next; None when there is none, or all is over."""
+        with self._changed:
+            if wait:
+                self._changed.wait_for(lambda: self._wanted or self._closed)
+            return next(iter(self._wanted), None)
