@@ -13,7 +13,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
 from sambot_viz.listening import close, listen
-from sambot_viz.origins import is_welcome
+from sambot_viz.origins import is_welcome, only_this_machine
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
@@ -39,6 +39,13 @@ def test_only_pages_of_this_server_are_welcome(
     host: str, origin: str | None, listening_on: str, welcome: bool
 ) -> None:
     assert is_welcome(host, origin, listening_on) is welcome
+
+
+def test_it_is_known_which_addresses_only_this_machine_has() -> None:
+    for host in ("127.0.0.1", "127.0.0.2", "::1", "localhost"):
+        assert only_this_machine(host)
+    for host in ("0.0.0.0", "::", "192.0.2.1", "lab-robot", ""):
+        assert not only_this_machine(host)
 
 
 def test_a_named_origin_is_welcome_through_a_proxy() -> None:

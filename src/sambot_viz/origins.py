@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import contextlib
 import http
+import ipaddress
 from collections.abc import Callable, Generator, Sequence
 from typing import Any
 from urllib.parse import urlsplit
@@ -20,7 +21,15 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
+
+def only_this_machine(host: str) -> bool:
+    """Whether an address or name can only be reached from this machine."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
 
 
 def is_welcome(
@@ -37,9 +46,9 @@ def is_welcome(
     named = {urlsplit(entry).netloc for entry in allowed}
     if origin is not None and origin in allowed:
         return True
-    if listening_on in LOOPBACK and host not in named:
-        if _hostname(host) not in LOOPBACK:
-            return False
+    private = only_this_machine(listening_on) and host not in named
+    if private and not only_this_machine(_hostname(host)):
+        return False
     return origin is None or urlsplit(origin).netloc == host
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import signal
+import sys
 import threading
 from functools import partial
 from pathlib import Path
@@ -26,10 +27,18 @@ commands:
   sambot-viz [MODEL]           show a robot in the browser
   sambot-viz check MODEL       say what is wrong with a model, and how to mend it
   sambot-viz expand MODEL      print the URDF that xacro makes of a model
+  sambot-viz snapshot MODEL -o FILE.png
+                               write a picture of the 3D view
+  sambot-viz config FILE.rviz  say what of an RViz config is shown
 
 MODEL is a URDF or xacro file, whatever its ending, or a package folder; without
 one, the bundled sam_bot is shown. NAME:=VALUE is an argument for xacro, anywhere on
 the line; model:=, rvizconfig:= and gui:= mean what they mean to display.launch.py.
+"""
+
+_OPEN_TO_ALL = """\
+sambot-viz: note: everybody who can reach port {} of this machine can see the robot and
+move its joints; without --host only this machine can
 """
 
 
@@ -41,12 +50,15 @@ def run(words: list[str]) -> int:
     gui = _gui(options.gui, wanted.words.get("gui"))
     _refuse_early(wanted, found)
     from sambot_viz.listening import close, listen, url_of
+    from sambot_viz.origins import only_this_machine
 
     stop = threading.Event()
     _stop_on_signals(stop)
     server = listen(options.host, options.port, options.allow_origin)
     try:
         _announce(url_of(server), options.open)
+        if not only_this_machine(options.host):
+            sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         # From here on a browser can load the page; the rest is imported meanwhile.
         loading = in_thread(partial(wanted.load, found.model))
         from sambot_viz.visualizer import Visualizer
