@@ -1,0 +1,39 @@
+"""``sambot-viz config``: what of an .rviz file is shown, and what is only kept."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from sambot_viz import report
+from sambot_viz.commands.options import Parser
+from sambot_viz.errors import UsageError
+
+
+def run(words: list[str]) -> int:
+    """Report on a config; 0 when it can be shown, 1 when it is no .rviz document."""
+    parser = Parser(
+        prog="sambot-viz config",
+        description="Say what of a .rviz file is shown, approximated, or kept without "
+        "being shown, display by display. Exit status: 0 fine, 1 no .rviz file, "
+        "2 usage.",
+    )
+    parser.add_argument("file", metavar="FILE.rviz", help="of ROS 2 or ROS 1")
+    parser.add_argument("--format", choices=("text", "json"), default="text")
+    parser.add_argument(
+        "--debug", action="store_true", help="show where a fault of ours comes from"
+    )
+    options = parser.parse_args(words)
+    if not Path(options.file).is_file():
+        raise UsageError(f"no config '{options.file}': there is no such file")
+    from sambot_viz.config import load_config
+    from sambot_viz.rviz.report import config_report
+
+    found = config_report(load_config(options.file))
+    if options.format == "json":
+        print(json.dumps(found.as_json(), indent=2))
+    else:
+        sys.stdout.write(found.as_text())
+        report.write(found.problems)
+    return 0

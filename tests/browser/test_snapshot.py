@@ -1,0 +1,29 @@
+"""Pictures from the command line have exactly the size that was asked for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from sambot_viz.cli import main
+
+BACKGROUND = (48, 48, 48)
+pytestmark = pytest.mark.browser
+
+
+def test_a_narrow_picture_is_filled_to_its_edges(tmp_path: Path) -> None:
+    """viser lays pages below 600 pixels out for phones; the picture stays whole."""
+    file = tmp_path / "narrow.png"
+    words = ["-o", str(file), "--size", "200x420", "--joint", "drivewhl_l_joint=0.7"]
+    assert main(["snapshot", *words]) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["narrow.png"]
+    with Image.open(file) as image:
+        assert image.size == (200, 420)
+        pixels = np.asarray(image.convert("RGB"))
+    corners = pixels[[0, 0, -1, -1], [0, -1, 0, -1]]
+    assert np.abs(corners.astype(int) - BACKGROUND).max() <= 1
+    drawn = np.abs(pixels.astype(int) - BACKGROUND).max(axis=-1) > 12
+    assert drawn.mean() > 0.02

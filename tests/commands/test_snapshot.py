@@ -1,0 +1,48 @@
+"""`sambot-viz snapshot` refuses early what cannot become a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.cli import main
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-o", "a.jpg"], "only PNG is written"),
+        (["-o", "no/such/folder/a.png"], "the folder 'no/such/folder' does not exist"),
+        (["-o", "a.png", "--size", "big"], "no size in pixels, such as 800x600"),
+        (["-o", "a.png", "--size", "0x600"], "each side must be 1 to 8192 pixels"),
+        (["-o", "a.png", "--size", "9000x6"], "each side must be 1 to 8192 pixels"),
+        (["-o", "a.png", "--joint", "left"], "is not NAME=VALUE with a number"),
+        (["-o", "a.png", "--joint", "left=nan"], "is not NAME=VALUE with a number"),
+        (["-o", "a.png", "nowhere.urdf"], "no model 'nowhere.urdf'"),
+        (["-o", "a.png", "-d", "nowhere.rviz"], "no config 'nowhere.rviz'"),
+    ],
+)
+def test_a_line_that_makes_no_sense_is_answered_with_2(
+    words: Sequence[str],
+    said: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["snapshot", *words]) == 2
+    assert said in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_a_browser_it_says_how_to_get_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setenv("SAMBOT_VIZ_BROWSER", str(tmp_path / "no-such-browser"))
+    assert main(["snapshot", "-o", str(tmp_path / "a.png")]) == 1
+    assert "SAMBOT_VIZ_BROWSER" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
