@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from sambot_viz.robot.assets import Asset
 from sambot_viz.robot.meshes import MeshStore
 
 TELL_PERIOD = 0.1
 """What was read is handed over at most so often [s]: every time costs each browser."""
+
+LARGE = 500_000
+"""Before a file above this size is read, the others are handed over [B]."""
 
 OnRead = Callable[[frozenset[Asset]], None]
 
@@ -66,22 +69,25 @@ class AssetReader:
 
     def _run(self) -> None:
         done: dict[OnRead, set[Asset]] = {}
-        told = time.monotonic()
-        while True:
+        told = float("-inf")
+        while not self._closed:
             asset = self._next(wait=not done)
-            if asset is not None:
+            late = time.monotonic() - told >= TELL_PERIOD
+            if done and (asset is None or late or _takes_long(asset)):
+                self._tell(done)
+                done.clear()
+                told = time.monotonic()
+            elif asset is not None:
                 self._meshes.read(asset)
                 with self._changed:
                     for on_read in self._wanted.pop(asset, ()):
                         done.setdefault(on_read, set()).add(asset)
-            with self._telling:
-                if self._closed:
-                    return
-                if asset is None or time.monotonic() - told >= TELL_PERIOD:
-                    for on_read, assets in done.items():
-                        on_read(frozenset(assets))
-                    done.clear()
-                    told = time.monotonic()
+
+    def _tell(self, done: Mapping[OnRead, set[Asset]]) -> None:
+        with self._telling:
+            for on_read, assets in done.items():
+                if not self._closed:
+                    on_read(frozenset(assets))
 
     def _next(self, wait: bool) -> Asset | None:
         """The file to read next; None when there is none, or all is over."""
@@ -89,3 +95,11 @@ class AssetReader:
             if wait:
                 self._changed.wait_for(lambda: self._wanted or self._closed)
             return next(iter(self._wanted), None)
+
+
+def _takes_long(asset: Asset) -> bool:
+    """Whether what is read already should not wait for this file."""
+    try:
+        return asset.path.stat().st_size > LARGE
+    except (OSError, ValueError):
+        return False
