@@ -12,16 +12,10 @@ import struct
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.solids import OPAQUE_FROM
+from sambot_viz.displays.solids import OPAQUE_FROM, linear
 
 _GLB_MAGIC, _JSON_CHUNK, _BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 _FLOAT, _LINES = 5126, 1
-
-
-def _linear(channel: int) -> float:
-    """An 8-bit sRGB channel in glTF's linear colour space."""
-    c = channel / 255
-    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
 
 
 MOST_PIECES = 20000
@@ -66,7 +60,7 @@ def lines_glb(
         The bytes for `viser.SceneApi.add_glb`.
     """
     points = np.array(segments, dtype="<f4")
-    rgba = [*(_linear(c) for c in color), alpha]
+    rgba = [*(linear(c) for c in color), alpha]
     blended = alpha < OPAQUE_FROM
     document = {
         "asset": {"version": "2.0"},

@@ -37,6 +37,12 @@ def opacity_of(alpha: float) -> float | None:
     return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
 
 
+def linear(channel: int) -> float:
+    """An 8-bit sRGB channel in linear colour space, 0 to 1."""
+    c = channel / 255
+    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Compact:
     """A unit shape with shared corners, for viser's own flat shading."""
@@ -80,7 +86,11 @@ def add_batch(
     scales: Sequence[Position],
     colors: Sequence[Rgb],
 ) -> viser.BatchedMeshHandle:
-    """One node for several copies of a unit shape (see the fields of viser)."""
+    """One node for several copies of a unit shape (see the fields of viser).
+
+    Colours are sRGB as everywhere here; viser takes those of batches as linear.
+    """
+    linear_colors = [[round(255 * linear(c)) for c in rgb] for rgb in colors]
     return scene.add_batched_meshes_simple(
         name,
         shape.vertices,
@@ -88,7 +98,7 @@ def add_batch(
         np.array(wxyzs, dtype=np.float32),
         np.array(positions, dtype=np.float32),
         batched_scales=np.array(scales, dtype=np.float32),
-        batched_colors=np.array(colors, dtype=np.uint8),
+        batched_colors=np.array(linear_colors, dtype=np.uint8),
         lod="off",
         flat_shading=True,
         cast_shadow=False,
