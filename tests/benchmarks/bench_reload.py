@@ -1,4 +1,4 @@
-"""From a save to its message; run ``pytest tests/benchmarks/bench_reload.py``."""
+"""From a save to the message: ``pytest tests/benchmarks/bench_reload.py``."""
 
 from __future__ import annotations
 
