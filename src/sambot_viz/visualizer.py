@@ -15,6 +15,7 @@ from sambot_viz.config import declarations, load_config
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.find import find
 from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.loading import Loading, finished, in_thread
 from sambot_viz.reload import Documents, Reloader
 from sambot_viz.robot.loading import load_robot
@@ -233,4 +234,4 @@ def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:
 def _fit_fixed_frame(document: RvizConfig, robot: Robot) -> None:
     """Let the bundled config, which is sam_bot's, fit any robot: its root serves."""
     if document.global_options.get("Fixed Frame") not in robot.links:
-        document.global_options.set("Fixed Frame", robot.root)
+        document.global_options.set("Fixed Frame", plain_name(robot.root))

@@ -7,7 +7,7 @@ import random
 import numpy as np
 import pytest
 
-from sambot_viz.displays.poses import inverse, wxyz_from_z, wxyz_of
+from sambot_viz.displays.poses import inverse, position_of, wxyz_from_z, wxyz_of
 from sambot_viz.robot.model import Origin
 
 
@@ -45,3 +45,15 @@ def test_z_is_turned_into_any_direction(direction: tuple[float, float, float]) -
 def test_the_inverse_undoes_a_pose() -> None:
     T = Origin((1.0, 2.0, 3.0), (0.3, -0.2, 1.1)).matrix
     assert np.allclose(inverse(T) @ T, np.eye(4))
+
+
+@pytest.mark.parametrize(
+    ("metres", "shown"),
+    [(1.5, 1.5), (1e308, 1e30), (-1e308, -1e30), (np.inf, 1e30), (np.nan, 0.0)],
+)
+def test_a_position_is_finite_for_a_browser_whatever_it_was(
+    metres: float, shown: float
+) -> None:
+    T = np.eye(4)
+    T[:3, 3] = (metres, 0.0, metres)
+    assert position_of(T) == (shown, 0.0, shown)

@@ -34,9 +34,31 @@ def wxyz_of(T: Matrix) -> Wxyz:
     return ((r10 - r01) / s, (r02 + r20) / s, (r12 + r21) / s, s / 4)
 
 
+FARTHEST = 1e30
+"""Browsers compute with 32 bits: what is farther away [m] would be infinite there."""
+
+
 def position_of(T: Matrix) -> Position:
-    """The translation of a (4, 4) matrix [m]."""
-    return (float(T[0, 3]), float(T[1, 3]), float(T[2, 3]))
+    """The translation of a (4, 4) matrix [m], always finite.
+
+    viser keeps what it is given for every browser that comes later, so this is the
+    last place where an absurd number can be stopped (DESIGN §4.5).
+    """
+    return (_shown(T[0, 3]), _shown(T[1, 3]), _shown(T[2, 3]))
+
+
+def _shown(metres: float) -> float:
+    """A finite coordinate; NaN (of two infinities) becomes 0."""
+    # A comparison with NaN is never true.
+    return (
+        float(metres)
+        if -FARTHEST < metres < FARTHEST
+        else FARTHEST
+        if metres > 0
+        else -FARTHEST
+        if metres < 0
+        else 0.0
+    )
 
 
 def inverse(T: Matrix) -> Matrix:

@@ -17,6 +17,9 @@ from sambot_viz.joints.mimic import Follower, find_followers
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Joint, Mimic, Robot
 
+_LARGEST = 1e18
+"""A pose farther away than this cannot be drawn, nor composed with others."""
+
 JointListener = Callable[[tuple[str, ...]], None]
 """Is called with the names of the joints that moved, followers included."""
 
@@ -291,4 +294,8 @@ def _number(name: str, value: float) -> float:
         number = math.nan
     if not math.isfinite(number):
         raise JointError(f"joint '{name}' cannot be set to {value!r}: no finite number")
+    if abs(number) > _LARGEST:
+        raise JointError(
+            f"joint '{name}' cannot be set to {value!r}: more than {_LARGEST:g}"
+        )
     return number

@@ -18,6 +18,14 @@ from sambot_viz.robot.xml import Element
 Report = Callable[[str, str, str, Element, "str | None"], None]
 """`Findings.reject`, `.error` or `.warn`: code, message, hint, element, attribute."""
 
+LARGEST = 1e18
+"""Numbers beyond this leave the range in which pictures and poses can be computed:
+browsers have 32 bits, and poses multiply. Real files have limits of 1e16."""
+
+_NOT_DRAWN = frozenset(
+    "effort velocity damping friction k_position k_velocity rising falling".split()
+)
+
 
 class Unreadable(Exception):
     """An element that urdfdom cannot read; the problem has been reported."""
@@ -83,7 +91,7 @@ class AttributeReader:
                 element,
                 name,
             )
-        return value
+        return self._bounded(element, name, (value,))[0]
 
     def optional(self, element: Element, name: str, default: float) -> float:
         """A number, or the default when the attribute is absent.
@@ -115,6 +123,7 @@ class AttributeReader:
                 element,
                 name,
             )
+        x, y, z = self._bounded(element, name, (x, y, z))
         return (x, y, z)
 
     def origin(self, parent: Element) -> Origin:
@@ -136,6 +145,22 @@ class AttributeReader:
         element = found[0]
         xyz = self.vector(element, "xyz", (0.0, 0.0, 0.0))
         return Origin(xyz, self.vector(element, "rpy", (0.0, 0.0, 0.0)))
+
+    def _bounded(
+        self, element: Element, name: str, values: tuple[float, ...]
+    ) -> tuple[float, ...]:
+        """The numbers, each brought into the range that can be shown."""
+        if name in _NOT_DRAWN or all(-LARGEST <= v <= LARGEST for v in values):
+            return values
+        self.findings.warn(
+            "number-too-large",
+            f'{name}="{element.get(name)}" in <{element.tag}> of {self.owner} is '
+            f"larger than anything that can be shown; {LARGEST:g} is taken instead",
+            "write the number in metres or radians",
+            element,
+            name,
+        )
+        return tuple(min(max(v, -LARGEST), LARGEST) for v in values)
 
     def _bad(
         self, element: Element, name: str, text: str, bad: BadNumber

@@ -5,6 +5,8 @@ from __future__ import annotations
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.robot.xml import Element
 
+_LONGEST = 2000
+
 
 class Findings:
     """Problems with places, and whether ROS would refuse the model.
@@ -73,9 +75,15 @@ class Findings:
         line = at.line_of(attribute)
         column = at.place.column if line == at.place.line else None
         file = at.place.file
+        message, hint = _cut(message), _cut(hint)
         problem = Problem(severity, code, message, hint, file, line, column)
         if problem not in self.problems:
             self.problems.append(problem)
+
+
+def _cut(text: str) -> str:
+    """A sentence that a terminal can hold, whatever names a file makes up."""
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + "…"
 
 
 def tag_text(element: Element) -> str:

@@ -184,7 +184,8 @@ class Kinematics:
             rows.add(row)
         for follow in self._follows:
             if follow.row not in rows:
-                q[follow.row] = follow.multiplier * q[follow.leader] + follow.offset
+                led = follow.multiplier * q[follow.leader] + follow.offset
+                q[follow.row] = min(max(led, -_FARTHEST), _FARTHEST)
         return q
 
     def _transforms(self, q: _Floats) -> Matrix:
@@ -265,6 +266,10 @@ def _cross_matrices(axes: _Floats) -> _Floats:
     result[:, 1, 0], result[:, 1, 2] = z, -x
     result[:, 2, 0], result[:, 2, 1] = -y, x
     return result
+
+
+_FARTHEST = 1e30
+"""A chain of mimic joints with large factors stops growing here."""
 
 
 def _finite(joint: str, value: float) -> float:

@@ -61,7 +61,12 @@ class FileResolver:
                 absolute path. Web addresses are never fetched.
         """
         if name not in self._answers:
-            self._answers[name] = self._resolve(name)
+            try:
+                self._answers[name] = self._resolve(name)
+            except (OSError, ValueError) as error:
+                # A name that is too long, or one that no file system can hold.
+                reason = getattr(error, "strerror", None) or str(error)
+                self._answers[name] = Resolution(None, (reason,))
         return self._answers[name]
 
     def _resolve(self, name: str) -> Resolution:

@@ -69,6 +69,7 @@ def read_urdf(
     reader = LinkReader(findings, materials, find_mesh)
     parts = Parts({}, {}, {}, {}, robot)
     _read_links(parts, reader, findings)
+    _check_slashes(parts, findings)
     _read_joints(parts, findings)
     if not parts.links and not parts.nameless:
         _tell_no_links(robot, findings)
@@ -168,7 +169,15 @@ def _read_links(parts: Parts, reader: LinkReader, findings: Findings) -> None:
             )
             parts.doubled.add(name)
             continue
-        if name.startswith("/"):
+        if name.startswith("//") or name == "/":
+            findings.reject(
+                "link-name-slashes",
+                f"the link name {name} is no frame for tf2 even without its first "
+                "slash, so nothing can stand there",
+                'write a name without slashes, such as name="arm_link"',
+                element,
+            )
+        elif name.startswith("/"):
             findings.warn(
                 "link-name-slash",
                 f"the link name {name} begins with a slash, which tf2 does not "
@@ -178,6 +187,20 @@ def _read_links(parts: Parts, reader: LinkReader, findings: Findings) -> None:
             )
         parts.link_elements[name] = element
         parts.links[name] = reader.read(element, name)
+
+
+def _check_slashes(parts: Parts, findings: Findings) -> None:
+    """Reject links that are one frame for tf2, which strips one slash (§4)."""
+    for name, element in parts.link_elements.items():
+        twin = parts.link_elements.get(name[1:]) if name.startswith("/") else None
+        if twin is not None:
+            findings.reject(
+                "link-name-twin",
+                f"the links {name} and {name[1:]} (line {twin.place.line}) are the "
+                "same frame for tf2, which strips the slash",
+                "give one of the two another name",
+                element,
+            )
 
 
 def _tell_nameless(robot: Element, element: Element, findings: Findings) -> None:

@@ -110,6 +110,10 @@ def mesh_error(path: Path, code: str, message: str, hint: str = "") -> MeshError
     return MeshError(Problem("error", code, message, hint, str(path)))
 
 
+_FARTHEST = 1e30
+"""Corners are stored in 32 bits; what is farther away [m] would be infinite."""
+
+
 def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
     """The part enlarged by a URDF scale.
 
@@ -137,7 +141,9 @@ def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
     if np.prod(np.sign(factors)) < 0:
         faces = np.ascontiguousarray(faces[:, ::-1])
     return MeshPart(
-        vertices=(part.vertices * factors).astype(np.float32),
+        vertices=np.minimum(
+            np.maximum(part.vertices * factors, -_FARTHEST), _FARTHEST
+        ).astype(np.float32),
         faces=faces,
         normals=normals,
         rgba=part.rgba,
