@@ -1,0 +1,62 @@
+"""A save with a mistake, as somebody who looks at the page sees it."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from inside import node_of
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, resources
+
+pytestmark = pytest.mark.browser
+
+LINK = "drivewhl_l_link"
+NOTE = "Showing the last good version"
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    shutil.copytree(resources.assets_folder(), tmp_path, dirs_exist_ok=True)
+    return tmp_path / "sam_bot.urdf.xacro"
+
+
+@pytest.fixture
+def viz(model: Path) -> Iterator[Visualizer]:
+    with Visualizer(model, port=0, watch=True) as viz:
+        yield viz
+
+
+def shows(text: str) -> str:
+    """The condition that the page shows a text."""
+    return f"document.body.innerText.includes({text!r})"
+
+
+def test_a_mistake_is_told_beside_the_last_good_robot_until_it_is_mended(
+    viz: Visualizer, model: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, LINK))
+    viewer.wait_until_drawn()
+    assert "Problems" not in viewer.text
+    before = viewer.pixels()
+    content = model.read_text("utf-8")
+    line = content[: content.rindex("</robot>")].count("\n") + 1
+
+    model.write_text(content.replace("</robot>", "</rob>"), "utf-8")
+    viewer.wait_for(shows(NOTE))
+    viewer.wait_for(shows(f"{model.name}:{line}"))
+    assert "Problems (1)" in viewer.text
+    viewer.wait_until_drawn()
+    assert np.count_nonzero(viewer.pixels() != before) == 0
+    for frame in ("base_link", LINK):
+        place = [float(v) for v in viz.frames.lookup("base_link", frame).translation]
+        assert not viewer.is_covered(*viewer.project("", place))
+
+    model.write_text(content, "utf-8")
+    viewer.wait_for(f"!({shows(NOTE)})")
+    assert "Problems" not in viewer.text
