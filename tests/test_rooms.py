@@ -68,6 +68,8 @@ def test_a_room_does_not_know_the_rooms_above_it(repository: Path, room: str) ->
         ["check", "--help"],
         ["check", "MODEL"],
         ["expand", "MODEL"],
+        ["echo", "MODEL", "base_link", "front_caster"],
+        ["frames", "MODEL"],
     ],
 )
 def test_a_light_command_imports_neither_viser_nor_a_mesh_library(

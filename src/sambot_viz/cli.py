@@ -18,7 +18,7 @@ from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageErro
 
 OK, ERRORS, USAGE, FAULT = 0, 1, 2, 3
 
-COMMANDS = ("check", "config", "expand", "snapshot")
+COMMANDS = ("check", "config", "echo", "expand", "frames", "snapshot")
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
 
 

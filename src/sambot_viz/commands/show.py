@@ -27,6 +27,10 @@ commands:
   sambot-viz [MODEL]           show a robot in the browser
   sambot-viz check MODEL       say what is wrong with a model, and how to mend it
   sambot-viz expand MODEL      print the URDF that xacro makes of a model
+  sambot-viz echo MODEL SOURCE TARGET
+                               print the pose of a frame in another, as tf2_echo does
+  sambot-viz frames MODEL [-o FILE.svg|.dot|.json]
+                               draw the tree of frames
   sambot-viz snapshot MODEL -o FILE.png
                                write a picture of the 3D view
   sambot-viz config FILE.rviz  say what of an RViz config is shown

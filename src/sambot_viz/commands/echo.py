@@ -1,0 +1,60 @@
+"""``sambot-viz echo``: the pose of one frame in another, as tf2_echo prints it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from sambot_viz import report
+from sambot_viz.commands.options import Parser, add_model_options, parse
+from sambot_viz.commands.pose_options import add_pose_options, read_setup
+from sambot_viz.errors import FrameError
+from sambot_viz.find import find
+from sambot_viz.frames.echo import echo_json, format_echo
+from sambot_viz.frames.explain import Explanation, explain
+
+
+class _AnyOrder(Parser):
+    """Takes options also between MODEL, SOURCE and TARGET."""
+
+    parse_args = argparse.ArgumentParser.parse_intermixed_args
+
+
+def run(words: list[str]) -> int:
+    """Print the pose of TARGET in SOURCE; 0 when there is one."""
+    options, wanted = parse(_parser(), words)
+    setup = read_setup(options)
+    robot = wanted.load(find(wanted.model).model)
+    report.write(p for p in robot.problems if p.severity != "info")
+    tree = setup.tree(robot)
+    # What tf2_echo calls the source is the target of tf2's look-up.
+    found = explain(tree, options.source, options.target, robot)
+    if found.transform is None:
+        raise FrameError(_no_answer(found))
+    if options.format == "json":
+        print(json.dumps(echo_json(found.transform), indent=2))
+    else:
+        time = tree.latest_common_time(found.target, found.source)
+        print(format_echo(found.transform, time))
+    return 0
+
+
+def _no_answer(found: Explanation) -> str:
+    """tf2's text, then why."""
+    tf2_text = found.refused.tf2_text if found.refused else ""
+    return f"{tf2_text}\n  {found.reason}"
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _AnyOrder(
+        prog="sambot-viz echo",
+        description="Print the pose of the frame TARGET, seen from the frame SOURCE, "
+        "as tf2_echo does: the transform that takes coordinates in TARGET to SOURCE. "
+        "Exit status: 0 printed, 1 no such transform, 2 usage.",
+    )
+    add_model_options(parser)
+    parser.add_argument("source", metavar="SOURCE", help="the frame to look from")
+    parser.add_argument("target", metavar="TARGET", help="the frame to look at")
+    add_pose_options(parser)
+    parser.add_argument("--format", choices=("text", "json"), default="text")
+    return parser

@@ -1,0 +1,72 @@
+"""``sambot-viz frames``: the tree of frames, as view_frames draws it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from sambot_viz import report
+from sambot_viz.commands.options import Parser, add_model_options, parse
+from sambot_viz.commands.pose_options import add_pose_options, read_setup
+from sambot_viz.errors import UsageError
+from sambot_viz.find import find
+from sambot_viz.frames.drawing import tree_dot, tree_json_text
+from sambot_viz.frames.svg import tree_svg
+from sambot_viz.frames.tree import FrameTree
+from sambot_viz.robot.model import Robot
+
+Draw = Callable[[FrameTree, "Robot | None"], str]
+FORMATS: dict[str, Draw] = {
+    ".svg": tree_svg,
+    ".dot": tree_dot,
+    ".gv": tree_dot,
+    ".json": tree_json_text,
+}
+
+
+def run(words: list[str]) -> int:
+    """Draw the frames of a model; 0 when that is done."""
+    parser = Parser(
+        prog="sambot-viz frames",
+        description="Draw the tree of frames with joint name and type, xyz [m] and "
+        "rpy [rad]. Exit status: 0 drawn, 1 errors found, 2 usage.",
+    )
+    add_model_options(parser)
+    add_pose_options(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="where to write it: .svg, .dot or .json (default: DOT on standard output)",
+    )
+    options, wanted = parse(parser, words)
+    output = Path(options.output) if options.output else None
+    draw = tree_dot if output is None else _format(output)
+    setup = read_setup(options)
+    robot = wanted.load(find(wanted.model).model)
+    report.write(p for p in robot.problems if p.severity != "info")
+    drawing = draw(setup.tree(robot), robot)
+    if output is None:
+        sys.stdout.write(drawing)
+        sys.stdout.flush()
+    else:
+        _write(output, drawing)
+    return 0
+
+
+def _format(path: Path) -> Draw:
+    draw = FORMATS.get(path.suffix.lower())
+    if draw is None:
+        raise UsageError(
+            f"-o {path}: the ending says the format, one of {', '.join(FORMATS)}; "
+            "for a PDF write a .dot file and give it to dot -Tpdf"
+        )
+    return draw
+
+
+def _write(path: Path, drawing: str) -> None:
+    try:
+        path.write_text(drawing, encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"cannot write '{path}': {error.strerror}") from error

@@ -1,0 +1,43 @@
+"""The pose a robot begins with: start values, a recorded joint state, single joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from sambot_viz.joints.state import JointState
+from sambot_viz.robot.model import Robot
+
+
+@dataclass(frozen=True, slots=True)
+class StartPose:
+    """What ``--zeros``, ``--joint-state`` and ``--joint`` say, in this order.
+
+    Attributes:
+        zeros: joint → start value [rad or m], which Center goes back to.
+        recorded: joint → position of a recorded message. As joint_state_publisher
+            does, joints that follow others or are not there are passed over
+            (spec/ros-nodes.md §1.6).
+        positions: joint → position; every one must be there and free.
+    """
+
+    zeros: Mapping[str, float] = field(default_factory=dict[str, float])
+    recorded: Mapping[str, float] = field(default_factory=dict[str, float])
+    positions: Mapping[str, float] = field(default_factory=dict[str, float])
+
+    def state(self, robot: Robot) -> JointState:
+        """A joint state of a robot in this pose.
+
+        Raises:
+            JointError: `zeros` or `positions` name a joint that is not there or
+                cannot be set.
+        """
+        state = JointState(robot, zeros=self.zeros)
+        state.set_all({n: v for n, v in self.recorded.items() if n in state.free})
+        state.set_all(self.positions)
+        return state
+
+    def passed_over(self, state: JointState) -> tuple[str, ...]:
+        """The names of the recorded message that the robot does not know at all."""
+        known = {*state.joints, *state.skipped}
+        return tuple(name for name in self.recorded if name not in known)
