@@ -70,3 +70,12 @@ def test_what_stands_on_a_tab_can_be_changed(server: viser.ViserServer) -> None:
     tab = panel.add_tab("before")
     compat.set_tab_label(tab, "after")
     assert panel._tab_labels == ("after",)  # pyright: ignore[reportPrivateUsage]
+
+
+def test_the_types_of_a_kind_of_node_are_found_out_once(
+    server: viser.ViserServer,
+) -> None:
+    first, second = server.scene.add_frame("/a"), server.scene.add_frame("/b")
+    assert "axes_length" in first._prop_hints
+    assert first._prop_hints is second._prop_hints
+    assert first._prop_hints is not server.scene.add_label("/c", "c")._prop_hints

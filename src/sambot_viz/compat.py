@@ -7,6 +7,7 @@ one of these names has moved.
 from __future__ import annotations
 
 import contextlib
+import functools
 import inspect
 import logging
 from collections.abc import Callable, Generator
@@ -14,7 +15,10 @@ from typing import Any, cast
 
 import rich
 import viser
-from viser import _messages  # pyright: ignore[reportPrivateUsage]
+from viser import (
+    _assignable_props_api,  # pyright: ignore[reportPrivateUsage]
+    _messages,  # pyright: ignore[reportPrivateUsage]
+)
 
 Handler = Callable[[Any, Any], Any]
 
@@ -72,6 +76,17 @@ def set_tab_label(tab: viser.GuiTabHandle, label: str) -> None:
     if tab._label != label:  # pyright: ignore[reportPrivateUsage]
         tab._label = label  # pyright: ignore[reportPrivateUsage]
         tab._parent._rebuild_tab_props()  # pyright: ignore[reportPrivateUsage]
+
+
+def remember_prop_types() -> None:
+    """Let viser find out the types of a kind of node once, not for every node.
+
+    It is half of what a node costs: 0.5 ms, for each of the 900 nodes of a robot of
+    300 links. The widgets of viser are remembered by viser itself.
+    """
+    module: Any = _assignable_props_api
+    if not hasattr(module.get_type_hints, "cache_info"):
+        module.get_type_hints = functools.cache(module.get_type_hints)
 
 
 @contextlib.contextmanager

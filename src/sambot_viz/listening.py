@@ -45,6 +45,7 @@ def listen(
     """
     _try_to_bind(host, port)
     compat.quiet_websockets()
+    compat.remember_prop_types()
     with compat.without_banner(), origins.checked(host, allowed_origins):
         server = viser.ViserServer(host=host, port=port, verbose=False)
     if port not in (0, server.get_port()):
