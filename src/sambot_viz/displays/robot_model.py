@@ -166,8 +166,10 @@ class RobotModelDisplay(Display):
     def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
         """The node of a shape, made anew when its frame has moved in the tree."""
         link, kind, index = key
-        number = list(self._robot.links).index(link) if self._robot else 0
-        at_root = f"{number}." if not above else ""
+        at_root = ""
+        if not above and self._robot is not None:
+            # Names below a frame are unique by its path; here the link makes them so.
+            at_root = f"{list(self._robot.links).index(link)}."
         name = f"{above}/{self.key}{at_root}{kind[0]}{index}"
         known = self._shapes.get(key)
         if known is not None:
