@@ -7,15 +7,17 @@ from pathlib import Path
 
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.rviz import Declarations, RvizConfig
+from sambot_viz.tools.registry import TOOLS
 from sambot_viz.views.registry import VIEWS
 
 
 @cache
 def declarations() -> Declarations:
-    """What displays and views declare, for the .rviz document."""
+    """What displays, views and tools declare, for the .rviz document."""
     return Declarations(
         displays={kind: display.properties for kind, display in DISPLAYS.items()},
         views={kind: view.properties for kind, view in VIEWS.items()},
+        tools={kind: tool.properties for kind, tool in TOOLS.items()},
     )
 
 

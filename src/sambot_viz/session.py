@@ -31,9 +31,12 @@ from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
+from sambot_viz.tool_control import ToolControl
 from sambot_viz.view_control import ViewControl
 
-Event = Literal["robot", "config", "frames", "joints", "status", "problems", "view"]
+Event = Literal[
+    "robot", "config", "frames", "joints", "status", "problems", "view", "tools"
+]
 Listener = Callable[[Event], None]
 Reloaded = Literal["model", "config", "watch"]
 """What a save may fail to change: the model or the config that is shown."""
@@ -101,6 +104,7 @@ class Session:
         self._pacer = Pacer(loop, self._period(), self._draw_moved)
         self._take_globals()
         self.views = ViewControl(self)
+        self.tools = ToolControl(self)
 
     # Opening
 

@@ -73,6 +73,11 @@ class ViewControl:
         """The camera of the current view, in the fixed frame."""
         return self.view.camera(self._find_target())
 
+    def camera_of(self, client_id: int) -> Camera:
+        """The camera of a browser; that of the view for one nobody knows."""
+        browser = self._browsers.get(client_id)
+        return self.camera if browser is None else browser.camera
+
     # Browsers
 
     def join(self, client: viser.ClientHandle) -> None:
