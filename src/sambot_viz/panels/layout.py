@@ -12,6 +12,7 @@ from sambot_viz import page
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.problems import ProblemsPanel
+from sambot_viz.panels.progress import ProgressLine
 from sambot_viz.session import Session
 
 LEFT_WIDTH, RIGHT_WIDTH = 300, 270
@@ -55,11 +56,14 @@ class Layout:
     def __init__(self, session: Session, joints: bool = True) -> None:
         gui = session.audience.gui
         gui.main_panel.dock_left()
-        gui.main_panel.set_width(LEFT_WIDTH)
-        self._panels: list[Panel] = [DisplaysPanel(session, gui.add_folder(None))]
+        self._panels: list[Panel] = [
+            ProgressLine(session),
+            DisplaysPanel(session, gui.add_folder(None)),
+        ]
         below = gui.add_panel()
         self._panels.append(ProblemsPanel(session, below))
         below.dock_below(gui.main_panel)
+        gui.main_panel.set_width(LEFT_WIDTH)
         tabs = [tab for tab in RIGHT_TABS if joints or not tab.for_joints]
         if tabs:
             right = gui.add_panel()
