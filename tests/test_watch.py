@@ -262,6 +262,27 @@ def test_changes_made_in_the_page_are_not_thrown_away(sam_bot: Followed) -> None
     assert sam_bot.session.context.fixed_frame == "base_link"
 
 
+def test_a_camera_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown(
+    sam_bot: Followed,
+) -> None:
+    sam_bot.session.views.set("Distance", 7.5)
+    sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
+    sam_bot.wait_for(lambda: sam_bot.session.context.fixed_frame == "front_caster")
+    assert sam_bot.failed == []
+    assert sam_bot.session.config.view.get("Distance") == 7.5
+
+
+def test_another_view_in_the_file_moves_the_cameras(
+    sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    client = protocol(int(sam_bot.viz.url.rsplit(":", 1)[1]))
+    client.settle(sam_bot.viz.viser)
+    mark = client.mark()
+    sam_bot.save("Value: Orbit (rviz)", "Yaw: 1.5", sam_bot.config)
+    client.wait_until(lambda: client.types(mark)["SetCameraPositionMessage"] > 0)
+    assert sam_bot.session.config.view.get("Yaw") == pytest.approx(1.5, abs=0.01)
+
+
 def test_a_saved_link_is_the_only_one_that_is_sent_again(
     sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
 ) -> None:

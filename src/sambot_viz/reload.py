@@ -7,6 +7,7 @@ such, until a save mends it (DESIGN §4.4).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.config import load_config
@@ -14,10 +15,12 @@ from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.robot.assets import Asset, assets_of, something_missing
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.rviz.nodes import Plain
 from sambot_viz.server import Server
 from sambot_viz.session import Session
 from sambot_viz.watch import FileWatcher
 
+_MANAGER = "Visualization Manager"
 MOST_FOLDERS = 200
 """Of a package in which something is missing, so many folders are watched at most."""
 
@@ -39,6 +42,22 @@ class Documents:
     def __call__(self) -> RvizConfig:
         """The document for one more session."""
         return self.current if self._copy is None else self._copy(self.current)
+
+
+@dataclass(frozen=True, slots=True)
+class _Content:
+    """What a document says: its current view, and all the rest."""
+
+    view: Plain
+    rest: Plain
+
+    @classmethod
+    def of(cls, document: RvizConfig) -> _Content:
+        root = document.raw
+        manager = root.get(_MANAGER) if isinstance(root, dict) else None
+        views = manager.get("Views") if isinstance(manager, dict) else None
+        view = views.pop("Current", None) if isinstance(views, dict) else None
+        return cls(view, root)
 
 
 class Reloader:
@@ -70,7 +89,7 @@ class Reloader:
         self._documents = documents
         self._prepare = prepare
         self._report = report
-        self._shown_text = documents.current.to_yaml()
+        self._shown = _Content.of(documents.current)
         self._suspects: tuple[Path, ...] = ()
         self._told = () if robot is None else robot.problems
         self._watcher = FileWatcher(
@@ -157,20 +176,29 @@ class Reloader:
         text = document.to_yaml()
         self._prepare(document)
         self._documents.current = document
-        kept = [s for s in self._server.sessions() if not self._take(s, text)]
-        self._shown_text = document.to_yaml()
+        before, self._shown = self._shown, _Content.of(document)
+        sessions = self._server.sessions()
+        kept = [s for s in sessions if not self._take(s, text, before)]
         self._server.set_reload_problems("config", (_kept(path),) if kept else ())
 
-    def _take(self, session: Session, text: str) -> bool:
-        """Show the file, unless that would throw away what a user has changed."""
+    def _take(self, session: Session, text: str, before: _Content) -> bool:
+        """Show the file, unless that would throw away what a user has changed.
+
+        A camera that was moved is no change to be asked about: it stays where it is,
+        unless the file was given another view.
+        """
         with session.lock:
-            own = session.config.to_yaml()
-            if own == text:
+            if session.config.to_yaml() == text:
                 # The page itself has saved it.
                 return True
-            if session.config.modified and own != self._shown_text:
+            if _Content.of(session.config).rest != before.rest:
                 return False
-            session.set_config(self._documents())
+            document = self._documents()
+            if self._shown.view == before.view:
+                document.use_view(session.config.view)
+            session.set_config(document)
+            if self._shown.view != before.view:
+                session.views.show()
             return True
 
     def _cannot_watch(self, reason: str) -> None:

@@ -141,6 +141,12 @@ class ViewControl:
             self._apply(self.view.zero())
             self._point_all()
 
+    def show(self) -> None:
+        """Move all cameras to the current view, out of another document for example."""
+        with self._session.change("view"):
+            self._target = self._find_target()
+            self._point_all()
+
     def look_at(self, point: Vector, client_id: int | None = None) -> None:
         """Look at a point of the fixed frame [m].
 
