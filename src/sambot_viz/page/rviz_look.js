@@ -52,10 +52,10 @@ vec3 sambotEncode(vec3 c) {
       look.names += 1;
     } else return;
     // RViz puts the baseline 0.75 em below the frame; viser's top anchor puts it
-    // 1.128 em below (0.223 em of padding and an ascent of 0.905 em).
+    // 1.02 em below (measured in tests/golden).
     const corner = "vec2 local = (aRect.xy + corner * aRect.zw) * scale;";
     material.vertexShader = material.vertexShader.replace(
-      corner, corner + "\n  if (aParams.x < 0.5) local.y += 0.378 * 64.0 * scale;");
+      corner, corner + "\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;");
     material.needsUpdate = true;
   };
 
