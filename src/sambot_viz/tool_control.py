@@ -221,8 +221,8 @@ def _boxed(tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
 def _rays(camera: viser.CameraHandle, corners: Array, modifier: str | None) -> Rays:
     """Rays through a rectangle of the picture, given from 0 to 1 of its size."""
     (left, top), (right, bottom) = np.minimum(np.maximum(corners, 0.0), 1.0)
-    across = np.linspace(left, right, SAMPLES)
-    down = np.linspace(top, bottom, SAMPLES)
+    across = np.linspace(float(left), float(right), SAMPLES)
+    down = np.linspace(float(top), float(bottom), SAMPLES)
     half = float(np.tan(camera.fov / 2))
     in_camera = np.ones((SAMPLES * SAMPLES, 3))
     in_camera[:, 0] = np.tile((2 * across - 1) * half * camera.aspect, SAMPLES)

@@ -18,7 +18,7 @@ from sambot_viz.pacer import Pacer
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
 from sambot_viz.rviz.declared import Findings
 from sambot_viz.rviz.nodes import copied_map
-from sambot_viz.views.browser_camera import BrowserCamera
+from sambot_viz.views.browser_camera import BrowserCamera, same_picture
 from sambot_viz.views.camera import Camera, Vector, subtract
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 READ_PERIOD = 0.1
 """The document follows a moving camera this often [s]."""
+DIGITS = 7
+"""Decimals that are kept of what a mouse has moved [m, rad]."""
 
 
 class ViewControl:
@@ -220,10 +222,10 @@ class ViewControl:
         with self._session.lock:
             mover, self._mover = self._mover, None
             browser = None if mover is None else self._browsers.get(mover)
-            if browser is None:
+            if browser is None or same_picture(browser.camera, self.camera):
                 return
             with self._session.change("view"):
-                self._apply(self.view.read(browser.camera, self._find_target()))
+                self._apply(_rounded(self.view.read(browser.camera, self._target)))
                 if self.follow_presenter:
                     self._point_all(besides=browser)
 
@@ -252,6 +254,18 @@ class ViewControl:
         T = session.tree.lookup(fixed, str(name)).matrix
         x, y, z = (float(v) for v in T[:3, 3])
         return Target((x, y, z), math.atan2(T[1, 0], T[0, 0]))
+
+
+def _rounded(values: Values) -> Values:
+    """Without the last digits, which a page changes at random."""
+    return {path: _round(value) for path, value in values.items()}
+
+
+def _round(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, DIGITS)
+    x, y, z = value
+    return (round(x, DIGITS), round(y, DIGITS), round(z, DIGITS))
 
 
 def _stand_in(item: ViewConfig) -> View:

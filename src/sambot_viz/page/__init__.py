@@ -27,3 +27,17 @@ def style_element() -> str:
     """HTML that carries the page's style sheet (page/rviz_look.css)."""
     sheet = resources.files(__name__).joinpath("rviz_look.css").read_text("utf-8")
     return f"<style>{sheet}</style>"
+
+
+def mouse_element(kind: str) -> str:
+    """HTML that makes the mouse move the camera as RViz's view of a type does.
+
+    Args:
+        kind: the type of the view, such as "Orbit"; one of the program's own names.
+    """
+    source = resources.files(__name__).joinpath("rviz_mouse.js").read_text("utf-8")
+    return (
+        f'<i hidden data-sambot-view="{html.escape(kind, quote=True)}"></i>'
+        '<img alt="" src="data:," style="display:none" '
+        f'onerror="{html.escape(source, quote=True)}">'
+    )

@@ -13,6 +13,9 @@ from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.progress import ProgressLine
+from sambot_viz.panels.selection import SelectionPanel
+from sambot_viz.panels.tools import ToolBar
+from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 
 LEFT_WIDTH, RIGHT_WIDTH = 300, 270
@@ -41,7 +44,11 @@ class Tab:
     for_joints: bool = False
 
 
-RIGHT_TABS: tuple[Tab, ...] = (Tab("Joints", JointsPanel, for_joints=True),)
+RIGHT_TABS: tuple[Tab, ...] = (
+    Tab("Joints", JointsPanel, for_joints=True),
+    Tab("Views", ViewsPanel),
+    Tab("Selection", SelectionPanel),
+)
 """All panels at the right: a new one is a new file and a line here."""
 
 
@@ -57,6 +64,7 @@ class Layout:
         gui = session.audience.gui
         gui.main_panel.dock_left()
         self._panels: list[Panel] = [
+            ToolBar(session, gui.add_folder(None)),
             ProgressLine(session),
             DisplaysPanel(session, gui.add_folder(None)),
         ]

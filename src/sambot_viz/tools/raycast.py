@@ -108,8 +108,8 @@ def _box(o: Array, d: Array, half: Array) -> Array:
     inside = np.abs(o) <= half
     one = np.where(d == 0.0, np.where(inside, -np.inf, np.inf), one)
     two = np.where(d == 0.0, np.where(inside, np.inf, np.inf), two)
-    enter = np.minimum(one, two).max(axis=1)
-    leave = np.maximum(one, two).min(axis=1)
+    enter: Array = np.minimum(one, two).max(axis=1)
+    leave: Array = np.maximum(one, two).min(axis=1)
     t = np.where(enter >= 0.0, enter, leave)
     return np.where((enter <= leave) & (leave >= 0.0), t, np.inf)
 

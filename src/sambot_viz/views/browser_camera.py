@@ -105,7 +105,7 @@ class BrowserCamera:
             self.point(self.camera)
             return False
         reported = self._reported()
-        if _same(reported, self.camera):
+        if same_picture(reported, self.camera):
             self._answered_by = None
             return False
         if self._answered_by is not None and time.monotonic() < self._answered_by:
@@ -133,7 +133,7 @@ class BrowserCamera:
         return upright.in_parallel(self._height)
 
 
-def _same(one: Camera, two: Camera) -> bool:
+def same_picture(one: Camera, two: Camera) -> bool:
     """Whether two cameras show the same, to a fraction of a pixel."""
     if (one.scale is None) != (two.scale is None):
         return False

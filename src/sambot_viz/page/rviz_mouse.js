@@ -1,0 +1,76 @@
+/* Makes the mouse move viser's camera as RViz's views do (spec/rviz-views-tools.md
+ * §1.4–1.8): left turns, middle or Shift+left moves, right or the wheel zooms, with
+ * RViz's number of radians and metres per pixel. The type of view stands in the data
+ * of an element that the Views panel makes. Only settings that viser's
+ * camera-controls has are touched; where there are none, viser's own mouse stays.
+ *
+ * RViz zooms by 1 % of the distance per pixel of a right drag, here it is 0.5 %; a
+ * notch of the wheel is the same 12 %.
+ */
+(() => {
+  "use strict";
+  if (window.sambotVizMouse) return;
+  const state = { kind: "" };
+  window.sambotVizMouse = state;
+  const page = () => window.__viserMutable;
+  const controls = () => { const m = page(); return m && m.cameraControl; };
+  const put = (object, key, value) => { if (object[key] !== value) object[key] = value; };
+
+  let actions = null;
+  const settings = (c) => {
+    const height = page().canvas.clientHeight || 1;
+    const turn = 0.005 * height / (2 * Math.PI);
+    const above = state.kind === "TopDownOrtho", inside = state.kind === "FPS";
+    const reach = c.distance * Math.tan(c.camera.fov * Math.PI / 360);
+    put(c, "azimuthRotateSpeed", above ? -turn : turn);
+    put(c, "polarRotateSpeed", turn);
+    put(c, "minPolarAngle", 0);
+    put(c, "maxPolarAngle", above ? 0 : Math.PI);
+    put(c, "truckSpeed", inside ? -0.01 * height / reach : 2);
+    put(c, "dollySpeed", 0.75);
+    put(c, "dollyDragInverted", true);
+    const b = c.mouseButtons;
+    if (!actions) actions = { turn: b.left, move: b.right, zoom: b.wheel, none: 0 };
+    put(b, "middle", actions.move);
+    put(b, "right", inside ? actions.none : actions.zoom);
+    put(b, "wheel", inside ? actions.none : actions.zoom);
+  };
+  const refresh = () => {
+    const mark = document.querySelector("[data-sambot-view]"), c = controls();
+    if (!mark || !c) return;
+    state.kind = mark.dataset.sambotView;
+    settings(c);
+  };
+  setInterval(refresh, 200);
+
+  const onCanvas = (event) => page() && event.target === page().canvas;
+  addEventListener("pointerdown", (event) => {
+    refresh();
+    const c = controls();
+    if (c && actions) c.mouseButtons.left = event.shiftKey ? actions.move : actions.turn;
+  }, true);
+  // FPS walks: camera-controls only knows how to come nearer to its point.
+  const walk = (metres) => {
+    const c = controls(), way = c.camera.position.clone();
+    c.camera.getWorldDirection(way);
+    const at = c.getTarget(way.clone()).addScaledVector(way, metres);
+    c.moveTo(at.x, at.y, at.z, false);
+  };
+  addEventListener("wheel", (event) => {
+    if (state.kind === "FPS" && onCanvas(event)) walk(-0.012 * event.deltaY);
+  }, true);
+  addEventListener("pointermove", (event) => {
+    if (state.kind === "FPS" && onCanvas(event) && event.buttons === 2) walk(-0.1 * event.movementY);
+  }, true);
+
+  // S is the key of Select; viser's camera would walk backwards while it is held.
+  addEventListener("keydown", (event) => {
+    if (event.code === "KeyS") document.dispatchEvent(new KeyboardEvent("keyup", { code: "KeyS" }));
+  });
+
+  addEventListener("keydown", (event) => {
+    const typing = event.target.closest && event.target.closest("input, textarea, select");
+    if (event.code === "KeyH" && !typing && !event.ctrlKey && !event.metaKey && !event.altKey)
+      document.body.classList.toggle("sambot-bare");
+  });
+})();

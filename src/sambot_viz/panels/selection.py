@@ -1,0 +1,202 @@
+"""The Selection panel: what is selected, where it is, and where it is written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import viser
+
+from sambot_viz.frames import LookupRefused
+from sambot_viz.pacer import Pacer
+from sambot_viz.panels.widgets import add_property, frame_choices
+from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Place, Sphere
+from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
+from sambot_viz.session import Event, Session
+from sambot_viz.text import html_text, text
+from sambot_viz.tools.tool import Thing
+
+REFRESH = 0.2
+"""Poses are written anew this often while something moves [s] (§2.6)."""
+SHOWN = 30
+"""So many selected things are listed."""
+NOTHING = (
+    '<p class="sambot-note">Nothing is selected. Choose Select (S), then click on a '
+    "link or a frame, or drag a rectangle.</p>"
+)
+Fact = tuple[str, str]
+
+
+class SelectionPanel:
+    """See the module.
+
+    Args:
+        session: whose selection this is.
+        container: the tab to fill.
+    """
+
+    def __init__(self, session: Session, container: viser.GuiTabHandle) -> None:
+        self._session = session
+        self._frame = FIXED_FRAME
+        self._property = TfFrameProperty(
+            "Poses in", default=FIXED_FRAME, help="The frame in which poses are told."
+        )
+        gui = session.audience.gui
+        with container:
+            self._choice = add_property(
+                gui, self._property, FIXED_FRAME, self._set_frame, self._frames()
+            )
+            self._list = gui.add_html(NOTHING)
+            for tool in session.tools.tools:
+                self._add_settings(gui, tool.kind)
+        self._pacer = Pacer(session.loop, REFRESH, self._write)
+        session.listeners.append(self._hear)
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._session.listeners.remove(self._hear)
+        self._pacer.close()
+
+    def _add_settings(self, gui: viser.GuiApi, kind: str) -> None:
+        """The settings of a tool that the document lists."""
+        tools = self._session.tools
+        tool = next(tool for tool in tools.tools if tool.kind == kind)
+        for prop in tool.properties:
+            if tool.config is not None and isinstance(prop, ColorProperty):
+                with gui.add_folder(tool.label, expand_by_default=False):
+                    add_property(
+                        gui,
+                        prop,
+                        tool.config.get(prop.name),
+                        lambda value, t=tool, name=prop.name: tools.set_property(
+                            t, name, value
+                        ),
+                    )
+
+    def _frames(self) -> Sequence[str]:
+        return sorted(self._session.tree.frames)
+
+    def _set_frame(self, frame: str) -> None:
+        self._frame = frame
+        self._write()
+
+    def _hear(self, event: Event) -> None:
+        if event in ("frames", "robot") and isinstance(
+            self._choice, viser.GuiDropdownHandle
+        ):
+            offered = frame_choices(self._property, self._frames(), self._frame)
+            if self._choice.options != offered:
+                self._choice.options = offered
+                self._choice.value = text(self._frame)
+        if event == "tools" or (
+            self._session.tools.selection and event in ("joints", "frames", "robot")
+        ):
+            self._pacer.request()
+
+    def _write(self) -> None:
+        with self._session.lock:
+            things = list(self._session.tools.selection)
+            content = NOTHING if not things else ""
+            for thing in things[:SHOWN]:
+                content += thing_html(thing, facts(self._session, thing, self._frame))
+            if len(things) > SHOWN:
+                content += f'<p class="sambot-note">and {len(things) - SHOWN} more</p>'
+            if self._list.content != content:
+                self._list.content = content
+
+
+def thing_html(thing: Thing, rows: Sequence[Fact]) -> str:
+    """One selected thing with its facts."""
+    title = f"{thing.kind.capitalize()} {thing.name}"
+    lines = "".join(f"<li><b>{html_text(k)}</b> {html_text(v)}</li>" for k, v in rows)
+    return (
+        f'<details class="sambot-status" open><summary>{html_text(title)}</summary>'
+        f"<ul>{lines}</ul></details>"
+    )
+
+
+def facts(session: Session, thing: Thing, frame: str) -> list[Fact]:
+    """What is known of a selected link or frame: key, text.
+
+    Args:
+        session: where it is.
+        thing: the link or frame.
+        frame: the frame in which its pose is told.
+    """
+    return [
+        *_pose(session, thing.name, session.context.frame(frame)),
+        *_written(session, thing.name),
+    ]
+
+
+def _pose(session: Session, name: str, frame: str) -> Iterator[Fact]:
+    tree = session.tree
+    parent = tree.parent(name) if name in tree.frames else None
+    if parent is not None:
+        yield "Parent", parent
+    try:
+        transform = tree.lookup(frame, name)
+    except LookupRefused as refused:
+        yield "Pose", refused.rviz_text
+        return
+    yield "Position", numbers(transform.translation)
+    yield "Orientation", numbers(transform.rotation_xyzw)
+
+
+def _written(session: Session, name: str) -> Iterator[Fact]:
+    """What the model file says of a link, and where."""
+    robot = session.robot
+    link = None if robot is None else robot.links.get(name)
+    if robot is None or link is None:
+        return
+    yield from _link(link)
+    for joint in robot.joints.values():
+        if joint.child == name:
+            yield from _joint(session, joint)
+    children = [joint.name for joint in robot.joints.values() if joint.parent == name]
+    if children:
+        yield "Joints to its children", ", ".join(children)
+
+
+def _link(link: Link) -> Iterator[Fact]:
+    if link.place is not None:
+        yield "Written at", place_text(link.place)
+    for title, shapes in (("Visual", link.visuals), ("Collision", link.collisions)):
+        for shape in shapes:
+            at = "" if shape.place is None else f", {place_text(shape.place)}"
+            yield title, f"{geometry_text(shape.geometry)}{at}"
+    if link.inertial is not None:
+        yield "Mass", f"{link.inertial.mass:.5g} kg"
+
+
+def _joint(session: Session, joint: Joint) -> Iterator[Fact]:
+    at = "" if joint.place is None else f", {place_text(joint.place)}"
+    yield "Joint", f"{joint.name} ({joint.type}){at}"
+    if not joint.movable or session.joints is None:
+        return
+    unit = "m" if joint.type == "prismatic" else "rad"
+    position = session.joints.all_positions().get(joint.name, joint.start)
+    lower, upper = joint.range
+    yield "Joint position", f"{position:.5g} {unit}, {lower:.5g} … {upper:.5g}"
+    yield "Joint axis", numbers(joint.axis)
+
+
+def geometry_text(geometry: Geometry) -> str:
+    """A shape in a few words, such as "Box 0.42; 0.31; 0.18 m"."""
+    if isinstance(geometry, MeshFile):
+        return f"Mesh {geometry.filename}"
+    if isinstance(geometry, Box):
+        return f"Box {numbers(geometry.size)} m"
+    if isinstance(geometry, Sphere):
+        return f"Sphere of radius {geometry.radius:.5g} m"
+    kind = type(geometry).__name__
+    return f"{kind} of radius {geometry.radius:.5g} m, length {geometry.length:.5g} m"
+
+
+def place_text(place: Place) -> str:
+    """ "file:line", with the file's name alone."""
+    return f"{place.file.rpartition('/')[2]}:{place.line}"
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Numbers as RViz prints a vector: "x; y; z" with five digits."""
+    return "; ".join(f"{float(v) + 0.0:.5g}" for v in values)
