@@ -10,6 +10,7 @@ from typing import Literal, cast
 import viser
 
 from sambot_viz import compat
+from sambot_viz.advice import Advice
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.listening import close, listen, url_of
 from sambot_viz.panels.layout import Layout
@@ -73,6 +74,7 @@ class Server:
         self._joined = threading.Condition()
         self._robot: Robot | None = None
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
+        self._advice: dict[Session, Advice] = {}
         self._private: dict[int, tuple[Session, Layout | None]] = {}
         self._viser = listening or listen(
             options.host, options.port, options.allowed_origins
@@ -115,6 +117,8 @@ class Server:
             self._robot = robot
         for session in self.sessions():
             session.show_robot(robot)
+        for advice in list(self._advice.values()):
+            advice.give()
 
     def refresh(self) -> None:
         """Draw anew what comes from mesh files and textures that have changed."""
@@ -180,8 +184,10 @@ class Server:
             self._reader,
         )
         session.show_config()
+        advice = self._advice[session] = Advice(session)
         if self._robot is not None:
             session.show_robot(self._robot)
+            session.loop.call_soon_threadsafe(advice.give)
         for of, problems in self._reload_problems.items():
             session.set_reload_problems(of, problems)
         if not self.options.panels:
@@ -207,6 +213,7 @@ class Server:
             self.shared.views.leave(client.client_id)
         if opened is not None:
             session, layout = opened
+            self._advice.pop(session, None)
             if layout is not None:
                 layout.close()
             session.close()

@@ -223,7 +223,7 @@ class Visualizer:
 
 
 def _copy(document: RvizConfig) -> RvizConfig:
-    return RvizConfig.parse(document.to_yaml(), declarations())
+    return RvizConfig.parse(document.to_yaml(), declarations(), file=document.file)
 
 
 def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:

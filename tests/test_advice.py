@@ -1,0 +1,94 @@
+"""What the checks find is told in the page, after the robot is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.session import Session
+
+MODEL = """\
+<robot name="r">
+  <link name="base_link"/>
+  <link name="arm"/>
+  <joint name="j" type="revolute">
+    <parent link="base_link"/>
+    <child link="arm"/>
+    <limit lower="-90" upper="90" effort="1" velocity="1"/>
+  </joint>
+</robot>
+"""
+CONFIG = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Enabled: true
+      Name: RobotModel
+      Description Topic:
+        Value: /robot_description
+  Global Options:
+    Fixed Frame: base_lnk
+"""
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    path = tmp_path / "r.urdf"
+    path.write_text(MODEL)
+    return path
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    path = tmp_path / "r.rviz"
+    path.write_text(CONFIG)
+    return path
+
+
+def session_of(viz: Visualizer) -> Session:
+    return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+
+
+def codes(viz: Visualizer) -> list[str]:
+    return [problem.code for problem in session_of(viz).problems]
+
+
+def test_what_will_bite_later_is_told_of_the_robot_that_is_shown(model: Path) -> None:
+    with Visualizer(model, port=0) as viz:
+        assert codes(viz) == ["limit-in-degrees"]
+        model.write_text(MODEL.replace("90", "1"))
+        viz._server.show_robot(  # pyright: ignore[reportPrivateUsage]
+            viz._load(model)  # pyright: ignore[reportPrivateUsage]
+        )
+        assert codes(viz) == []
+
+
+def test_a_fixed_frame_that_does_not_exist_is_told_until_another_is_chosen(
+    model: Path, config: Path
+) -> None:
+    with Visualizer(model, config, port=0) as viz:
+        assert codes(viz) == ["limit-in-degrees", "setup-fixed-frame"]
+        assert session_of(viz).problems[1].line == 9
+        session_of(viz).set_global("Fixed Frame", "base_link")
+        assert codes(viz) == ["limit-in-degrees"]
+
+
+def test_a_fixed_frame_that_a_static_transform_brings_is_no_fault(
+    model: Path, config: Path
+) -> None:
+    with Visualizer(model, config, port=0) as viz:
+        viz.set_static_transform("base_lnk", "base_link")
+        assert codes(viz) == ["limit-in-degrees"]
+
+
+def test_a_private_session_is_told_the_same(
+    model: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    with Visualizer(model, port=0, session="private") as viz:
+        client = protocol(viz.viser.get_port())
+        client.settle(viz.viser)
+        assert codes(viz) == ["limit-in-degrees"]
