@@ -17,6 +17,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 import viser
 
+from sambot_viz.added_frames import AddedFrames
 from sambot_viz.displays.assets import Reader, SessionAssets
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.frame_nodes import FrameNodes, short_id
@@ -25,11 +26,15 @@ from sambot_viz.displays.status import Status
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints import JointState
+from sambot_viz.joints.presets import Presets
+from sambot_viz.joints.start import StartPose
+from sambot_viz.motion import Motion
 from sambot_viz.pacer import Pacer
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.meshes import MeshStore
-from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model import Matrix, Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.tool_control import ToolControl
 from sambot_viz.view_control import ViewControl
@@ -88,7 +93,10 @@ class Session:
         self.reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self.listeners: list[Listener] = []
         self._kinematics: Kinematics | None = None
-        self._extra: dict[str, tuple[str, Transform]] = {}
+        self.start = StartPose()
+        self.poses = Presets()
+        self.added = AddedFrames(self.tree)
+        self._swept: dict[str, Matrix] = {}
         self._moved: dict[str, None] = {}
         self._keys = 0
         self._drawn_tree = self.tree.version
@@ -101,22 +109,25 @@ class Session:
             load_file=load_file,
         )
         self.context.assets = SessionAssets(meshes, reader, self._assets_read)
-        self._pacer = Pacer(loop, self._period(), self._draw_moved)
+        self._pacer = Pacer(loop, self.period, self._draw_moved)
         self._take_globals()
         self.views = ViewControl(self)
+        self.motion = Motion(self)
         self.tools = ToolControl(self)
 
     # Opening
 
     def show_config(self) -> None:
-        """Make the displays of the document and draw them."""
+        """Make the displays of the document and draw them; those there are stay."""
         with self.change("config"):
-            for display in self.displays:
-                display.show(False)
+            known = {id(display.config): display for display in self.displays}
+            items = [i for i in walk(self.config.displays) if i.kind in DISPLAYS]
+            for gone in known.keys() - {id(item) for item in items}:
+                known.pop(gone).show(False)
             self.displays = [
-                DISPLAYS[item.kind](self.context, item, self._next_key())
-                for item in walk(self.config.displays)
-                if item.kind in DISPLAYS
+                known.get(id(item))
+                or DISPLAYS[item.kind](self.context, item, self._next_key())
+                for item in items
             ]
             self._apply_boxes()
 
@@ -136,18 +147,21 @@ class Session:
             self.context.assets.look_again()
             self._kinematics = Kinematics(robot)
             if self.joints is None:
-                self.joints = JointState(robot)
+                self.joints = self.start.state(robot)
             else:
                 self.joints.reload(robot)
-            self._build_tree(robot, self._kinematics, self.joints)
+            self.motion.drive.take(robot)
+            refused = self._build_tree(robot, self._kinematics, self.joints)
             self._take_globals()
-            self.set_problems((*robot.problems, *self.joints.problems))
+            floating = floating_problems(robot)
+            problems = (*robot.problems, *self.joints.problems, *floating, *refused)
+            self.set_problems(problems)
             self._frames_changed()
 
     def _build_tree(
         self, robot: Robot, kinematics: Kinematics, joints: JointState
-    ) -> None:
-        """The frames of the robot, then the transforms set by hand again."""
+    ) -> tuple[Problem, ...]:
+        """The frames of the robot, then the added ones again; why some cannot be."""
         positions = joints.all_positions()
         self.tree.clear()
         self.tree.declare(robot.root)
@@ -155,8 +169,7 @@ class Session:
             T = kinematics.joint_transform(name, positions.get(name, joint.start))
             set_transform = self.tree.set if joint.movable else self.tree.set_static
             set_transform(joint.parent, joint.child, Transform.trusted(T))
-        for child, (parent, transform) in self._extra.items():
-            self.tree.set_static(parent, child, transform)
+        refused = self.added.set_again()
         for display in self.displays:
             display.publish()
         self.context.moving = {
@@ -164,6 +177,7 @@ class Session:
             for joint in robot.joints.values()
             if joint.movable
         }
+        return refused
 
     # Changing
 
@@ -189,9 +203,24 @@ class Session:
         Raises:
             JointError: an unknown joint, a follower, or no finite number.
         """
+        self.move(positions, {})
+
+    def move(
+        self, positions: Mapping[str, float], frames: Mapping[str, Matrix]
+    ) -> None:
+        """Move some joints and some added frames, drawn together.
+
+        Args:
+            positions: joint → position [rad or m].
+            frames: added frame → (4, 4) T_parent_child; kept, not copied.
+
+        Raises:
+            JointError: an unknown joint, a follower, or no finite number.
+        """
         with self.lock:
             if self.joints is not None:
                 self._mark_moved(self.joints.set_all(positions))
+            self._swept.update(frames)
         self._pacer.request()
 
     def center_joints(self) -> None:
@@ -216,9 +245,33 @@ class Session:
         Raises:
             FrameError: parent and child are the same, or would form a ring.
         """
+        self.add_frame(parent, child, transform, static=True)
+
+    def add_frame(
+        self, parent: str, child: str, transform: Transform, *, static: bool
+    ) -> None:
+        """The same for a frame that may move (`move`), such as base_link in odom.
+
+        Raises:
+            FrameError: parent and child are the same, or would form a ring.
+        """
         with self.change("frames"):
-            self.tree.set_static(parent, child, transform)
-            self._extra[child] = (parent, transform)
+            self.added.set(parent, child, transform, static=static)
+            self._swept.pop(plain_name(child), None)
+            self._frames_changed()
+
+    def remove_frame(self, child: str) -> None:
+        """Take an added frame away again.
+
+        Raises:
+            FrameError: nobody added that frame.
+        """
+        with self.change("frames"):
+            self.added.forget(child)
+            self._swept.pop(plain_name(child), None)
+            if self.robot and self._kinematics and self.joints:
+                # The robot's own joint may have held that frame before.
+                self._build_tree(self.robot, self._kinematics, self.joints)
             self._frames_changed()
 
     def set_global(self, name: str, value: Any) -> None:
@@ -283,6 +336,7 @@ class Session:
 
     def close(self) -> None:
         """Send nothing any more."""
+        self.motion.close()
         self.views.close()
         self._pacer.close()
 
@@ -296,7 +350,10 @@ class Session:
         with self.lock:
             robot, kinematics, state = self.robot, self._kinematics, self.joints
             moved, self._moved = list(self._moved), {}
-            if robot is None or kinematics is None or state is None or not moved:
+            swept, self._swept = self._swept, {}
+            if robot is None or kinematics is None or state is None:
+                return
+            if not moved and not swept:
                 return
             positions = state.all_positions()
             with self.audience.atomic():
@@ -305,8 +362,12 @@ class Session:
                         name, positions[name]
                     )
                     for name in moved
+                    if plain_name(robot.joints[name].child) not in self.added
                 }
+                frames |= swept
                 self.tree.update(frames)
+                for frame, T in swept.items():
+                    self.added.moved(frame, Transform.trusted(T))
                 self.context.nodes.place(self.tree, self.context.fixed_frame, frames)
                 for display in self.displays:
                     display.frames_moved(frames)
@@ -333,9 +394,11 @@ class Session:
             self._background = self.context.background = background
             pixel = np.array([[background]], dtype=np.uint8)
             self.audience.scene.set_background_image(pixel, format="png")
-        self._pacer.period = self._period()
+        self._pacer.period = self.period
 
-    def _period(self) -> float:
+    @property
+    def period(self) -> float:
+        """Shortest time between two pictures of a stream [s]."""
         return 1.0 / max(1, int(self.config.global_options.get("Frame Rate")))
 
     def _apply_boxes(self) -> None:

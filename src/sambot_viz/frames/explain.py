@@ -36,7 +36,12 @@ class ExplainedHop:
     @property
     def words(self) -> str:
         """The step in words: "wheel hangs on base_link (continuous joint j)"."""
-        if self.joint:
+        if self.joint_type == "floating":
+            by = (
+                f"floating joint {self.joint}: shown at its origin, ROS publishes no "
+                "transform"
+            )
+        elif self.joint:
             by = f"{self.joint_type} joint {self.joint}"
         else:
             by = "static transform" if self.static else "transform"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from sambot_viz.errors import Problem
 from sambot_viz.frames.transform import Transform
 from sambot_viz.frames.tree import FrameTree
 from sambot_viz.robot.kinematics import Kinematics
@@ -40,3 +41,27 @@ def robot_frames(
         transform = Transform.trusted(matrix)
         set_transform(prefix + joint.parent, prefix + joint.child, transform)
     return tree
+
+
+def floating_problems(robot: Robot) -> tuple[Problem, ...]:
+    """What to say about floating joints where their children are shown all the same.
+
+    ROS publishes no transform for them (spec/ros-nodes.md §3.2), and RViz then draws
+    what hangs below in white at the origin of the fixed frame.
+    """
+    return tuple(
+        Problem(
+            "warning",
+            "floating-joint",
+            f"joint '{joint.name}' is floating: ROS publishes no transform for it, so "
+            f"'{joint.child}' and all below it have no place there; shown here at the "
+            "joint's origin",
+            f"let something publish '{joint.parent}' → '{joint.child}', or make the "
+            "joint fixed",
+            joint.place.file if joint.place else None,
+            joint.place.line if joint.place else None,
+            joint.place.column if joint.place else None,
+        )
+        for joint in robot.joints.values()
+        if joint.type == "floating"
+    )

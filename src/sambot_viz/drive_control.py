@@ -1,0 +1,199 @@
+"""A robot with two driven wheels, moved in the frame odom.
+
+It is the odometry of a differential drive without a simulator: the velocities turn the
+wheels and move odom → root along exact arcs (see `joints.drive`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from sambot_viz.errors import FrameError, JointError
+from sambot_viz.frames import Transform
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.joints.animation import wrap_angle
+from sambot_viz.joints.drive import DifferentialDrive, PlanarPose, WheelPair
+from sambot_viz.joints.wheels import find_wheel_pair
+from sambot_viz.robot.model import Matrix, Robot
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Session
+
+ODOM = "odom"
+"""The frame that the robot moves in; it stands on the floor below the start."""
+
+
+@dataclass(frozen=True, slots=True)
+class WheelOptions:
+    """What is said about the wheels; None takes it from the model.
+
+    Attributes:
+        left: name of the left wheel's joint.
+        right: name of the right wheel's joint.
+        radius: of the wheels [m].
+        separation: distance of the wheels [m].
+    """
+
+    left: str | None = None
+    right: str | None = None
+    radius: float | None = None
+    separation: float | None = None
+
+    def find(self, robot: Robot) -> WheelPair:
+        """The two wheels of a robot.
+
+        Raises:
+            JointError: there is no such pair, and why.
+        """
+        return find_wheel_pair(
+            robot,
+            left=self.left,
+            right=self.right,
+            radius=self.radius,
+            separation=self.separation,
+        )
+
+
+class DriveControl:
+    """Velocities, pose and trail of one session's robot.
+
+    Args:
+        session: whose robot it is.
+        start: begins to take steps (see `Motion.start`).
+
+    Attributes:
+        options: what is said about the wheels.
+        v: linear velocity [m/s], forwards positive.
+        w: angular velocity [rad/s], to the left positive.
+        why_not: why the robot cannot be driven, or "".
+    """
+
+    def __init__(self, session: Session, start: Callable[[], None]) -> None:
+        self._session = session
+        self._start = start
+        self.options = WheelOptions()
+        self.v = 0.0
+        self.w = 0.0
+        self._left = 0.0
+        self._drive: DifferentialDrive | None = None
+        self._root = ""
+        self._height = 0.0
+        self.why_not = "no robot is shown yet"
+
+    @property
+    def wheels(self) -> WheelPair | None:
+        """The wheels, or None for a robot that cannot be driven."""
+        return self._drive.wheels if self._drive else None
+
+    @property
+    def pose(self) -> PlanarPose:
+        """Where the root link stands, T_odom_root."""
+        return self._drive.pose if self._drive else PlanarPose()
+
+    @property
+    def trail(self) -> tuple[tuple[float, float], ...]:
+        """Where the point between the wheels was, x, y [m] in odom."""
+        return self._drive.trail if self._drive else ()
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot drives at the moment."""
+        return self._drive is not None and (self.v != 0 or self.w != 0)
+
+    def take(self, robot: Robot) -> None:
+        """Find the wheels of a robot, new or edited; its place in odom stays."""
+        try:
+            wheels = self.options.find(robot)
+        except JointError as error:
+            self._drive, self.why_not = None, str(error)
+            self.v = self.w = 0.0
+            return
+        self.why_not = ""
+        centre = robot.forward_kinematics()[robot.joints[wheels.left].child]
+        self._height = wheels.radius - float(centre[2, 3])
+        root = plain_name(robot.root)
+        if self._drive is None or self._root != root or self._drive.wheels != wheels:
+            self._drive, self._root = DifferentialDrive(wheels), root
+
+    def set_velocity(self, v: float, w: float, seconds: float = math.inf) -> None:
+        """Drive at a velocity, until it is told otherwise or the time is up.
+
+        Args:
+            v: linear velocity [m/s], forwards positive.
+            w: angular velocity [rad/s], to the left positive.
+            seconds: how long [s].
+
+        Raises:
+            JointError: no wheels, or a number that is not finite.
+            FrameError: the root link cannot hang below odom.
+        """
+        with self._session.lock:
+            if self._drive is None:
+                raise JointError(f"the robot cannot be driven: {self.why_not}")
+            if not (math.isfinite(v) and math.isfinite(w)):
+                raise JointError(f"cannot drive with v={v!r}, w={w!r}")
+            if v or w:
+                self._enter_odom()
+            self.v, self.w, self._left = v, w, seconds
+        self._start()
+
+    def stop(self) -> None:
+        """Stand still."""
+        self.v = self.w = 0.0
+
+    def reset(self) -> None:
+        """Stop, go back to the start and forget the trail."""
+        with self._session.lock:
+            self.stop()
+            if self._drive is not None:
+                self._drive.reset()
+                if self._root in self._session.added:
+                    self._session.move({}, {self._root: self._matrix()})
+
+    def advance(self, dt: float) -> tuple[dict[str, float], dict[str, Matrix]]:
+        """Drive on for a time [s].
+
+        Returns:
+            The new positions of the wheels [rad] and the new T_odom_root, by names.
+        """
+        state = self._session.joints
+        if self._drive is None or state is None or not self.moving:
+            return {}, {}
+        if self._root not in self._session.added:
+            # Somebody has taken the frame odom away.
+            self.stop()
+            return {}, {}
+        step = self._drive.step(self.v, self.w, min(dt, self._left))
+        self._left -= dt
+        if self._left <= 0:
+            self.stop()
+        turned = {
+            name: wrap_angle(state.positions[name] + angle)
+            for name, angle in step.wheels.items()
+        }
+        return turned, {self._root: self._matrix()}
+
+    def _enter_odom(self) -> None:
+        """Hang the root link below odom, unless it hangs there already.
+
+        Raises:
+            FrameError: it hangs on something else.
+        """
+        session = self._session
+        parent = session.tree.parent(self._root)
+        if parent not in (None, ODOM):
+            raise FrameError(
+                f"'{self._root}' hangs on '{parent}' already; remove that transform "
+                f"to drive in '{ODOM}'"
+            )
+        if parent is None:
+            T = Transform.trusted(self._matrix())
+            session.add_frame(ODOM, self._root, T, static=False)
+
+    def _matrix(self) -> Matrix:
+        pose = self.pose
+        xyz, rpy = (pose.x, pose.y, self._height), (0.0, 0.0, pose.yaw)
+        return Transform.from_xyz_rpy(xyz, rpy).matrix

@@ -1,0 +1,133 @@
+"""What moves by itself: wheels that turn, and a robot that is driven.
+
+Steps are taken at the config's Frame Rate while something moves; when nothing does,
+nothing runs and nothing is sent.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from sambot_viz.drive_control import DriveControl
+from sambot_viz.joints.animation import turn
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Session
+
+HOLD = 0.3
+"""A held button counts as let go so long after its last message [s]; viser sends ten
+in a second."""
+LONGEST_STEP = 0.25
+"""A busy machine makes the motion slower than real time, not jump [s]."""
+
+
+@dataclass
+class _Turning:
+    rate: float
+    left: float
+
+
+class Motion:
+    """The motion of one session.
+
+    Args:
+        session: whose joints and frames move.
+
+    Attributes:
+        drive: the robot on its two wheels.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._turning: dict[str, _Turning] = {}
+        self._ticking = False
+        self._closed = False
+        self._last = 0.0
+        self.drive = DriveControl(session, self.start)
+
+    @property
+    def moving(self) -> bool:
+        """Whether something moves."""
+        return bool(self._turning) or self.drive.moving
+
+    def turn(self, joint: str, rate: float, seconds: float = math.inf) -> None:
+        """Let a joint turn at a rate, until it is told otherwise or the time is up.
+
+        Args:
+            joint: a free joint; one with limits stops there.
+            rate: [rad/s or m/s]; 0 stops it.
+            seconds: how long [s].
+
+        Raises:
+            JointError: an unknown joint, one that cannot be set, no finite number.
+        """
+        with self._session.lock:
+            state = self._session.joints
+            if state is None:
+                return
+            if state.checked(joint, rate) == 0:
+                self._turning.pop(joint, None)
+            else:
+                self._turning[joint] = _Turning(rate, seconds)
+        self.start()
+
+    def turns(self, joint: str) -> bool:
+        """Whether a joint turns at the moment."""
+        return joint in self._turning
+
+    def stop(self) -> None:
+        """Let everything stand still."""
+        with self._session.lock:
+            self._turning.clear()
+            self.drive.stop()
+
+    def advance(self, dt: float) -> None:
+        """Move on by a time [s]; this is what happens at every step."""
+        session = self._session
+        with session.lock:
+            state = session.joints
+            if state is None:
+                return
+            positions: dict[str, float] = {}
+            for name, turning in list(self._turning.items()):
+                if name not in state.free:
+                    del self._turning[name]
+                    continue
+                step = min(dt, turning.left)
+                positions |= turn(state, {name: turning.rate}, step, wrap=True)
+                turning.left -= dt
+                if turning.left <= 0:
+                    del self._turning[name]
+            driven, frames = self.drive.advance(dt)
+            session.move({**positions, **driven}, frames)
+
+    def start(self) -> None:
+        """Begin to take steps, if something moves and none are taken yet."""
+        with self._session.lock:
+            if self._ticking or self._closed or not self.moving:
+                return
+            self._ticking = True
+            self._last = time.monotonic()
+        self._session.loop.call_soon_threadsafe(self._wait)
+
+    def close(self) -> None:
+        """Move nothing any more."""
+        self._closed = True
+
+    def _wait(self) -> None:
+        self._session.loop.call_later(self._session.period, self._step)
+
+    def _step(self) -> None:
+        with self._session.lock:
+            now = time.monotonic()
+            dt, self._last = min(now - self._last, LONGEST_STEP), now
+            if self._closed:
+                return
+            self.advance(dt)
+            if not self.moving:
+                self._ticking = False
+                return
+        self._wait()
