@@ -15,6 +15,14 @@ from sambot_viz.displays.display import (
     any_gone,
     remove_all,
 )
+from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.frame_entries import (
+    ALL_ENABLED,
+    ALL_FRAMES,
+    frame_boxes,
+    frame_entries,
+    set_all_frames,
+)
 from sambot_viz.displays.poses import Position, position_of
 from sambot_viz.displays.solids import Arrow, add_arrows, add_axes
 from sambot_viz.displays.status import Status
@@ -32,8 +40,6 @@ HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
 EM_HEIGHT = 0.0889
 """Height of the em square of names, in a character cell of 0.1 m (§6.4)."""
-ALL_FRAMES = ""
-"""Stands for the frames a file does not name."""
 SHORTEST_ARROW = 0.001
 """Frames nearer than this have no arrow [m]."""
 
@@ -154,7 +160,7 @@ class TfDisplay(Display):
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
         tree, nodes = self.context.tree, self.context.nodes
-        boxes = self._boxes()
+        boxes = frame_boxes(self.config)
         frames = [
             frame
             for frame in tree.frames
@@ -173,17 +179,6 @@ class TfDisplay(Display):
             if parent is not None:
                 self._draw_arrows(parent)
         self._report()
-
-    def _boxes(self) -> dict[str, bool]:
-        """The box of every frame the file names, and of all others (§6.2, §12 no. 11).
-
-        A frame without a "Value" counts as off, as in RViz.
-        """
-        boxes = {ALL_FRAMES: bool(self.config.get("Frames/All Enabled"))}
-        for frame, entry in self.config.dynamic("Frames").items():
-            value = entry.get("Value") if isinstance(entry, dict) else entry
-            boxes[frame] = str(value).lower() == "true"
-        return boxes
 
     def _passes(self, frame: str) -> bool:
         """Whether the filters let a frame through (§6.1)."""
@@ -254,6 +249,16 @@ class TfDisplay(Display):
                 SHAFT_COLOR,
                 HEAD_COLOR,
             )
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value."""
+        if path == ALL_ENABLED:
+            set_all_frames(self.config)
+        super().property_changed(path)
+
+    def entries(self) -> tuple[EntryList, ...]:
+        """The frames."""
+        return (frame_entries(self.context, self.config),)
 
     def frames_moved(self, frames: Iterable[str]) -> None:
         """An arrow only changes when its frame has moved away from its parent."""

@@ -32,6 +32,7 @@ from sambot_viz.text import text
 
 Input = viser.GuiInputHandle[Any]
 OnChange = Callable[[Any], None]
+LONGEST_TEXT = 1000
 
 
 def watch(handle: Input, coerce: Callable[[Any], Any], on_change: OnChange) -> None:
@@ -163,3 +164,54 @@ def on_click(handle: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
             action()
 
     handle.on_click(pressed)
+
+
+OnPress = Callable[[viser.ClientHandle | None], None]
+"""Takes the browser in which a button was pressed."""
+
+
+def on_press(handle: viser.GuiButtonHandle, action: OnPress) -> None:
+    """Call `action` with the browser that presses the button."""
+
+    async def pressed(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+        # A hidden button cannot be pressed by a hand.
+        if event.client_id is not None and not handle.disabled and handle.visible:
+            action(event.client)
+
+    handle.on_click(pressed)
+
+
+def add_buttons(
+    gui: viser.GuiApi,
+    labels: Sequence[str],
+    action: Callable[[str, viser.ClientHandle | None], None],
+) -> viser.GuiButtonGroupHandle:
+    """A row of buttons; `action` is told which one was pressed, and where."""
+    handle = gui.add_button_group("", labels)
+
+    async def pressed(event: viser.GuiEvent[viser.GuiButtonGroupHandle]) -> None:
+        if event.client_id is not None and handle.value in labels:
+            action(handle.value, event.client)
+
+    handle.on_click(pressed)
+    return handle
+
+
+def add_text(
+    gui: viser.GuiApi, label: str, value: str, on_change: OnChange, hint: str = ""
+) -> Input:
+    """A line of text."""
+    handle = gui.add_text(label, value, hint=hint)
+    watch(handle, plain_text, on_change)
+    return handle
+
+
+def plain_text(value: Any) -> str:
+    """A text that is one, and of a length that somebody may have typed.
+
+    Raises:
+        ValueError: it is not.
+    """
+    if not isinstance(value, str) or len(value) > LONGEST_TEXT:
+        raise ValueError("no text")
+    return value
