@@ -143,7 +143,7 @@ def test_without_the_systems_help_files_are_looked_at_and_that_is_said_once(
 class Followed:
     """A Visualizer that follows a copy of sam_bot, and waiting for what it does."""
 
-    def __init__(self, folder: Path, config: str | None = None) -> None:
+    def __init__(self, folder: Path) -> None:
         self.model = folder / "sam_bot.urdf.xacro"
         shutil.copytree(resources.assets_folder(), folder, dirs_exist_ok=True)
         self.config = folder / "own.rviz"
@@ -294,3 +294,58 @@ def test_a_saved_link_is_the_only_one_that_is_sent_again(
     client.settle(sam_bot.viz.viser)
     assert client.types(mark)["BoxMessage"] == 1
     assert client.types(mark)["CylinderMessage"] == 0
+
+
+def test_a_mesh_that_was_missing_is_found_as_soon_as_it_is_there(
+    tmp_path: Path, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    model = tmp_path / "one.urdf"
+    mesh = '<geometry><mesh filename="part.stl"/></geometry>'
+    model.write_text(
+        f'<robot name="r"><link name="l"><visual>{mesh}</visual></link></robot>'
+    )
+    with Visualizer(model, watch=True) as viz:
+        client = protocol(int(viz.url.rsplit(":", 1)[1]))
+        assert client.types()["LineSegmentsMessage"] > 0
+        corners = ("0 0 0", "1 0 0", "0 1 0")
+        lines = "".join(f"vertex {corner}\n" for corner in corners)
+        (tmp_path / "part.stl").write_text(
+            f"solid s\nfacet normal 0 0 1\nouter loop\n{lines}endloop\nendfacet\n"
+            "endsolid s\n"
+        )
+        client.wait_until(lambda: client.types()["MeshMessage"] > 0)
+
+
+def test_each_private_session_follows_and_a_later_one_hears_of_the_mistake(
+    tmp_path: Path, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    shutil.copytree(resources.assets_folder(), tmp_path, dirs_exist_ok=True)
+    model = tmp_path / "sam_bot.urdf.xacro"
+    content = model.read_text("utf-8")
+
+    def told(client: ProtocolClient) -> bool:
+        return any("last good version" in str(m.fields) for m in client.messages)
+
+    with Visualizer(model, watch=True, session="private") as viz:
+        port = int(viz.url.rsplit(":", 1)[1])
+        clients = [protocol(port), protocol(port)]
+        for client in clients:
+            client.wait_until(lambda c=client: c.types()["BoxMessage"] > 0)
+        marks = [client.mark() for client in clients]
+        replace(model, content.replace('value="0.42"', 'value="0.5"'))
+        for client, mark in zip(clients, marks, strict=True):
+            client.wait_until(lambda c=client, m=mark: c.types(m)["BoxMessage"] == 1)
+        replace(model, content.replace("</robot>", ""))
+        for client in clients:
+            client.wait_until(lambda c=client: told(c))
+        late = protocol(port)
+        late.wait_until(lambda: told(late))
+        assert late.types()["BoxMessage"] == 1
+
+
+def test_without_watch_nothing_is_followed(tmp_path: Path) -> None:
+    shutil.copytree(resources.assets_folder(), tmp_path, dirs_exist_ok=True)
+    before = {thread.name for thread in threading.enumerate()}
+    with Visualizer(tmp_path / "sam_bot.urdf.xacro"):
+        now = {thread.name for thread in threading.enumerate()}
+    assert "sambot-viz-watch" not in now - before

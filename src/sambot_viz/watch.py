@@ -151,8 +151,10 @@ class FileWatcher:
         """The folders to watch, with their numbers: a folder made anew has another."""
         wanted: dict[Path, None] = dict.fromkeys(self._more_folders())
         for path in self._files():
-            # A save is reported where the file lies, a new link where the link does.
-            wanted[path.parent] = wanted[path.resolve().parent] = None
+            wanted[path.parent] = None
+            if path.is_symlink():
+                # A save is reported where the file lies, a new link where the link is.
+                wanted[path.resolve().parent] = None
         found = {folder: stamp(folder) for folder in wanted}
         return {folder: now[2] for folder, now in found.items() if now is not None}
 
