@@ -11,7 +11,15 @@ from sambot_viz.checks.rule import Finding, Rule, Subject
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
 
-__all__ = ["RULES", "Finding", "Rule", "Subject", "check", "check_robot"]
+__all__ = [
+    "RULES",
+    "Finding",
+    "Rule",
+    "Subject",
+    "check",
+    "check_robot",
+    "check_unloadable",
+]
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
 
@@ -42,9 +50,19 @@ def check(
             path, xacro_args=xacro_args, package_path=package_path, trusted=trusted
         )
     except RobotError as error:
-        subject = Subject(os.fspath(path), None, ())
-        return _in_order([*error.problems, *_look(subject)])
+        return check_unloadable(path, error)
     return check_robot(robot, path)
+
+
+def check_unloadable(path: str | os.PathLike[str], error: RobotError) -> list[Problem]:
+    """The same for a model that could not be loaded.
+
+    Args:
+        path: the model as the user wrote it.
+        error: why it could not be loaded.
+    """
+    subject = Subject(os.fspath(path), None, ())
+    return _in_order([*error.problems, *_look(subject)])
 
 
 def check_robot(

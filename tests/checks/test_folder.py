@@ -1,0 +1,79 @@
+"""A package folder is checked as a whole."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.cli import main
+
+MODEL = """\
+<robot name="r">
+  <link name="base_link"/>
+  <link name="wheel"/>
+  <joint name="wheel_joint" type="continuous">
+    <parent link="base_link"/>
+    <child link="wheel"/>
+  </joint>
+</robot>
+"""
+CONFIG = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Enabled: true
+      Name: RobotModel
+  Global Options:
+    Fixed Frame: base_lnk
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    folder = tmp_path / "my_bot"
+    for name, text in {
+        "package.xml": "<package><name>my_bot</name></package>",
+        "setup.py": "from setuptools import setup\nsetup(name='mybot')\n",
+        "urdf/my_bot.urdf": MODEL,
+        "rviz/my_bot.rviz": CONFIG,
+    }.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+def checked(folder: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, set[str]]:
+    status = main(["check", str(folder), "--format", "json"])
+    said = json.loads(capsys.readouterr().out)
+    assert said["model"].endswith("my_bot.urdf")
+    return status, {problem["code"] for problem in said["problems"]}
+
+
+def test_model_config_and_setup_py_are_checked_together(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, codes = checked(package, capsys)
+    assert status == 1
+    assert {"setup-fixed-frame", "setup-py-name"} <= codes
+
+
+def test_a_config_that_is_none_is_told_with_the_rest(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "rviz/my_bot.rviz").write_text("a: [\n")
+    (package / "setup.py").unlink()
+    status, codes = checked(package, capsys)
+    assert status == 1
+    assert any(code.startswith("config-") for code in codes)
+
+
+def test_a_model_that_cannot_be_loaded_is_told_with_the_rest(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = package / "urdf/my_bot.urdf"
+    model.write_text(model.read_text().replace("</joint>", ""))
+    status, codes = checked(package, capsys)
+    assert status == 1
+    assert {"xml-tag-not-closed", "setup-py-name"} <= codes
