@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, cast
 
 import viser
@@ -19,6 +19,7 @@ from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session import Audience, Reloaded, Session
+from sambot_viz.session_setup import SessionSetup
 
 SessionMode = Literal["shared", "private"]
 MakeConfig = Callable[[], RvizConfig]
@@ -35,6 +36,7 @@ class ServerOptions:
         gui: whether there is a Joints panel.
         panels: whether there are any panels; without them the view fills the page.
         allowed_origins: web pages of other origins that may use the server.
+        setup: what every session begins with.
     """
 
     host: str = "127.0.0.1"
@@ -43,6 +45,7 @@ class ServerOptions:
     gui: bool = True
     panels: bool = True
     allowed_origins: Sequence[str] = ()
+    setup: SessionSetup = field(default_factory=SessionSetup)
 
 
 class Server:
@@ -183,6 +186,7 @@ class Server:
             self._load_file,
             self._reader,
         )
+        self.options.setup.apply(session)
         session.show_config()
         advice = self._advice[session] = Advice(session)
         if self._robot is not None:

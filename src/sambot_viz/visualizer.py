@@ -12,10 +12,12 @@ import viser
 
 from sambot_viz import resources
 from sambot_viz.config import declarations, load_config
+from sambot_viz.drive_control import WheelOptions
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.find import find
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.static_transform import StaticTransform
 from sambot_viz.loading import Loading, finished, in_thread
 from sambot_viz.reload import Documents, Reloader
 from sambot_viz.robot.loading import load_robot
@@ -23,6 +25,7 @@ from sambot_viz.robot.model import Robot, Vector3
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import Server, ServerOptions, SessionMode
 from sambot_viz.session import Session
+from sambot_viz.session_setup import make_setup, poses_beside
 
 PathLike = Path | str
 
@@ -58,6 +61,13 @@ class Visualizer:
         watch: whether the page follows the files: the model with all that it
             includes, its meshes and textures, and the config. A save with a mistake
             leaves the last good robot standing and says what is wrong.
+        zeros: joint → start value [rad or m], instead of 0 or the middle.
+        joint_positions: joint → position [rad or m] to begin with.
+        joint_state: a yaml file with recorded positions to begin with.
+        static_transforms: frames to add, each a `StaticTransform` or the arguments of
+            static_transform_publisher in one text.
+        wheels: the wheels to drive with; None finds them in the model.
+        poses: the yaml file for named poses; None is one beside the model.
         on_reload: told what is wrong with the model (or nothing) whenever a reload
             changes that.
 
@@ -84,6 +94,12 @@ class Visualizer:
         server: viser.ViserServer | None = None,
         trusted: bool = True,
         watch: bool = False,
+        zeros: Mapping[str, float] | None = None,
+        joint_positions: Mapping[str, float] | None = None,
+        joint_state: PathLike | None = None,
+        static_transforms: Sequence[StaticTransform | str] = (),
+        wheels: WheelOptions | None = None,
+        poses: PathLike | None = None,
         on_reload: Callable[[Sequence[Problem]], None] | None = None,
     ) -> None:
         self._trusted = trusted
@@ -102,8 +118,17 @@ class Visualizer:
         bundled = document is None and found.config is None
         document = document or load_config(found.config or resources.config_path())
         _set_fixed_frame(document, fixed_frame)
+        beside = None if isinstance(model, Robot) else poses_beside(found.model)
+        setup = make_setup(
+            zeros=zeros,
+            joint_positions=joint_positions,
+            joint_state=joint_state,
+            static_transforms=static_transforms,
+            wheels=wheels,
+            poses=Path(poses) if poses else beside,
+        )
         options = ServerOptions(
-            host, port, session, gui, allowed_origins=allowed_origins
+            host, port, session, gui, allowed_origins=allowed_origins, setup=setup
         )
         documents = Documents(document, None if session == "shared" else _copy)
         self._server = Server(options, documents, self._load, server)

@@ -10,18 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import UsageError
-from sambot_viz.frames.robot_frames import robot_frames
-from sambot_viz.frames.static_transform import (
-    FORM,
-    StaticTransform,
-    StaticTransformError,
-    parse_static_transform,
-)
-from sambot_viz.joints.start import StartPose
-from sambot_viz.joints.values import load_joint_state, parse_assignments
 
+# Nothing heavy is imported before a model is: the page has to be there quickly.
 if TYPE_CHECKING:
     from sambot_viz.frames import FrameTree
+    from sambot_viz.frames.static_transform import StaticTransform
+    from sambot_viz.joints.start import StartPose
     from sambot_viz.robot.model import Robot
 
 
@@ -52,7 +46,7 @@ def add_pose_options(parser: argparse.ArgumentParser) -> None:
         "--static-transform",
         action="append",
         default=[],
-        metavar=f'"{FORM}"',
+        metavar='"X Y Z YAW PITCH ROLL PARENT CHILD"',
         help="another frame, with the arguments of static_transform_publisher, old or "
         f"new, in quotes{several}",
     )
@@ -72,6 +66,8 @@ class Setup:
             JointError: a joint that is not there or cannot be set.
             FrameError: a static transform that would form a ring.
         """
+        from sambot_viz.frames.robot_frames import robot_frames
+
         state = self.start.state(robot)
         for name in self.start.passed_over(state):
             _warn(f"--joint-state: the robot has no joint '{name}'; passed over")
@@ -88,6 +84,9 @@ def read_setup(options: argparse.Namespace) -> Setup:
         UsageError: an option that makes no sense.
         JointError: a file that cannot be read.
     """
+    from sambot_viz.joints.start import StartPose
+    from sambot_viz.joints.values import load_joint_state, parse_assignments
+
     recorded = options.joint_state
     return Setup(
         StartPose(
@@ -100,6 +99,11 @@ def read_setup(options: argparse.Namespace) -> Setup:
 
 
 def _static_transform(text: str) -> StaticTransform:
+    from sambot_viz.frames.static_transform import (
+        StaticTransformError,
+        parse_static_transform,
+    )
+
     try:
         added = parse_static_transform(text)
     except StaticTransformError as error:
@@ -112,3 +116,9 @@ def _static_transform(text: str) -> StaticTransform:
 
 def _warn(text: str) -> None:
     sys.stderr.write(f"sambot-viz: warning: {text}\n")
+
+
+def any_given(options: argparse.Namespace) -> bool:
+    """Whether one of the options of `add_pose_options` is on the command line."""
+    names = ("joint", "zeros", "joint_state", "static_transform")
+    return any(getattr(options, name) for name in names)

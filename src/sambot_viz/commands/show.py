@@ -18,6 +18,7 @@ from sambot_viz.commands.options import (
     add_model_options,
     parse,
 )
+from sambot_viz.commands.pose_options import add_pose_options, any_given, read_setup
 from sambot_viz.errors import UsageError
 from sambot_viz.find import Found, find
 from sambot_viz.loading import in_thread
@@ -52,6 +53,7 @@ def run(words: list[str]) -> int:
     config = options.display_config or wanted.words.get("rvizconfig")
     found = find(wanted.model, Path(config) if config else None)
     gui = _gui(options.gui, wanted.words.get("gui"))
+    setup = read_setup(options) if any_given(options) else None
     _refuse_early(wanted, found)
     from sambot_viz.listening import close, listen, url_of
     from sambot_viz.origins import only_this_machine
@@ -65,6 +67,7 @@ def run(words: list[str]) -> int:
             sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         # From here on a browser can load the page; the rest is imported meanwhile.
         loading = in_thread(partial(wanted.load, found.model))
+        from sambot_viz.drive_control import WheelOptions
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer(
@@ -79,6 +82,17 @@ def run(words: list[str]) -> int:
             trusted=wanted.trusted,
             watch=options.watch,
             on_reload=report.write,
+            zeros=setup.start.zeros if setup else None,
+            joint_positions=setup.start.positions if setup else None,
+            joint_state=options.joint_state,
+            static_transforms=setup.static_transforms if setup else (),
+            wheels=WheelOptions(
+                options.left_wheel,
+                options.right_wheel,
+                options.wheel_radius,
+                options.wheel_separation,
+            ),
+            poses=options.poses,
         ):
             report.write(loading.result().problems)
             stop.wait()
@@ -150,6 +164,16 @@ def _parser() -> argparse.ArgumentParser:
         default=True,
         help="show the model, its meshes and the config again when they are saved "
         "(default: yes)",
+    )
+    add_pose_options(parser)
+    add("--left-wheel", metavar="JOINT", help="the left wheel to drive with")
+    add("--right-wheel", metavar="JOINT", help="the right wheel to drive with")
+    add("--wheel-radius", type=float, metavar="METRES", help="default: the model's")
+    add("--wheel-separation", type=float, metavar="METRES", help="default: the model's")
+    add(
+        "--poses",
+        metavar="FILE",
+        help="where named poses are kept (default: beside the model)",
     )
     add("--open", action="store_true", help="open the page in this machine's browser")
     return parser
