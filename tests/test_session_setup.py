@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import JointError, Visualizer, resources
+from sambot_viz.drive_control import WheelOptions
 from sambot_viz.session_setup import poses_beside
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -73,3 +74,10 @@ def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
         problem = next(p for p in session.problems if p.code == "floating-joint")
         assert "ROS publishes no transform" in problem.message
         assert viz.frames.can_lookup("a", "b")
+
+
+def test_wheels_that_do_not_exist_are_told_in_the_problems() -> None:
+    with Visualizer(port=0, wheels=WheelOptions(left="lft", right=RIGHT)) as viz:
+        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        problem = next(p for p in session.problems if p.code == "drive-wheels")
+        assert "no continuous joint 'lft'" in problem.message

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sambot_viz.errors import FrameError, JointError
+from sambot_viz.errors import FrameError, JointError, Problem
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.joints.animation import wrap_angle
@@ -102,6 +102,13 @@ class DriveControl:
     def moving(self) -> bool:
         """Whether the robot drives at the moment."""
         return self._drive is not None and (self.v != 0 or self.w != 0)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """Why the wheels that somebody named cannot be driven with."""
+        if not self.why_not or self.options == WheelOptions():
+            return ()
+        return (Problem("warning", "drive-wheels", self.why_not),)
 
     def take(self, robot: Robot) -> None:
         """Find the wheels of a robot, new or edited; its place in odom stays."""

@@ -96,6 +96,7 @@ class Session:
         self.start = StartPose()
         self.poses = Presets()
         self.added = AddedFrames(self.tree)
+        self._of_frames: tuple[Problem, ...] = ()
         self._swept: dict[str, Matrix] = {}
         self._moved: dict[str, None] = {}
         self._keys = 0
@@ -153,9 +154,9 @@ class Session:
             self.motion.drive.take(robot)
             refused = self._build_tree(robot, self._kinematics, self.joints)
             self._take_globals()
-            floating = floating_problems(robot)
-            problems = (*robot.problems, *self.joints.problems, *floating, *refused)
-            self.set_problems(problems)
+            wheels = self.motion.drive.problems
+            self._of_frames = (*floating_problems(robot), *refused, *wheels)
+            self.set_problems((*robot.problems, *self.joints.problems))
             self._frames_changed()
 
     def _build_tree(
@@ -312,7 +313,7 @@ class Session:
     def set_problems(self, problems: Sequence[Problem]) -> None:
         """Tell the audience what is wrong with the model."""
         with self.lock:
-            self.problems = tuple(problems)
+            self.problems = (*problems, *self._of_frames)
             self._tell("problems")
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
