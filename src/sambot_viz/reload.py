@@ -69,7 +69,8 @@ class Reloader:
         config: the .rviz file, or None when there is none to follow.
         documents: where sessions take their document from.
         prepare: makes the program's own settings in a document that was read anew.
-        report: told what is wrong with the model whenever that has changed.
+        report: told what is wrong with the model whenever that has changed, and what is
+            wrong with a config that was saved.
     """
 
     def __init__(
@@ -172,6 +173,8 @@ class Reloader:
             document = load_config(path)
         except ConfigError as error:
             self._server.set_reload_problems("config", error.problems)
+            if self._report is not None:
+                self._report(error.problems)
             return
         text = document.to_yaml()
         self._prepare(document)

@@ -6,6 +6,7 @@ import argparse
 import signal
 import sys
 import threading
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
@@ -19,7 +20,7 @@ from sambot_viz.commands.options import (
     parse,
 )
 from sambot_viz.commands.pose_options import add_pose_options, any_given, read_setup
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import Problem, UsageError
 from sambot_viz.find import Found, find
 from sambot_viz.loading import in_thread
 
@@ -81,7 +82,7 @@ def run(words: list[str]) -> int:
             server=server,
             trusted=wanted.trusted,
             watch=options.watch,
-            on_reload=report.write,
+            on_reload=_report_reload,
             zeros=setup.start.zeros if setup else None,
             joint_positions=setup.start.positions if setup else None,
             joint_state=options.joint_state,
@@ -177,6 +178,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("--open", action="store_true", help="open the page in this machine's browser")
     return parser
+
+
+def _report_reload(problems: Sequence[Problem]) -> None:
+    """Say what a save has brought, on the terminal as in the page."""
+    if problems:
+        report.write(problems)
+    else:
+        sys.stderr.write("sambot-viz: no problems any more\n")
 
 
 def _announce(url: str, open_it: bool) -> None:
