@@ -161,13 +161,13 @@ class TfDisplay(Display):
         """Draw what is missing and change what differs."""
         tree, nodes = self.context.tree, self.context.nodes
         boxes = frame_boxes(self.config)
-        frames = [
-            frame
+        frames = {
+            frame: None
             for frame in tree.frames
             if nodes.connected(frame)
             and self._passes(frame)
             and boxes.get(frame, boxes[ALL_FRAMES])
-        ]
+        }
         for frame in [f for f in self._marks if f not in frames]:
             self._drop(self._marks.pop(frame))
         for frame in frames:

@@ -139,6 +139,8 @@ class ConfigFile:
         config, target = self._session.config, self.target
         star = " *" if config.modified else ""
         name = "no file yet" if target is None else target.name
+        if target is None and config.file is not None:
+            name = f"{Path(config.file).name} (bundled)"
         hint = "unsaved changes" if star else "saved"
         lines = f'<div class="sambot-file" title="{hint}">{html_text(name)}{star}</div>'
         if self._said:

@@ -197,6 +197,8 @@ class _ItemRows:
     ) -> None:
         for prop in properties:
             path = f"{above}{prop.name}"
+            if prop.support == "none":
+                continue
             if prop.has_value:
                 value = self._item.get(path)
                 set_it = partial(self._set, path)
