@@ -44,7 +44,7 @@
   setInterval(refresh, 200);
 
   const onCanvas = (event) => page() && event.target === page().canvas;
-  addEventListener("pointerdown", (event) => {
+  window.addEventListener("pointerdown", (event) => {
     refresh();
     const c = controls();
     if (c && actions) c.mouseButtons.left = event.shiftKey ? actions.move : actions.turn;
@@ -56,19 +56,19 @@
     const at = c.getTarget(way.clone()).addScaledVector(way, metres);
     c.moveTo(at.x, at.y, at.z, false);
   };
-  addEventListener("wheel", (event) => {
+  window.addEventListener("wheel", (event) => {
     if (state.kind === "FPS" && onCanvas(event)) walk(-0.012 * event.deltaY);
   }, true);
-  addEventListener("pointermove", (event) => {
+  window.addEventListener("pointermove", (event) => {
     if (state.kind === "FPS" && onCanvas(event) && event.buttons === 2) walk(-0.1 * event.movementY);
   }, true);
 
   // S is the key of Select; viser's camera would walk backwards while it is held.
-  addEventListener("keydown", (event) => {
+  window.addEventListener("keydown", (event) => {
     if (event.code === "KeyS") document.dispatchEvent(new KeyboardEvent("keyup", { code: "KeyS" }));
   });
 
-  addEventListener("keydown", (event) => {
+  window.addEventListener("keydown", (event) => {
     const typing = event.target.closest && event.target.closest("input, textarea, select");
     if (event.code === "KeyH" && !typing && !event.ctrlKey && !event.metaKey && !event.altKey)
       document.body.classList.toggle("sambot-bare");

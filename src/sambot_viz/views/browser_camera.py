@@ -26,7 +26,7 @@ from sambot_viz.views.camera import (
 
 VISER_FIRST_POSITION = (3.0, 3.0, 3.0)
 """Where viser puts the camera of a page that it opens."""
-ECHO_TIME = 3.0
+ECHO_TIME = 8.0
 """A page answers a new camera within this time, also while it loads [s]."""
 POLE = 1e-5
 """A camera that looks down leans so far, so that "up" in its picture is told [rad]."""

@@ -1,0 +1,152 @@
+"""Views and tools with mouse and keyboard, in a real page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from inside import node_of
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, resources
+from sambot_viz.session import Session
+
+pytestmark = pytest.mark.browser
+
+Open = Callable[..., ViewerPage]
+SKY = (640.0, 80.0)
+"""A place of the page with nothing but background."""
+
+
+@pytest.fixture
+def viz(tmp_path: Path) -> Iterator[Visualizer]:
+    """sam_bot without axes, seen from above and near."""
+    config = yaml.safe_load(resources.config_path().read_text("utf-8"))
+    manager = config["Visualization Manager"]
+    manager["Displays"] = [
+        d for d in manager["Displays"] if not d["Class"].endswith("/TF")
+    ]
+    manager["Global Options"]["Fixed Frame"] = "base_link"
+    manager["Views"]["Current"] |= {
+        "Distance": 2.0,
+        "Yaw": 1.0,
+        "Pitch": 0.5,
+        "Focal Point": {"X": 0, "Y": 0, "Z": 0},
+        "Target Frame": "<Fixed Frame>",
+    }
+    manager["Tools"] = [
+        {"Class": f"rviz_default_plugins/{name}"}
+        for name in ("MoveCamera", "Select", "FocusCamera", "Measure")
+    ]
+    path = tmp_path / "views.rviz"
+    path.write_text(yaml.safe_dump(config), "utf-8")
+    with Visualizer(config=path, port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    shared = viz._server.shared  # pyright: ignore[reportPrivateUsage]
+    assert shared is not None
+    return shared
+
+
+@pytest.fixture
+def viewer(viz: Visualizer, open_viewer: Open) -> ViewerPage:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
+    viewer.wait_for("window.sambotVizMouse && window.sambotVizMouse.kind === 'Orbit'")
+    viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 2) < 1e-3")
+    return viewer
+
+
+def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
+    """Wait until the server knows; the page's frames are the clock."""
+    for _ in range(100):
+        if holds():
+            return
+        viewer.wait_for_frames()
+    raise AssertionError("the server never came to know")
+
+
+def value(session: Session, path: str) -> Any:
+    return session.views.view.config.get(path)
+
+
+def place(viewer: ViewerPage, point: tuple[float, float, float]) -> tuple[float, float]:
+    """Where a point of the fixed frame is on the page."""
+    column, row = viewer.project("", point)
+    left, top = viewer.page.evaluate(
+        "(r => [r.x, r.y])(__viserMutable.canvas.getBoundingClientRect())"
+    )
+    return left + column, top + row
+
+
+def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(
+    session: Session, viewer: ViewerPage
+) -> None:
+    assert not session.config.modified
+    mouse = viewer.page.mouse
+    mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
+    until(viewer, lambda: abs(value(session, "Yaw") - 1.1) < 1e-4)
+    mouse.drag(SKY, (SKY[0], SKY[1] + 20))
+    until(viewer, lambda: abs(value(session, "Pitch") - 0.6) < 1e-4)
+    assert value(session, "Distance") == pytest.approx(2.0)
+    mouse.wheel(*SKY, dy=-100.0)
+    until(viewer, lambda: abs(value(session, "Distance") - 1.76) < 0.02)
+    assert "Yaw: 1.1" in session.config.to_yaml()
+    viewer.page.keyboard.press("z")
+    until(viewer, lambda: value(session, "Distance") == 10.0)
+    viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 10) < 1e-3")
+
+
+def test_another_type_of_view_has_its_own_mouse(
+    session: Session, viewer: ViewerPage
+) -> None:
+    session.views.set_kind("rviz_default_plugins/TopDownOrtho")
+    viewer.wait_for("window.sambotVizMouse.kind === 'TopDownOrtho'")
+    viewer.wait_for("__viserMutable.camera.fov < 1")
+    viewer.page.mouse.drag(SKY, (SKY[0] + 20, SKY[1]))
+    until(viewer, lambda: abs(value(session, "Angle") - 0.1) < 1e-3)
+    viewer.page.mouse.drag(SKY, (SKY[0] + 20, SKY[1] + 20), button="middle")
+    until(viewer, lambda: abs(value(session, "X")) > 1.0)
+    assert value(session, "Scale") == pytest.approx(10.0, rel=1e-3)
+
+
+def test_keys_choose_tools_and_clicks_select_and_measure(
+    session: Session, viewer: ViewerPage
+) -> None:
+    keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, session.tools
+    keyboard.press("s")
+    until(viewer, lambda: tools.current.label == "Select")
+    mouse.click(*place(viewer, (0.0, 0.0, 0.09)))
+    until(viewer, lambda: [t.name for t in tools.selection] == ["base_link"])
+    yaw = value(session, "Yaw")
+    x, y = place(viewer, (0.0, 0.0, 0.0))
+    mouse.drag((x - 200, y - 150), (x + 200, y + 150))
+    until(viewer, lambda: len(tools.selection) > 1)
+    assert value(session, "Yaw") == yaw, "a rectangle turns nothing"
+    keyboard.press("Escape")
+    until(viewer, lambda: tools.current.label == "Move Camera")
+    keyboard.press("n")
+    until(viewer, lambda: tools.current.label == "Measure")
+    mouse.click(*place(viewer, (0.5, 0.3, 0.0)))
+    until(viewer, lambda: "second point" in tools.status)
+    mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
+    until(viewer, lambda: abs(value(session, "Yaw") - yaw - 0.1) < 1e-4)
+    mouse.click(*place(viewer, (0.5, -0.3, 0.0)))
+    until(viewer, lambda: "Length" in tools.status)
+    measured = float(tools.status.removeprefix("[Length: ").removesuffix("m]"))
+    assert measured == pytest.approx(0.6, abs=0.02)
+    viewer.wait_for("document.body.innerText.includes('[Length: ')")
+
+
+def test_the_panels_can_be_hidden(viewer: ViewerPage) -> None:
+    assert "Joints" in viewer.text
+    viewer.page.keyboard.press("h")
+    viewer.wait_for("!document.body.innerText.includes('Randomize')")
+    viewer.page.keyboard.press("h")
+    viewer.wait_for("document.body.innerText.includes('Randomize')")
