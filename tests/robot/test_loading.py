@@ -136,3 +136,38 @@ def test_a_robot_goes_on_to_yourdfpy_whatever_its_encoding(tmp_path: Path):
     model = tmp_path / "m.urdf"
     model.write_bytes(f"{text}</robot>".encode("euc-kr"))
     assert load_robot(model).to_yourdfpy().robot.name == "로봇"
+
+
+PIECE = """\
+<robot>
+  <xacro:camera_mount prefix="front"/>
+  <joint name="j" type="fixed"><parent link="mount"/><child link="camera"/></joint>
+  <joint name="k" type="fixed"><parent link="camera"/><child link="lens"/></joint>
+  <joint name="l" type="fixed"><parent link="beam"/><child link="laser"/></joint>
+</robot>
+"""
+
+
+def test_a_urdf_that_does_not_declare_xacro_is_read_as_ros_reads_it(tmp_path: Path):
+    model = tmp_path / "piece.urdf"
+    model.write_text(PIECE)
+    robot = load_robot(model)
+    assert (robot.root, list(robot.links)) == ("mount", ["mount", "camera", "lens"])
+    told = {(p.severity, p.code, p.line) for p in robot.problems}
+    assert ("warning", "xacro-prefix-undeclared", 2) in told
+    assert ("warning", "robot-without-name", 1) in told
+    assert ("warning", "joint-child-elsewhere", 4) in told
+    assert ("warning", "root-not-unique", 1) in told
+    assert {severity for severity, _, _ in told} == {"warning"}
+
+
+def test_a_xacro_file_that_does_not_declare_xacro_is_an_error(tmp_path: Path):
+    model = tmp_path / "piece.urdf.xacro"
+    model.write_text(PIECE)
+    assert [p.code for p in errors(model)] == ["xml-prefix-undeclared"]
+
+
+def test_a_named_robot_with_undefined_links_is_still_refused(tmp_path: Path):
+    model = tmp_path / "robot.urdf"
+    model.write_text(PIECE.replace("<robot>", '<robot name="r">'))
+    assert {p.code for p in errors(model)} == {"robot-without-links"}

@@ -12,7 +12,7 @@ from sambot_viz.robot.files import FileFinder
 from sambot_viz.robot.findings import Findings
 from sambot_viz.robot.library import tell_library
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.prefix import missing_prefixes
+from sambot_viz.robot.prefix import missing_prefixes, undeclared_prefix
 from sambot_viz.robot.source import ModelSource, first_xacro, read_source
 from sambot_viz.robot.urdf import read_urdf
 from sambot_viz.robot.xacro import ExpansionError, ExpansionXmlError
@@ -53,7 +53,11 @@ def load_robot(
     problems = list(source.problems)
     expanded: ExpandedModel | None = None
     xacro = first_xacro(document)
-    if xacro is not None:
+    undeclared = undeclared_prefix(document, source.path)
+    if undeclared is not None:
+        # urdfdom does not look at prefixes: for ROS this is plain URDF.
+        problems.append(undeclared)
+    elif xacro is not None:
         problems += _note_ending(source, xacro)
         expanded = _expanded(source, xacro_args or {}, package_path, trusted)
         problems += expanded.problems

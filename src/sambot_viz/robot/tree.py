@@ -52,14 +52,15 @@ class Parts:
 def build_tree(parts: Parts, findings: Findings) -> Tree | None:
     """Check the structure and give what ROS would show.
 
-    A piece of a robot (an include file) whose only missing link is the one it hangs
-    on gets that link, empty and with a warning; ROS refuses it alone.
+    A piece of a robot (an include file) gets the links that are not in it, empty and
+    with a warning; ROS refuses it alone.
 
     Returns:
         The tree, or None when there is none.
     """
-    if is_fragment(parts):
-        _add_missing_parent(parts, findings)
+    fragment = is_fragment(parts)
+    if fragment:
+        _add_missing_links(parts, findings)
     _check_ends(parts, findings)
     _check_self_joints(parts, findings)
     holder = _parent_joints(parts, findings)
@@ -69,39 +70,48 @@ def build_tree(parts: Parts, findings: Findings) -> Tree | None:
         _tell_rings(parts, findings, rings, None)
         return None
     if len(roots) > 1:
-        _tell_roots(parts, findings, roots)
+        _tell_roots(parts, findings, roots, fragment)
     root = _largest(parts, roots)
     _tell_rings(parts, findings, rings, root)
     return _reached(parts, holder, root)
 
 
 def is_fragment(parts: Parts) -> bool:
-    """Whether one undefined parent link would make everything one tree."""
+    """Whether this is a piece of a robot, written for another file to include.
+
+    Such a file has one undefined parent link that would make everything one tree, or
+    it has no name and joints between links that are elsewhere.
+    """
     children = {joint.child for joint in parts.joints.values()}
     parents = {joint.parent for joint in parts.joints.values()}
-    missing = parents - parts.links.keys()
+    missing = (parents | children) - parts.links.keys()
+    if not missing or parts.excused or parts.nameless:
+        return False
+    if parts.robot.get("name") is None:
+        return True
     loose = parts.links.keys() - children
-    return (
-        len(missing) == 1
-        and not loose
-        and children <= parts.links.keys()
-        and not parts.excused
-    )
+    return len(missing) == 1 and not loose and children <= parts.links.keys()
 
 
-def _add_missing_parent(parts: Parts, findings: Findings) -> None:
-    joint = next(j for j in parts.joints.values() if j.parent not in parts.links)
-    element = parts.joint_elements[joint.name]
-    findings.warn(
-        "joint-parent-elsewhere",
-        f"joint {joint.name} hangs on the link {joint.parent}, which is not in this "
-        "file: it is a piece of a robot, drawn here on an empty link; ROS refuses it "
-        "alone",
-        f'open the file that includes this one, or add <link name="{joint.parent}"/>',
-        element.find("parent") or element,
-        "link",
-    )
-    parts.links = {joint.parent: Link(joint.parent), **parts.links}
+def _add_missing_links(parts: Parts, findings: Findings) -> None:
+    added: dict[str, Link] = {}
+    for joint in parts.joints.values():
+        for end, link in (("parent", joint.parent), ("child", joint.child)):
+            if link in parts.links or link in added:
+                continue
+            added[link] = Link(link)
+            element = parts.joint_elements[joint.name]
+            what = "hangs on" if end == "parent" else "holds"
+            findings.warn(
+                f"joint-{end}-elsewhere",
+                f"joint {joint.name} {what} the link {link}, which is not in this "
+                "file: it is a piece of a robot, drawn here on an empty link; ROS "
+                "refuses it alone",
+                f'open the file that includes this one, or add <link name="{link}"/>',
+                element.find(end) or element,
+                "link",
+            )
+    parts.links = {**added, **parts.links}
 
 
 def _check_ends(parts: Parts, findings: Findings) -> None:
@@ -221,12 +231,15 @@ def _tell_rings(
             )
 
 
-def _tell_roots(parts: Parts, findings: Findings, roots: list[str]) -> None:
+def _tell_roots(
+    parts: Parts, findings: Findings, roots: list[str], fragment: bool
+) -> None:
     main = _largest(parts, roots)
+    report = findings.warn if fragment else findings.reject
     for root in roots:
         if root in (main, "") or root in parts.excused:
             continue
-        findings.reject(
+        report(
             "root-not-unique",
             f"link {root} is not connected to {main}: no joint has it as child, so "
             "there is more than one root link; ROS refuses the model",

@@ -71,7 +71,7 @@ def read_urdf(
     _read_links(parts, reader, findings)
     _check_slashes(parts, findings)
     _read_joints(parts, findings)
-    if not parts.links and not parts.nameless:
+    if not parts.links and not parts.nameless and not is_fragment(parts):
         _tell_no_links(robot, findings)
         return None
     name = _robot_name(parts, findings, expanded)
