@@ -115,9 +115,11 @@ class ViewControl:
                 before = self._find_target()
                 view.config.set(path, value)
                 self._target = self._find_target()
-                # The picture stays where it is (§1.3).
+                # The picture stays where it is, but for a turn (§1.3).
                 offset = subtract(before.position, self._target.position)
                 self._apply(view.shifted(offset))
+                if not view.follows_yaw:
+                    return
             else:
                 view.config.set(path, value)
             self._point_all()

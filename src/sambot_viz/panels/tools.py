@@ -42,7 +42,9 @@ class ToolBar:
 
     def _hear(self, event: Event) -> None:
         if event in ("tools", "config"):
-            self._bar.content = self._html()
+            content = self._html()
+            if self._bar.content != content:
+                self._bar.content = content
         if event in ("view", "config"):
             content = self._mark_html()
             if self._mark.content != content:

@@ -1,0 +1,211 @@
+"""The cameras of browsers: what they are told, and what the document takes over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+import yaml
+from inside import viser_server
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer, resources
+from sambot_viz.session import Session
+
+FRESH = (3.0, 3.0, 3.0)
+ORBIT = "rviz_default_plugins/Orbit"
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Callable[..., Path]:
+    """The bundled config with another current view."""
+
+    def write(kind: str = ORBIT, **values: object) -> Path:
+        document = yaml.safe_load(resources.config_path().read_text("utf-8"))
+        manager = document["Visualization Manager"]
+        manager["Global Options"]["Fixed Frame"] = "base_link"
+        manager["Views"] = {
+            "Current": {"Class": kind, "Name": "Current View", **values},
+            "Saved": None,
+        }
+        path = tmp_path / "view.rviz"
+        path.write_text(yaml.safe_dump(document), "utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def viz(config: Callable[..., Path]) -> Iterator[Visualizer]:
+    with Visualizer(config=config(Distance=4.0, Yaw=0.0, Pitch=0.0), port=0) as viz:
+        yield viz
+
+
+def session_of(viz: Visualizer) -> Session:
+    shared = viz._server.shared  # pyright: ignore[reportPrivateUsage]
+    assert shared is not None
+    return shared
+
+
+def report(
+    client: ProtocolClient,
+    position: tuple[float, float, float],
+    look_at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> None:
+    """What a page says when its camera has moved."""
+    client.send(
+        "ViewerCameraMessage",
+        wxyz=(0.5, -0.5, -0.5, 0.5),
+        position=position,
+        fov=0.7853981633974483,
+        near=0.01,
+        far=1e5,
+        image_height=480,
+        image_width=640,
+        look_at=look_at,
+        up_direction=(0.0, 0.0, 1.0),
+    )
+
+
+def told(client: ProtocolClient, kind: str = "Position") -> list[list[float]]:
+    """The cameras that a browser was sent."""
+    field = {"Position": "position", "LookAt": "look_at"}[kind]
+    name = f"SetCamera{kind}Message"
+    return [list(m.fields[field]) for m in client.messages if m.type == name]
+
+
+Protocol = Callable[..., ProtocolClient]
+
+
+def join(
+    viz: Visualizer, protocol: Protocol, position: tuple[float, float, float]
+) -> ProtocolClient:
+    client = protocol(urlsplit(viz.url).port or 0, camera=False)
+    report(client, position)
+    client.settle(viser_server(viz))
+    return client
+
+
+def test_a_fresh_page_gets_the_view_and_a_returning_one_keeps_its_own(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    fresh = join(viz, protocol, FRESH)
+    assert told(fresh)[-1] == pytest.approx([4, 0, 0])
+    assert told(join(viz, protocol, (7.0, 1.0, 2.0))) == []
+    assert not session_of(viz).config.modified
+
+
+def test_the_echo_of_a_camera_is_no_move_but_a_mouse_is(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    session = session_of(viz)
+    client = join(viz, protocol, FRESH)
+    report(client, (4.0, 0.0, 0.0))
+    client.settle(viser_server(viz))
+    assert not session.config.modified
+    report(client, (0.0, 2.0, 0.0))
+    client.settle(viser_server(viz))
+    assert session.config.view.get("Distance") == pytest.approx(2.0)
+    assert session.config.view.get("Yaw") == pytest.approx(1.5707963)
+
+
+def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    first, second = (join(viz, protocol, (4.0, 0.0, 0.0)) for _ in range(2))
+    report(first, (0.0, 2.0, 0.0))
+    first.settle(viser_server(viz))
+    second.settle(viser_server(viz))
+    assert told(second) == []
+    session_of(viz).views.follow_presenter = True
+    report(first, (0.0, 3.0, 0.0))
+    second.wait_until(lambda: told(second) != [])
+    assert told(second)[-1] == pytest.approx([0, 3, 0], abs=1e-5)
+    assert told(first) == []
+
+
+def test_cameras_go_with_the_target_frame_and_keep_their_own_places(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    session = session_of(viz)
+    viz.set_static_transform("base_link", "target", (1.0, 0.0, 0.0))
+    first, second = (join(viz, protocol, at) for at in (FRESH, (7.0, 1.0, 2.0)))
+    session.views.set("Target Frame", "target")
+    assert session.config.view.get("Focal Point") == pytest.approx((-1, 0, 0))
+    viz.set_static_transform("base_link", "target", (1.0, 2.0, 0.0))
+    for client in (first, second):
+        client.settle(viser_server(viz))
+    assert told(first)[-1] == pytest.approx([4, 2, 0])
+    assert told(second) == [pytest.approx([7, 3, 2])]
+    assert session.config.view.get("Focal Point") == pytest.approx((-1, 0, 0))
+
+
+def test_a_view_that_follows_nothing_costs_no_message(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    client = join(viz, protocol, FRESH)
+    mark = client.mark()
+    viz.set_joint_positions({"drivewhl_l_joint": 1.0})
+    client.settle(viser_server(viz))
+    sent = [m.type for m in client.since(mark) if not m.type.startswith("Gui")]
+    assert sent == ["SetOrientationMessage"]
+
+
+@pytest.mark.parametrize("kind", ["Orbit", "XYOrbit", "TopDownOrtho", "FPS"])
+def test_every_type_opens(
+    config: Callable[..., Path], protocol: Protocol, kind: str
+) -> None:
+    path = config(f"rviz_default_plugins/{kind}")
+    with Visualizer(config=path, port=0) as viz:
+        client = join(viz, protocol, FRESH)
+        assert told(client)
+        assert session_of(viz).views.supported
+
+
+def test_a_type_nobody_knows_is_shown_as_orbit_and_kept(
+    config: Callable[..., Path], protocol: Protocol
+) -> None:
+    path = config("somebody/FrameAligned", Distance=2.0, Yaw=0.0, Pitch=0.0)
+    with Visualizer(config=path, port=0) as viz:
+        session = session_of(viz)
+        client = join(viz, protocol, FRESH)
+        assert told(client)[-1] == pytest.approx([2, 0, 0])
+        assert not session.views.supported
+        report(client, (0.0, 5.0, 0.0))
+        client.settle(viser_server(viz))
+        assert not session.config.modified
+        session.views.set_kind("rviz_default_plugins/XYOrbit")
+        assert session.views.supported
+        assert "rviz_default_plugins/XYOrbit" in session.config.to_yaml()
+
+
+def test_a_new_type_takes_over_the_target_and_forgets_the_rest(
+    viz: Visualizer,
+) -> None:
+    views = session_of(viz).views
+    views.set("Target Frame", "drivewhl_l_link")
+    views.set("Near Clip Distance", 0.5)
+    views.set_kind("rviz_default_plugins/FPS")
+    config = views.view.config
+    assert config.get("Target Frame") == "drivewhl_l_link"
+    assert config.get("Near Clip Distance") == 0.01
+    assert views.camera.position == pytest.approx((4, 0, 0))
+
+
+def test_saved_views_are_copies_that_can_be_named_and_removed(viz: Visualizer) -> None:
+    session = session_of(viz)
+    views = session.views
+    saved = views.save()
+    assert saved.name == "Orbit"
+    views.set("Distance", 9.0)
+    views.rename(saved, "  near ")
+    views.rename(saved, "   ")
+    assert [view.name for view in session.config.saved_views] == ["near"]
+    views.use(saved)
+    assert views.view.config.get("Distance") == 4.0
+    views.zero()
+    assert (views.view.config.get("Distance"), saved.get("Distance")) == (10.0, 4.0)
+    views.remove(saved)
+    assert session.config.saved_views == ()
