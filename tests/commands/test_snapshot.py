@@ -20,8 +20,9 @@ Capture = pytest.CaptureFixture[str]
         (["-o", "a.png", "--size", "big"], "no size in pixels, such as 800x600"),
         (["-o", "a.png", "--size", "0x600"], "each side must be 1 to 8192 pixels"),
         (["-o", "a.png", "--size", "9000x6"], "each side must be 1 to 8192 pixels"),
-        (["-o", "a.png", "--joint", "left"], "is not NAME=VALUE with a number"),
-        (["-o", "a.png", "--joint", "left=nan"], "is not NAME=VALUE with a number"),
+        (["-o", "a.png", "--joint", "left"], "--joint"),
+        (["-o", "a.png", "--joint", "left=nan"], "--joint"),
+        (["-o", "a.png", "--static-transform", "1 2"], "--static-transform"),
         (["-o", "a.png", "nowhere.urdf"], "no model 'nowhere.urdf'"),
         (["-o", "a.png", "-d", "nowhere.rviz"], "no config 'nowhere.rviz'"),
     ],
@@ -37,6 +38,15 @@ def test_a_line_that_makes_no_sense_is_answered_with_2(
     assert main(["snapshot", *words]) == 2
     assert said in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unknown_joint_is_told_before_a_browser_is_looked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setenv("SAMBOT_VIZ_BROWSER", str(tmp_path / "no-such-browser"))
+    file = str(tmp_path / "a.png")
+    assert main(["snapshot", "-o", file, "--joint", "drivewhl_l_jont=1"]) == 1
+    assert "did you mean 'drivewhl_l_joint'" in capsys.readouterr().err
 
 
 def test_without_a_browser_it_says_how_to_get_one(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import os
 import re
 import secrets
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz import report, resources
 from sambot_viz.commands.options import Parser, add_model_options, parse
+from sambot_viz.commands.pose_options import add_pose_options, read_setup
 from sambot_viz.errors import UsageError
 from sambot_viz.find import find
 
@@ -28,28 +28,30 @@ def run(words: list[str]) -> int:
     """Write a picture of a model; 0 when the file is there."""
     options, wanted = parse(_parser(), words, ours=("rvizconfig",))
     width, height = _size(options.size)
-    positions = dict(_joint(text) for text in options.joint)
+    setup = read_setup(options)
     output = _output(options.output)
     config = options.display_config or wanted.words.get("rvizconfig")
     found = find(wanted.model, Path(config) if config else None)
     robot = wanted.load(found.model)
     report.write(robot.problems)
+    # What is wrong with the joints or frames is told before a browser is started.
+    setup.tree(robot)
     document = _document(found.config, options.fixed_frame, robot)
 
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.snapshot import snapshot
     from sambot_viz.server import Server, ServerOptions
+    from sambot_viz.session_setup import SessionSetup
 
     with Chromium() as chromium:
-        settings = ServerOptions(port=0, gui=False, panels=False)
+        begin = SessionSetup(setup.start, setup.static_transforms)
+        settings = ServerOptions(port=0, gui=False, panels=False, setup=begin)
         server = Server(
             settings, lambda: document, lambda path: wanted.load(Path(path))
         )
         try:
             server.show_robot(robot)
-            session = server.sessions()[0]
-            session.set_joint_positions(positions)
-            camera = session.views.camera
+            camera = server.sessions()[0].views.camera
             picture = snapshot(server, chromium, width, height, camera)
         finally:
             server.stop()
@@ -69,13 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     add("-d", "--display-config", metavar="FILE", help="a .rviz file")
     add("-f", "--fixed-frame", metavar="FRAME", help="overrides the config's")
     add("--size", default="800x600", metavar="WxH", help="default: %(default)s")
-    add(
-        "--joint",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="position of a joint [rad or m]; may be given several times",
-    )
+    add_pose_options(parser)
     return parser
 
 
@@ -87,17 +83,6 @@ def _size(text: str) -> tuple[int, int]:
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise UsageError(f"--size {text}: each side must be 1 to {LARGEST} pixels")
     return width, height
-
-
-def _joint(text: str) -> tuple[str, float]:
-    name, _, number = text.rpartition("=")
-    try:
-        value = float(number)
-    except ValueError:
-        value = math.nan
-    if not name or not math.isfinite(value):
-        raise UsageError(f"--joint {text} is not NAME=VALUE with a number")
-    return name, value
 
 
 def _output(text: str) -> Path:
