@@ -143,7 +143,7 @@ class DriveControl:
             if not (math.isfinite(v) and math.isfinite(w)):
                 raise JointError(f"cannot drive with v={v!r}, w={w!r}")
             if v or w:
-                self._enter_odom()
+                self.enter_odom()
             self.v, self.w, self._left = v, w, seconds
         self._start()
 
@@ -183,7 +183,7 @@ class DriveControl:
         }
         return turned, {self._root: self._matrix()}
 
-    def _enter_odom(self) -> None:
+    def enter_odom(self) -> None:
         """Hang the root link below odom, unless it hangs there already.
 
         Raises:

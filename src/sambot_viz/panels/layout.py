@@ -10,7 +10,9 @@ import viser
 
 from sambot_viz import page
 from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.joints import JointsPanel
+from sambot_viz.panels.optional_tab import OptionalTab
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.progress import ProgressLine
 from sambot_viz.panels.selection import SelectionPanel
@@ -77,6 +79,9 @@ class Layout:
             right = gui.add_panel()
             for tab in tabs:
                 self._panels.append(tab.make(session, right.add_tab(tab.title)))
+            if joints:
+                drive = OptionalTab(session, right, "Drive", DrivePanel, can_drive)
+                self._panels.append(drive)
             right.dock_right()
             right.set_width(RIGHT_WIDTH)
 
@@ -96,3 +101,8 @@ class Layout:
         """Follow the session no longer."""
         for panel in self._panels:
             panel.close()
+
+
+def can_drive(session: Session) -> bool:
+    """Whether the session's robot has two wheels to drive with."""
+    return session.motion.drive.wheels is not None

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
 import viser
@@ -164,6 +165,26 @@ def on_click(handle: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
             action()
 
     handle.on_click(pressed)
+
+
+HOLD_RATE = 10.0
+"""So often a browser tells that a button is still held [1/s]."""
+
+
+def on_hold(handle: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
+    """Call `action` ten times a second while a browser holds the button.
+
+    Args:
+        handle: the button.
+        action: may raise SambotVizError when it cannot do what is asked.
+    """
+
+    async def held(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
+        if event.client_id is not None and not handle.disabled and handle.visible:
+            with suppress(SambotVizError):
+                action()
+
+    handle.on_hold(held, callback_hz=HOLD_RATE)  # pyright: ignore[reportUnknownMemberType]
 
 
 OnPress = Callable[[viser.ClientHandle | None], None]

@@ -1,0 +1,254 @@
+"""The Drive panel: velocities, a stick, keys, the pose in odom and the trail.
+
+Keys are those of a number pad, because viser's camera has WASD, QE and the arrows:
+8 and 2 change the linear velocity, 4 and 6 the angular one, 5 stops.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+
+import numpy as np
+import viser
+
+from sambot_viz.displays.display import any_gone, remove_all
+from sambot_viz.drive_control import ODOM
+from sambot_viz.errors import FrameError
+from sambot_viz.motion import HOLD
+from sambot_viz.pacer import Pacer
+from sambot_viz.panels.widgets import Input, finite, on_click, on_hold, watch
+from sambot_viz.session import Event, Session
+from sambot_viz.text import html_text
+
+MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
+"""Ends of the sliders [m/s] and [rad/s]."""
+KEY_LINEAR, KEY_ANGULAR = 0.1, 0.25
+"""What one press of a key adds [m/s] and [rad/s]."""
+SHOW_PERIOD = 0.2
+TRAIL_COLOR = (255, 170, 0)
+TRAIL_PIECE = 200
+"""Points of one node of the trail: only the newest node is sent again."""
+TRAIL_HEIGHT = 0.004
+"""So much above the floor, lest the grid hides it [m]."""
+
+Vw = tuple[float, float]
+
+
+class DrivePanel:
+    """See the module.
+
+    Args:
+        session: whose robot is driven.
+        container: the tab to fill.
+    """
+
+    def __init__(self, session: Session, container: viser.GuiTabHandle) -> None:
+        self._session = session
+        self._drive = session.motion.drive
+        self._gui = session.audience.gui
+        self._commands: list[viser.CommandHandle] = []
+        self._pieces: list[viser.LineSegmentsHandle] = []
+        self._drawn = 1
+        self._show = Pacer(session.loop, SHOW_PERIOD, self._show_state)
+        with container:
+            self._content = self._gui.add_folder(None)
+        with self._content:
+            self._linear, self._angular = self._add_sliders()
+            self._add_stick()
+            self._pose = self._gui.add_html("")
+            self._add_buttons()
+        self._add_keys()
+        session.listeners.append(self._hear)
+        self._show_state()
+
+    def close(self) -> None:
+        """Follow the session no longer, and take out keys and trail."""
+        self._session.listeners.remove(self._hear)
+        self._show.close()
+        for command in self._commands:
+            command.remove()
+        self._forget_trail()
+
+    def _hear(self, event: Event) -> None:
+        if event in ("joints", "frames", "robot"):
+            self._show.request()
+
+    def _add_sliders(self) -> tuple[Input, Input]:
+        gui, drive = self._gui, self._drive
+        linear = gui.add_slider(
+            "Linear [m/s]", -MOST_LINEAR, MOST_LINEAR, 0.01, 0.0, hint="Forwards (x)."
+        )
+        angular = gui.add_slider(
+            "Angular [rad/s]",
+            -MOST_ANGULAR,
+            MOST_ANGULAR,
+            0.01,
+            0.0,
+            hint="To the left (about z).",
+        )
+        watch(linear, partial(_within, MOST_LINEAR), lambda v: self._set((v, drive.w)))
+        watch(
+            angular, partial(_within, MOST_ANGULAR), lambda w: self._set((drive.v, w))
+        )
+        return linear, angular
+
+    def _add_stick(self) -> None:
+        """Buttons to hold, for a hand on a tablet."""
+        gui = self._gui
+        for label, direction in (
+            ("▲ forwards", (0.5, 0.0)),
+            ("◀ left", (0.0, 1.0)),
+            ("▶ right", (0.0, -1.0)),
+            ("▼ back", (-0.5, 0.0)),
+        ):
+            button = gui.add_button(label, hint="Drives while it is held.")
+            on_hold(button, partial(self._set, direction, HOLD))
+
+    def _add_buttons(self) -> None:
+        stop = self._gui.add_button("Stop", color="red", hint="Key 5.")
+        on_click(stop, self._stop)
+        reset = self._gui.add_button(
+            "Reset", hint="Back to the start, without the trail."
+        )
+        on_click(reset, self._reset)
+        self._in_odom = self._gui.add_button(
+            f"Fixed frame {ODOM}", hint="Let the robot move and the grid stand still."
+        )
+        on_click(self._in_odom, self._fix_odom)
+
+    def _add_keys(self) -> None:
+        for key, label, change in (
+            ("8", "Drive: faster forwards", (KEY_LINEAR, 0.0)),
+            ("2", "Drive: slower, backwards", (-KEY_LINEAR, 0.0)),
+            ("4", "Drive: more to the left", (0.0, KEY_ANGULAR)),
+            ("6", "Drive: more to the right", (0.0, -KEY_ANGULAR)),
+        ):
+            self._add_key(key, label, partial(self._change, change))
+        self._add_key("5", "Drive: stop", self._stop)
+
+    def _add_key(self, key: str, label: str, action: Callable[[], None]) -> None:
+        command = self._gui.add_command(label, hotkey=key)  # pyright: ignore[reportArgumentType]
+
+        async def triggered(event: viser.CommandEvent) -> None:
+            if event.client_id is not None:
+                action()
+
+        command.on_trigger(triggered)
+        self._commands.append(command)
+
+    def _set(self, velocity: Vw, seconds: float = math.inf) -> None:
+        """Drive; where the robot hangs on another frame it stays and says so."""
+        try:
+            self._drive.set_velocity(*velocity, seconds)
+        except FrameError as error:
+            self._refuse(error)
+            raise
+        self._show.request()
+
+    def _refuse(self, error: FrameError) -> None:
+        note = f'<p class="sambot-note sambot-warn">{html_text(error)}</p>'
+        self._pose.content = note
+
+    def _change(self, change: Vw) -> None:
+        v = _clamp(MOST_LINEAR, round(self._drive.v + change[0], 6))
+        w = _clamp(MOST_ANGULAR, round(self._drive.w + change[1], 6))
+        with suppress(FrameError):
+            self._set((v, w))
+
+    def _stop(self) -> None:
+        self._drive.stop()
+        self._show.request()
+
+    def _reset(self) -> None:
+        self._drive.reset()
+        self._show.request()
+
+    def _fix_odom(self) -> None:
+        try:
+            self._drive.enter_odom()
+        except FrameError as error:
+            self._refuse(error)
+            return
+        self._session.set_global("Fixed Frame", ODOM)
+
+    def _show_state(self) -> None:
+        """Bring numbers and trail in line; what is the same is not sent."""
+        with self._session.lock:
+            drive = self._drive
+            if drive.wheels is None:
+                return
+            for slider, value in ((self._linear, drive.v), (self._angular, drive.w)):
+                if slider.value != value:
+                    slider.value = value
+            content = self._state_html()
+            if self._pose.content != content:
+                self._pose.content = content
+            fixed = self._session.context.fixed_frame == ODOM
+            if self._in_odom.disabled != fixed:
+                self._in_odom.disabled = fixed
+            with self._session.audience.atomic():
+                self._draw_trail()
+            self._session.audience.flush()
+
+    def _state_html(self) -> str:
+        pose, wheels = self._drive.pose, self._drive.wheels
+        yaw = math.degrees(math.remainder(pose.yaw, 2 * math.pi))
+        root = html_text(self._session.robot.root) if self._session.robot else ""
+        lines = [
+            f"{ODOM} → {root}: x {pose.x + 0.0:.3f} m, y {pose.y + 0.0:.3f} m, "
+            f"yaw {yaw + 0.0:.1f}°"
+        ]
+        if wheels is not None:
+            lines.append(
+                f"wheels: radius {wheels.radius:.4g} m, "
+                f"{wheels.separation:.4g} m apart; keys 8 2 4 6, 5 stops"
+            )
+        if self._session.context.fixed_frame != ODOM:
+            lines.append(f"with the fixed frame {ODOM} it moves on the grid")
+        return f'<p class="sambot-note">{"<br>".join(lines)}</p>'
+
+    def _draw_trail(self) -> None:
+        points = self._drive.trail
+        if any_gone(self._pieces) or len(points) < self._drawn:
+            self._forget_trail()
+        nodes, scene = self._session.context.nodes, self._session.audience.scene
+        if ODOM not in self._session.tree or len(points) == self._drawn:
+            return
+        above = nodes.path(ODOM)
+        if above is None:
+            return
+        first = (self._drawn - 1) // TRAIL_PIECE
+        for number in range(first, (len(points) - 2) // TRAIL_PIECE + 1):
+            start = number * TRAIL_PIECE
+            piece = np.array(points[start : start + TRAIL_PIECE + 1], np.float32)
+            flat = np.column_stack(
+                [piece, np.full(len(piece), TRAIL_HEIGHT, np.float32)]
+            )
+            segments = np.stack([flat[:-1], flat[1:]], axis=1)
+            if number < len(self._pieces):
+                self._pieces[number].points = segments
+            else:
+                node = scene.add_line_segments(
+                    f"{above}/~drive{number}",
+                    segments,
+                    colors=TRAIL_COLOR,
+                    thickness=0.012,
+                )
+                self._pieces.append(node)
+        self._drawn = len(points)
+
+    def _forget_trail(self) -> None:
+        remove_all(self._pieces)
+        self._pieces.clear()
+        self._drawn = 1
+
+
+def _within(most: float, value: object) -> float:
+    return _clamp(most, finite(value))
+
+
+def _clamp(most: float, value: float) -> float:
+    return min(most, max(-most, value))
