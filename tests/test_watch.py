@@ -349,3 +349,18 @@ def test_without_watch_nothing_is_followed(tmp_path: Path) -> None:
     with Visualizer(tmp_path / "sam_bot.urdf.xacro"):
         now = {thread.name for thread in threading.enumerate()}
     assert "sambot-viz-watch" not in now - before
+
+
+def test_a_fault_of_ours_is_told_and_ends_nothing(
+    sam_bot: Followed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(robot: object) -> None:
+        raise ZeroDivisionError("it happens")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(sam_bot.session, "show_robot", fail)
+        sam_bot.save("front_caster", "rear_caster")
+        sam_bot.wait_for(lambda: sam_bot.failed == ["reload-failed"])
+    sam_bot.save("rear_caster", "last_caster")
+    sam_bot.wait_for(lambda: "last_caster" in sam_bot.viz.frames.frames)
+    sam_bot.wait_for(lambda: sam_bot.failed == [])

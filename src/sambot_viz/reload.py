@@ -135,6 +135,15 @@ class Reloader:
     # What is done
 
     def _changed(self, changed: frozenset[Path], appeared: frozenset[Path]) -> None:
+        try:
+            self._show_changed(changed, appeared)
+        except Exception as error:
+            # A fault of ours must not end the watching; the page says what it was.
+            self._server.set_reload_problems("fault", (_our_fault(error),))
+
+    def _show_changed(
+        self, changed: frozenset[Path], appeared: frozenset[Path]
+    ) -> None:
         model, assets = self._model_files(), self._asset_files()
         if self._config is not None and self._config in changed:
             self._reload_config(self._config)
@@ -160,6 +169,7 @@ class Reloader:
             self._suspects = ()
             self._server.set_reload_problems("model", ())
             self._server.show_robot(robot)
+            self._server.set_reload_problems("fault", ())
             self._tell(robot.problems)
 
     def _tell(self, problems: tuple[Problem, ...]) -> None:
@@ -232,6 +242,16 @@ def _kept(path: Path) -> Problem:
         "they are kept, and the new version of the file is not shown",
         "save the config from the page, or load the file again",
         str(path),
+    )
+
+
+def _our_fault(error: Exception) -> Problem:
+    return Problem(
+        "error",
+        "reload-failed",
+        "what was saved could not be shown, by a fault of ours: "
+        f"{type(error).__name__}: {error}",
+        "start the program again, and please report it",
     )
 
 

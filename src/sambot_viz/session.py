@@ -43,8 +43,8 @@ Event = Literal[
     "robot", "config", "frames", "joints", "status", "problems", "view", "tools"
 ]
 Listener = Callable[[Event], None]
-Reloaded = Literal["model", "config", "watch"]
-"""What a save may fail to change: the model or the config that is shown."""
+Reloaded = Literal["model", "config", "watch", "fault"]
+"""What a save may fail to change, the model or the config, or why it fails at all."""
 
 
 class Audience(Protocol):

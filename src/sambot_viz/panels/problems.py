@@ -74,7 +74,8 @@ def problems_of(session: Session) -> list[Problem]:
     shapes = (p for display in session.displays for p in display.problems)
     model = saved.get("model", ()) or (*session.problems, *shapes)
     config = saved.get("config", ()) or session.config.problems
-    return in_order((*model, *config, *saved.get("watch", ())))
+    others = (*saved.get("fault", ()), *saved.get("watch", ()))
+    return in_order((*model, *config, *others))
 
 
 def in_order(problems: Iterable[Problem]) -> list[Problem]:

@@ -9,6 +9,7 @@ import pytest
 
 from sambot_viz import load_robot
 from sambot_viz.robot.assets import Asset, assets_of, something_missing
+from sambot_viz.robot.mesh import store as store_module
 from sambot_viz.robot.meshes import MeshError, MeshStore, TextureError
 
 STL = (
@@ -94,3 +95,16 @@ def test_a_mesh_names_the_files_it_was_read_from(tmp_path: Path) -> None:
     assert store.files(asset) == (mesh,)
     store.read(asset)
     assert set(store.files(asset)) == {mesh, tmp_path / "part.mtl"}
+
+
+def test_a_fault_of_ours_is_a_refusal_of_that_file_only(
+    model: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(path: Path, **options: object) -> None:
+        raise ZeroDivisionError("it happens")
+
+    monkeypatch.setattr(store_module, "read_mesh", fail)
+    store, asset = MeshStore(), Asset("mesh", model.parent / "part.stl")
+    store.read(asset)
+    with pytest.raises(MeshError, match="fault of ours: ZeroDivisionError"):
+        store.get(asset.path)

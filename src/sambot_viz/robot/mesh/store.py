@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.robot.assets import Asset
-from sambot_viz.robot.mesh.model import Mesh, MeshError, Texture
+from sambot_viz.robot.mesh.model import Mesh, MeshError, Texture, mesh_error
 from sambot_viz.robot.mesh.reader import LARGEST, read_mesh
 from sambot_viz.robot.mesh.textures import LONGEST_SIDE, TextureError, TextureStore
 
@@ -101,7 +101,19 @@ class MeshStore:
             mesh = read_mesh(path, images=self.images, largest=self._largest)
         except MeshError as error:
             return _Entry(before, error)
+        except Exception as error:
+            # One file that finds a fault of ours must not hide the rest of the robot.
+            return _Entry(before, _our_fault(path, error))
         return _Entry(before + _stamp(mesh.files[1:]), mesh)
+
+
+def _our_fault(path: Path, error: Exception) -> MeshError:
+    return mesh_error(
+        path,
+        "mesh-unreadable",
+        f"reading the file failed by a fault of ours: {type(error).__name__}: {error}",
+        "please report it, with the file",
+    )
 
 
 def _stamp(files: tuple[Path, ...]) -> _Stamp:
