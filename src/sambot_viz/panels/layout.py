@@ -11,6 +11,7 @@ import viser
 from sambot_viz import page
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
+from sambot_viz.panels.frames import FramesPanel
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.optional_tab import OptionalTab
 from sambot_viz.panels.problems import ProblemsPanel
@@ -48,6 +49,7 @@ class Tab:
 
 RIGHT_TABS: tuple[Tab, ...] = (
     Tab("Joints", JointsPanel, for_joints=True),
+    Tab("Frames", FramesPanel),
     Tab("Views", ViewsPanel),
     Tab("Selection", SelectionPanel),
 )
