@@ -209,3 +209,18 @@ def test_saved_views_are_copies_that_can_be_named_and_removed(viz: Visualizer) -
     assert (views.view.config.get("Distance"), saved.get("Distance")) == (10.0, 4.0)
     views.remove(saved)
     assert session.config.saved_views == ()
+
+
+def test_the_panel_shows_every_type_also_the_steepest_pitch(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    client = join(viz, protocol, FRESH)
+    views = session_of(viz).views
+    for name in ("TopDownOrtho", "Orbit", "FPS", "ThirdPersonFollower", "XYOrbit"):
+        views.set_kind(f"rviz_default_plugins/{name}")
+        client.settle(viser_server(viz))
+        assert client.value_of("Type") == f"{name} (rviz_default_plugins)"
+    views.set_kind("rviz_default_plugins/TopDownOrtho")
+    views.set_kind(ORBIT)
+    client.settle(viser_server(viz))
+    assert client.value_of("Pitch [rad]") == pytest.approx(1.569796)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import io
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import viser
 from PIL import Image
 
+from sambot_viz.displays.poses import wxyz_of
 from sambot_viz.panels.widgets import watch
+from sambot_viz.session import Session
 
 LONGEST_SIDE = 4096
 """A browser cannot draw a larger picture [pixels]."""
@@ -21,10 +25,12 @@ class PictureRows:
     """Width, height and a button, in the current container.
 
     Args:
-        gui: where to add them.
+        session: whose view is drawn.
     """
 
-    def __init__(self, gui: viser.GuiApi) -> None:
+    def __init__(self, session: Session) -> None:
+        gui = session.audience.gui
+        self._session = session
         self._size = [1280, 720]
         with gui.add_folder("Picture", expand_by_default=False):
             for index, label in enumerate(("Width", "Height")):
@@ -44,7 +50,7 @@ class PictureRows:
 
     async def _save(self, event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
         if event.client is not None:
-            await send_picture(event.client, *self._size)
+            await send_picture(self._session, event.client, *self._size)
 
 
 def side(value: object) -> int:
@@ -58,17 +64,43 @@ def side(value: object) -> int:
     return int(value)
 
 
-async def send_picture(client: viser.ClientHandle, width: int, height: int) -> None:
+async def send_picture(
+    session: Session, client: viser.ClientHandle, width: int, height: int
+) -> None:
     """Have a browser draw its view at a size, and give it to it as a file.
 
     Args:
+        session: what the browser shows.
         client: the browser.
         width: of the picture [pixels].
-        height: of the picture [pixels].
+        height: of the picture [pixels]; it shows as much as the window's does.
     """
-    picture = await asyncio.to_thread(
-        client.get_render, height, width, transport_format="png", timeout=RENDER_TIME
-    )
+    render = partial(client.get_render, height, width, transport_format="png")
+    camera = session.views.camera_of(client.client_id)
+    if camera.scale is not None:
+        # viser draws nothing beyond 1000 m, where the page's own camera is.
+        scale = camera.scale * height / client.camera.image_height
+        camera = replace(camera, scale=scale).in_perspective(height)
+        R = np.stack([camera.right, np.negative(camera.image_up), camera.forward], 1)
+        render = partial(
+            render, wxyz=wxyz_of(R), position=camera.position, fov=camera.fov
+        )
+    drawn = await asyncio.to_thread(render, timeout=RENDER_TIME)
     file = io.BytesIO()
-    Image.fromarray(np.ascontiguousarray(picture[..., :3])).save(file, "PNG")
+    on_background(drawn, session.context.background).save(file, "PNG")
     client.send_file_download("sambot-viz.png", file.getvalue())
+
+
+def on_background(drawn: np.ndarray, color: tuple[int, int, int]) -> Image.Image:
+    """A picture with its background behind it.
+
+    viser sizes the background for the window; a picture of another shape has none
+    at its sides.
+
+    Args:
+        drawn: (height, width, 4) uint8, RGBA.
+        color: of the background, 0 to 255.
+    """
+    picture = Image.fromarray(np.ascontiguousarray(drawn, np.uint8), "RGBA")
+    behind = Image.new("RGBA", picture.size, (*color, 255))
+    return Image.alpha_composite(behind, picture).convert("RGB")

@@ -20,7 +20,13 @@ from sambot_viz.panels.widgets import (
     options,
     watch,
 )
-from sambot_viz.rviz import Property, TfFrameProperty, ViewConfig
+from sambot_viz.rviz import (
+    FloatProperty,
+    Property,
+    TfFrameProperty,
+    VectorProperty,
+    ViewConfig,
+)
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Event, Session
 from sambot_viz.text import html_text, text
@@ -78,7 +84,7 @@ class ViewsPanel:
             self._add_type()
             self._add_rows()
             self._add_saved()
-            PictureRows(self._gui)
+            PictureRows(self._session)
 
     def _add_type(self) -> None:
         gui, views = self._gui, self._views
@@ -107,7 +113,7 @@ class ViewsPanel:
             handle = add_property(
                 self._gui,
                 prop,
-                _shown(config.get(path)),
+                _shown(prop, config.get(path)),
                 partial(self._views.set, path),
                 sorted(self._session.tree.frames),
             )
@@ -157,8 +163,8 @@ class ViewsPanel:
     def _show_values(self) -> None:
         """Bring the numbers in line with the view; only what differs is sent."""
         config = self._views.view.config
-        for path, (handle, _) in self._inputs.items():
-            value = _shown(config.get(path))
+        for path, (handle, prop) in self._inputs.items():
+            value = _shown(prop, config.get(path))
             if handle.value != value:
                 handle.value = value
 
@@ -180,10 +186,14 @@ def void(value: object) -> None:
     del value
 
 
-def _shown(value: Any) -> Any:
+def _shown(prop: Property, value: Any) -> Any:
     """A value as the panel shows it: with as many digits as a hand can use."""
-    if isinstance(value, float):
-        return round(value, DIGITS)
-    if isinstance(value, tuple):
-        return tuple(round(float(v), DIGITS) for v in value)  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
+    if isinstance(prop, FloatProperty):
+        short = round(float(value), DIGITS)
+        # The last digit may round it out of its range, which viser refuses.
+        if prop.minimum is not None:
+            short = max(short, prop.minimum)
+        return short if prop.maximum is None else min(short, prop.maximum)
+    if isinstance(prop, VectorProperty):
+        return tuple(round(float(v), DIGITS) for v in value)
     return value
