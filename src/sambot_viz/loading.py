@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, InvalidStateError
 from threading import Thread
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -20,12 +21,25 @@ def in_thread(load: Callable[[], Robot]) -> Loading:
 
     def run() -> None:
         try:
-            loading.set_result(load())
+            robot = load()
         except BaseException as error:
-            loading.set_exception(error)
+            with contextlib.suppress(InvalidStateError):
+                loading.set_exception(error)
+        else:
+            with contextlib.suppress(InvalidStateError):
+                loading.set_result(robot)
 
     Thread(target=run, name="sambot-viz-load", daemon=True).start()
     return loading
+
+
+def give_up(loading: Loading) -> None:
+    """Let who waits for a robot go on with a KeyboardInterrupt.
+
+    What reads it is not stopped: it ends with the program.
+    """
+    with contextlib.suppress(InvalidStateError):
+        loading.set_exception(KeyboardInterrupt())
 
 
 def finished(robot: Robot) -> Loading:

@@ -22,7 +22,7 @@ from sambot_viz.commands.options import (
 from sambot_viz.commands.pose_options import add_pose_options, any_given, read_setup
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.find import Found, find
-from sambot_viz.loading import in_thread
+from sambot_viz.loading import Loading, give_up, in_thread
 
 EPILOG = """\
 commands:
@@ -59,8 +59,8 @@ def run(words: list[str]) -> int:
     from sambot_viz.listening import close, listen, url_of
     from sambot_viz.origins import only_this_machine
 
-    stop = threading.Event()
-    _stop_on_signals(stop)
+    stop, waited_for = threading.Event(), list[Loading]()
+    _stop_on_signals(stop, waited_for)
     server = listen(options.host, options.port, options.allow_origin)
     try:
         _announce(url_of(server), options.open)
@@ -68,6 +68,7 @@ def run(words: list[str]) -> int:
             sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         # From here on a browser can load the page; the rest is imported meanwhile.
         loading = in_thread(partial(wanted.load, found.model))
+        waited_for.append(loading)
         from sambot_viz.drive_control import WheelOptions
         from sambot_viz.visualizer import Visualizer
 
@@ -196,12 +197,20 @@ def _announce(url: str, open_it: bool) -> None:
         webbrowser.open(url)
 
 
-def _stop_on_signals(stop: threading.Event) -> None:
-    """Ctrl-C and a service manager's stop end the program quietly."""
+def _stop_on_signals(stop: threading.Event, waited_for: list[Loading]) -> None:
+    """Ctrl-C and a service manager's stop end the program quietly.
+
+    Args:
+        stop: is set then.
+        waited_for: models that are being read, which may take long; the wait for them
+            ends too.
+    """
 
     def finish(number: int, frame: object) -> None:
         del number, frame
         stop.set()
+        for loading in waited_for:
+            give_up(loading)
 
     if threading.current_thread() is threading.main_thread():
         for number in (signal.SIGINT, signal.SIGTERM):

@@ -6,6 +6,7 @@ runs in this process: a child with limits on time, memory and output does it.
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import json
 import os
@@ -127,26 +128,47 @@ def _import_path() -> list[str]:
 
 def _run_child(job: Mapping[str, Any], limits: Limits) -> dict[str, Any]:
     own = {name: os.environ[name] for name in ("SYSTEMROOT",) if name in os.environ}
-    process = subprocess.Popen(
-        [sys.executable, "-I", "-S", "-X", "utf8", str(_CHILD)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        env=own,
-        start_new_session=True,
-    )
+    order = json.dumps(job).encode()
+    # The child takes the end of this pipe for our end, and ends too: whatever kills
+    # this process, nothing is left behind. So the pipe stays open until the outcome
+    # is there, which `communicate` would not do.
+    read_end, lifeline = os.pipe()
     try:
-        output, _ = process.communicate(json.dumps(job).encode(), limits.seconds)
+        process = subprocess.Popen(
+            [sys.executable, "-I", "-S", "-X", "utf8", str(_CHILD)],
+            stdin=read_end,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=own,
+            start_new_session=True,
+        )
+    except BaseException:
+        os.close(lifeline)
+        raise
+    finally:
+        os.close(read_end)
+    try:
+        _send(lifeline, b"%16d" % len(order) + order)
+        output, _ = process.communicate(timeout=limits.seconds)
     except subprocess.TimeoutExpired:
         text = f"expansion took longer than {limits.seconds:g} s"
         raise _own_failure("Timeout", text, job) from None
     finally:
+        os.close(lifeline)
         _end(process)
     try:
         return json.loads(output)
     except ValueError:
         text = f"the expansion ended without a result (status {process.returncode})"
         raise _own_failure("Crash", text, job) from None
+
+
+def _send(pipe: int, data: bytes) -> None:
+    left = memoryview(data)
+    # A child that ended early has no outcome, and that is told.
+    with contextlib.suppress(BrokenPipeError):
+        while left:
+            left = left[os.write(pipe, left) :]
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
@@ -159,9 +181,8 @@ def _end(process: subprocess.Popen[bytes]) -> None:
     elif process.poll() is None:
         process.kill()
     process.wait()
-    for stream in (process.stdin, process.stdout):
-        if stream is not None:
-            stream.close()
+    if process.stdout is not None:
+        process.stdout.close()
 
 
 def _own_failure(kind: str, text: str, job: Mapping[str, Any]) -> ExpansionError:

@@ -1,14 +1,16 @@
 """The child process that runs xacro on somebody's file (spec/ros-nodes.md §5.5).
 
-Started as a script by `robot/xacro.py`: a job as JSON on standard input, the outcome
-as JSON on standard output. Only what this needs is imported, never the package's own
-`__init__` files, so that the start stays cheap.
+Started as a script by `robot/expansion.py`: a job as JSON on standard input (its
+length first), the outcome as JSON on standard output. Only what this needs is
+imported, never the package's own `__init__` files, so that the start stays cheap.
 """
 
 from __future__ import annotations
 
+import _thread
 import json
 import os
+import signal
 import sys
 import types
 from typing import Any
@@ -49,9 +51,21 @@ def keep_result_channel() -> int:
     return channel
 
 
+def end_with_parent() -> None:
+    """Wait for the end of standard input, which is the end of the parent."""
+    while os.read(0, 4096):
+        pass
+    if hasattr(os, "killpg"):
+        # What a model has started belongs to the session of this process.
+        os.killpg(0, signal.SIGKILL)
+    os._exit(1)
+
+
 def main() -> None:
     """Read the job, expand, write the outcome."""
-    job: dict[str, Any] = json.loads(sys.stdin.buffer.read())
+    size = int(sys.stdin.buffer.read(16))
+    job: dict[str, Any] = json.loads(sys.stdin.buffer.read(size))
+    _thread.start_new_thread(end_with_parent, ())
     channel = keep_result_channel()
     limit_resources(job["megabytes"], job["seconds"])
     os.environ.clear()
