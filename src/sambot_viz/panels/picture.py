@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import io
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import viser
@@ -75,17 +74,22 @@ async def send_picture(
         width: of the picture [pixels].
         height: of the picture [pixels]; it shows as much as the window's does.
     """
-    render = partial(client.get_render, height, width, transport_format="png")
     camera = session.views.camera_of(client.client_id)
     if camera.scale is not None:
-        # viser draws nothing beyond 1000 m, where the page's own camera is.
         scale = camera.scale * height / client.camera.image_height
+        # The page's own camera is farther away than viser draws into pictures.
         camera = replace(camera, scale=scale).in_perspective(height)
-        R = np.stack([camera.right, np.negative(camera.image_up), camera.forward], 1)
-        render = partial(
-            render, wxyz=wxyz_of(R), position=camera.position, fov=camera.fov
-        )
-    drawn = await asyncio.to_thread(render, timeout=RENDER_TIME)
+    R = np.stack([camera.right, np.negative(camera.image_up), camera.forward], 1)
+    drawn = await asyncio.to_thread(
+        client.get_render,
+        height,
+        width,
+        wxyz=wxyz_of(R),
+        position=camera.position,
+        fov=camera.fov,
+        transport_format="png",
+        timeout=RENDER_TIME,
+    )
     file = io.BytesIO()
     on_background(drawn, session.context.background).save(file, "PNG")
     client.send_file_download("sambot-viz.png", file.getvalue())
@@ -94,8 +98,8 @@ async def send_picture(
 def on_background(drawn: np.ndarray, color: tuple[int, int, int]) -> Image.Image:
     """A picture with its background behind it.
 
-    viser sizes the background for the window; a picture of another shape has none
-    at its sides.
+    viser puts the background where the window's camera sees it; a picture of
+    another shape has none at its sides.
 
     Args:
         drawn: (height, width, 4) uint8, RGBA.
