@@ -72,9 +72,6 @@ class Layout:
             ProgressLine(session),
             DisplaysPanel(session, gui.add_folder(None)),
         ]
-        below = gui.add_panel()
-        self._panels.append(ProblemsPanel(session, below))
-        below.dock_below(gui.main_panel)
         gui.main_panel.set_width(LEFT_WIDTH)
         tabs = [tab for tab in RIGHT_TABS if joints or not tab.for_joints]
         if tabs:
@@ -85,6 +82,9 @@ class Layout:
                 drive = OptionalTab(session, right, "Drive", DrivePanel, can_drive)
                 self._panels.append(drive)
             right.dock_right()
+            below = gui.add_panel()
+            self._panels.append(ProblemsPanel(session, below))
+            below.dock_below(right)
             right.set_width(RIGHT_WIDTH)
 
     @staticmethod

@@ -1,6 +1,6 @@
 """The Problems panel: what is wrong, where, and how to mend it.
 
-It stands below the Displays while there is something to tell, and is not there
+It stands below the tabs at the right while there is something to tell, and is not there
 otherwise. What was saved with a mistake is told with a note that the robot in the
 picture is the last good one.
 """
