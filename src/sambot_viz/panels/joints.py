@@ -1,13 +1,29 @@
-"""The Joints panel: what joint_state_publisher_gui shows (spec/ros-nodes.md §2)."""
+"""The Joints panel: what joint_state_publisher_gui shows (spec/ros-nodes.md §2).
+
+Unlike there, typed values are exact, and joints that follow, are over a limit or have
+no position are told.
+"""
 
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import viser
 
+from sambot_viz.motion import HOLD
 from sambot_viz.pacer import Pacer
-from sambot_viz.panels.widgets import Input, finite, on_click, watch
+from sambot_viz.panels.joint_arrow import JointArrow
+from sambot_viz.panels.joint_notes import as_text, factor_of, notes_html, unit_of
+from sambot_viz.panels.pose_folder import PoseFolder
+from sambot_viz.panels.widgets import (
+    Input,
+    add_text,
+    finite,
+    on_click,
+    on_hold,
+    watch,
+)
 from sambot_viz.robot.model import Joint
 from sambot_viz.session import Event, Session
 from sambot_viz.text import text
@@ -15,10 +31,17 @@ from sambot_viz.text import text
 MIRROR_PERIOD = 0.2
 """Sliders follow positions set by a program this often [s]: moving fifty sliders
 thirty times a second keeps a browser busy to the full (spec/viser.md §3c)."""
+SEARCH_PAST = 12
+MOST_ROWS = 40
+"""More sliders than this make the page slow; the search finds the others."""
+EXACT = 12
+"""Decimals of a typed value."""
+SAME = 1e-9
+"""What differs less on screen is not sent."""
 
 
 class JointsPanel:
-    """A slider and a number for every free joint, Center and Randomize.
+    """A slider and a number for every free joint, Center, Randomize, poses, text.
 
     Args:
         session: whose joints these are.
@@ -32,6 +55,14 @@ class JointsPanel:
         self._sliders: dict[str, Input] = {}
         self._built: tuple[object, ...] = ()
         self._content: viser.GuiFolderHandle | None = None
+        self._rows: viser.GuiFolderHandle | None = None
+        self._notes: viser.GuiHtmlHandle | None = None
+        self._degrees = False
+        self._search = ""
+        self._seed = ""
+        self._rate = 1.0
+        self._keep = False
+        self._arrow = JointArrow(session)
         self._mirror = Pacer(session.loop, MIRROR_PERIOD, self._show_positions)
         session.listeners.append(self._hear)
         self._build()
@@ -59,45 +90,150 @@ class JointsPanel:
             self._content.remove()
         self._sliders.clear()
         self._built = wanted
-        gui = self._gui
         with self._container:
-            self._content = gui.add_folder(None)
+            self._content = self._gui.add_folder(None)
         with self._content:
             if joints is None or not names:
-                gui.add_html(_NOTHING_TO_MOVE)
+                self._gui.add_html(_NOTHING_TO_MOVE)
                 return
-            center = gui.add_button("Center", hint="All joints to their start values.")
-            on_click(center, self._session.center_joints)
-            randomize = gui.add_button(
-                "Randomize", hint="All joints to random values of their ranges."
+            self._add_buttons()
+            if len(names) > SEARCH_PAST:
+                add_text(
+                    self._gui,
+                    "Search",
+                    self._search,
+                    self._look_for,
+                    hint="Part of the joints' names.",
+                )
+            self._rows_folder = self._gui.add_folder(None)
+            self._notes = self._gui.add_html("")
+            self._add_options()
+            PoseFolder(self._session)
+            self._add_text()
+        self._rows = None
+        self._add_rows()
+
+    def _add_buttons(self) -> None:
+        gui = self._gui
+        center = gui.add_button("Center", hint="All joints to their start values.")
+        on_click(center, self._session.center_joints)
+        randomize = gui.add_button(
+            "Randomize", hint="All joints to random values of their ranges."
+        )
+        on_click(randomize, self._randomize)
+
+    def _randomize(self) -> None:
+        seed = self._seed.strip()
+        self._session.randomize_joints(int(seed) if seed else None)
+
+    def _add_options(self) -> None:
+        gui = self._gui
+        with gui.add_folder("Options", expand_by_default=False):
+            degrees = gui.add_checkbox("Degrees", self._degrees)
+            watch(degrees, bool, self._set_degrees)
+            seed = gui.add_text(
+                "Seed", self._seed, hint="The same whole number gives the same pose."
             )
-            on_click(randomize, self._session.randomize_joints)
-            for name in names:
+            watch(seed, _seed, partial(setattr, self, "_seed"))
+            rate = gui.add_number(
+                "Turn rate [rad/s]", self._rate, step=0.1, hint="Negative turns back."
+            )
+            watch(rate, finite, partial(setattr, self, "_rate"))
+            keep = gui.add_checkbox(
+                "Keep turning", self._keep, hint="A press starts a wheel or stops it."
+            )
+            watch(keep, bool, partial(setattr, self, "_keep"))
+
+    def _add_text(self) -> None:
+        gui = self._gui
+        with gui.add_folder("Copy", expand_by_default=False):
+            yaml = gui.add_button("As yaml", hint="A sensor_msgs/JointState.")
+            command = gui.add_button("As a ros2 topic pub command")
+            shown = gui.add_text("Text", "", multiline=True)
+
+            def show(kind: str) -> None:
+                with self._session.lock:
+                    if self._session.joints is not None:
+                        shown.value = as_text(self._session.joints, kind)
+
+            on_click(yaml, partial(show, "yaml"))
+            on_click(command, partial(show, "command"))
+
+    def _set_degrees(self, degrees: bool) -> None:
+        self._degrees = degrees
+        self._add_rows()
+
+    def _look_for(self, typed: str) -> None:
+        self._search = typed
+        self._add_rows()
+
+    def _add_rows(self) -> None:
+        """The sliders of the joints that the search finds."""
+        joints = self._session.joints
+        if joints is None or not joints.sliders:
+            return
+        if self._rows is not None:
+            self._rows.remove()
+        self._sliders.clear()
+        wanted = self._search.strip().lower()
+        found = [name for name in joints.sliders if wanted in name.lower()]
+        with self._rows_folder:
+            self._rows = self._gui.add_folder(None)
+        with self._rows:
+            for name in found[:MOST_ROWS]:
                 self._add_slider(joints.joints[name], joints.positions[name])
+            if len(found) > MOST_ROWS:
+                more = len(found) - MOST_ROWS
+                self._gui.add_html(
+                    f'<p class="sambot-note">and {more} more: search for them</p>'
+                )
+        self._show_positions()
 
     def _add_slider(self, joint: Joint, position: float) -> None:
-        lower, upper = sorted(joint.range)
+        factor = factor_of(joint, self._degrees)
+        lower, upper = (end * factor for end in sorted(joint.range))
         step = slider_step(lower, upper)
-        unit = "m" if joint.type == "prismatic" else "rad"
+        unit = unit_of(joint, self._degrees)
         slider = self._gui.add_slider(
             text(joint.name, 60),
             lower,
             upper,
             step,
-            min(upper, max(lower, position)),
+            min(upper, max(lower, position * factor)),
             hint=text(f"{joint.type} joint, {lower:.4g} … {upper:.4g} {unit}"),
             marks=((lower, _mark(lower)), (upper, _mark(upper))),
         )
-        slider.precision = max(0, -math.floor(math.log10(step) + 1e-9))
+        # The number box cuts what is typed to so many decimals.
+        slider.precision = EXACT
 
         def clamp(value: float) -> float:
             return min(upper, max(lower, finite(value)))
 
         def move(value: float) -> None:
-            self._session.set_joint_positions({joint.name: value})
+            # At an end of the slider the joint is exactly at its limit.
+            ends = dict(zip((lower, upper), sorted(joint.range), strict=True))
+            exact = ends.get(value, value / factor)
+            self._session.set_joint_positions({joint.name: exact})
+            self._arrow.moved(joint)
 
         watch(slider, clamp, move)
         self._sliders[joint.name] = slider
+        if joint.type == "continuous":
+            turn = self._gui.add_button(
+                f"↻ {text(joint.name, 40)}",
+                hint="Turns while it is held, at the rate of the options.",
+            )
+            on_hold(turn, partial(self._hold, joint.name))
+            on_click(turn, partial(self._press, joint.name))
+
+    def _hold(self, name: str) -> None:
+        if not self._keep:
+            self._session.motion.turn(name, self._rate, HOLD)
+
+    def _press(self, name: str) -> None:
+        if self._keep:
+            motion = self._session.motion
+            motion.turn(name, 0.0 if motion.turns(name) else self._rate)
 
     def _show_positions(self) -> None:
         """Bring the sliders in line with the positions."""
@@ -106,13 +242,32 @@ class JointsPanel:
             if joints is None:
                 return
             for name, slider in self._sliders.items():
-                lower, upper = sorted(joints.joints[name].range)
-                slider.value = min(upper, max(lower, joints.positions[name]))
+                joint = joints.joints.get(name)
+                if joint is None:
+                    continue
+                factor = factor_of(joint, self._degrees)
+                lower, upper = (end * factor for end in sorted(joint.range))
+                value = min(upper, max(lower, joints.positions[name] * factor))
+                if abs(slider.value - value) > SAME:
+                    slider.value = value
+            notes = notes_html(joints, self._degrees)
+            if self._notes is not None and self._notes.content != notes:
+                self._notes.content = notes
 
 
 def slider_step(lower: float, upper: float) -> float:
     """A power of ten, a few thousand of which make the range: 0.001 for ±π."""
     return 10.0 ** (math.floor(math.log10(max(upper - lower, 1e-9))) - 3)
+
+
+def _seed(value: object) -> str:
+    """A text that is empty or a whole number.
+
+    Raises:
+        ValueError: it is neither.
+    """
+    typed = str(value).strip()
+    return str(int(typed)) if typed else ""
 
 
 def _mark(value: float) -> str:
