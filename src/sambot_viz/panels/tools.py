@@ -29,7 +29,6 @@ class ToolBar:
     def __init__(self, session: Session, container: viser.GuiFolderHandle) -> None:
         self._session = session
         self._gui = session.audience.gui
-        self._commands: list[viser.CommandHandle] = []
         with container:
             self._bar = self._gui.add_html(self._html())
             self._mark = self._gui.add_html(self._mark_html())
@@ -92,7 +91,6 @@ class ToolBar:
                 action(event.client_id)
 
         command.on_trigger(triggered)
-        self._commands.append(command)
 
 
 FULL_SCREEN = (

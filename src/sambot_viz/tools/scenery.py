@@ -88,22 +88,24 @@ class Scenery:
 
     def box_of(self, thing: Thing) -> tuple[Array, Array] | None:
         """The corners of the box around a link's shapes or a frame's axes [m]."""
-        boxes = [bounds(p.solid, p.T) for p in self._placed() if p.thing == thing]
+        boxes = [bounds(placed.solid, placed.T) for placed in self._placed(thing)]
         if not boxes:
             return None
         lows, highs = zip(*boxes, strict=True)
         return np.min(lows, axis=0), np.max(highs, axis=0)
 
-    def _placed(self) -> Iterator[Placed]:
+    def _placed(self, only: Thing | None = None) -> Iterator[Placed]:
         for display in self._displays():
             if not display.shown:
                 continue
             if isinstance(display, RobotModelDisplay):
-                yield from self._links(display)
+                yield from self._links(display, only)
             elif isinstance(display, TfDisplay) and display.config.get("Show Axes"):
-                yield from self._frames(display)
+                yield from self._frames(display, only)
 
-    def _links(self, display: RobotModelDisplay) -> Iterator[Placed]:
+    def _links(
+        self, display: RobotModelDisplay, only: Thing | None
+    ) -> Iterator[Placed]:
         robot, get = self._context.robot, display.config.get
         if robot is None or get("Description Source") == "File":
             return
@@ -111,6 +113,8 @@ class Scenery:
         for link, shapes in _shapes(
             robot, get("Visual Enabled"), get("Collision Enabled")
         ):
+            if only not in (None, Thing("link", link)):
+                continue
             own = settings.link(link)
             T_fixed_link = self._pose(display.frame_of(link))
             if not own.enabled or own.alpha * get("Alpha") == 0 or T_fixed_link is None:
@@ -120,9 +124,11 @@ class Scenery:
                 for solid in self._solids(shape.geometry):
                     yield Placed(Thing("link", link), solid, T)
 
-    def _frames(self, display: TfDisplay) -> Iterator[Placed]:
+    def _frames(self, display: TfDisplay, only: Thing | None) -> Iterator[Placed]:
         reach = AXES_REACH * float(display.config.get("Marker Scale"))
         for frame in self._context.tree.frames:
+            if only not in (None, Thing("frame", frame)):
+                continue
             T = self._pose(frame)
             if T is not None:
                 yield Placed(Thing("frame", frame), Sphere(reach), T)
