@@ -57,8 +57,10 @@ class ToolBar:
             f'<div class="sambot-tools">{buttons}'
             f'<button title="Zero the view (Z)" {_presses("z")}>Zero</button>'
             f'<button title="Draw everything anew (R)" {_presses("r")}>Reset</button>'
-            f'<button title="The whole screen" onclick="{FULL_SCREEN}">Full screen</button>'
-            f'<button title="Hide the panels; H shows them again" onclick="{HIDE}">Hide</button></div>'
+            f'<button title="The whole screen" onclick="{FULL_SCREEN}">'
+            "Full screen</button>"
+            f'<button title="Hide the panels; H shows them again" onclick="{HIDE}">'
+            "Hide</button></div>"
             f'<div class="sambot-note">{said}</div>'
         )
 
