@@ -193,7 +193,7 @@ def geometry_text(geometry: Geometry) -> str:
 
 
 def place_text(place: Place) -> str:
-    """ "file:line", with the file's name alone."""
+    """A place as file:line, with the name of the file alone."""
     return f"{place.file.rpartition('/')[2]}:{place.line}"
 
 
