@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import numpy.typing as npt
+import viser
 
 from sambot_viz.errors import ServerError
 from sambot_viz.export.chromium import Chromium
@@ -59,11 +60,17 @@ def snapshot(
         page.wait_for(
             _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())
         )
-        # viser draws a picture's background where the page's own camera is, and
-        # nothing beyond 1000 m: the page itself must stand there.
-        BrowserCamera(client).point(camera, flat_fov=None)
         before: Picture | None = None
+        standing: tuple[float, ...] | None = None
         while time.monotonic() < end:
+            # viser draws a picture's background where the page's own camera is, and
+            # nothing beyond 1000 m: the page itself must stand there. A page that was
+            # just opened may report its first camera after it was told another.
+            if standing is None or not np.allclose(
+                _place(client), standing, rtol=1e-4, atol=1e-3
+            ):
+                BrowserCamera(client).point(camera, flat_fov=None)
+                standing, before = _place(client), None
             image = client.get_render(
                 height,
                 width,
@@ -79,3 +86,9 @@ def snapshot(
     finally:
         page.close()
     raise ServerError(f"the page did not show everything within {LONGEST_WAIT:g} s")
+
+
+def _place(client: viser.ClientHandle) -> tuple[float, ...]:
+    """Where the page's camera is and looks, as far as is known [m]."""
+    camera = client.camera
+    return tuple(float(v) for v in (*camera.position, *camera.look_at))
