@@ -131,7 +131,7 @@ def test_a_pose_is_saved_beside_the_model_and_taken_again(
     with Visualizer(model, port=0) as viz:
         client = join(viz)
         viz.set_joint_positions({"j": 0.25})
-        client.set_value(client.uuid_of("Name"), "half")
+        client.set_value(client.uuid_of("Pose name"), "half")
         client.set_value(client.uuid_of("Save pose"), True)
         client.wait_until(lambda: client.value_of("Pose") == "half")
         assert "half" in (tmp_path / "arm.poses.yaml").read_text()

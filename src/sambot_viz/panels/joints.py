@@ -222,6 +222,7 @@ class JointsPanel:
             turn = self._gui.add_button(
                 f"↻ {text(joint.name, 40)}",
                 hint="Turns while it is held, at the rate of the options.",
+                color="gray",
             )
             on_hold(turn, partial(self._hold, joint.name))
             on_click(turn, partial(self._press, joint.name))

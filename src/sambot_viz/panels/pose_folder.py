@@ -25,7 +25,7 @@ class PoseFolder:
         with gui.add_folder("Poses", expand_by_default=False):
             self._choice = gui.add_dropdown("Pose", self._offered(), hint=text(where))
             watch(self._choice, str, self._use)
-            self._name = add_text(gui, "Name", "", lambda _: None)
+            self._name = add_text(gui, "Pose name", "", lambda _: None)
             on_click(gui.add_button("Save pose"), self._save)
             on_click(gui.add_button("Remove pose"), self._remove)
             self._said = gui.add_html("")
