@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -252,3 +253,14 @@ def test_a_file_that_is_not_there_is_said_in_the_status(show: Show) -> None:
     status = model_of(session).status.rows["URDF"]
     assert status.level == "Error"
     assert status.text == "URDF is empty: no file '/nowhere/at/all.urdf'"
+
+
+def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_later(
+    show: Show, arm: Robot, tmp_path: Path
+) -> None:
+    (tmp_path / "other.urdf").touch()
+    body = SECOND.format(file="/home/ann/pkg/other.urdf")
+    session = show(body, files={"other.urdf": arm}, robot=None)
+    assert model_of(session).status.rows["URDF"].level == "Error"
+    session.show_robot(replace(arm, files=(tmp_path / "opened.urdf",)))
+    assert "b/tool" in session.tree.frames

@@ -185,7 +185,8 @@ class RobotModelDisplay(Display):
         """The robot to draw: the opened one, or the one of "Description File"."""
         source: tuple[object, ...]
         if self.config.get("Description Source") == "File":
-            source = ("File", str(self.config.get("Description File")))
+            # The file is looked for again when a robot is opened elsewhere.
+            source = ("File", str(self.config.get("Description File")), self._near())
         else:
             source = ("Topic", id(self.context.robot))
         if source != self._source:
@@ -203,9 +204,7 @@ class RobotModelDisplay(Display):
             return self.context.robot
         if not source[1] or self.context.load_file is None:
             return None
-        opened = self.context.robot
-        near = [file.parent for file in opened.files[:1]] if opened else []
-        path = find_description(str(source[1]), [*near, Path.cwd()])
+        path = find_description(str(source[1]), [*self._near(), Path.cwd()])
         if path is None:
             self.status.set("URDF", "Error", f"URDF is empty: no file '{source[1]}'")
             return None
@@ -215,6 +214,11 @@ class RobotModelDisplay(Display):
             text = "URDF failed Model parse"
             self.status.set("URDF", "Error", f"{text}: {error.problems[0].message}")
             return None
+
+    def _near(self) -> tuple[Path, ...]:
+        """The folder of the opened robot."""
+        opened = self.context.robot
+        return tuple(file.parent for file in opened.files[:1]) if opened else ()
 
     def _report(self, robot: Robot) -> None:
         rows: dict[str, Status] = {}
