@@ -111,3 +111,4 @@ def test_a_chain_of_two_thousand_links_needs_no_recursion() -> None:
     )
     robot = load_robot(f'<robot name="r">{links}{joints}</robot>')
     assert robot.forward_kinematics()[f"l{count}"][2, 3] == count
+    assert [p.code for p in robot.problems] == ["chain-too-long"]
