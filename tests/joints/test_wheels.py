@@ -180,3 +180,9 @@ def test_a_wheel_named_wrongly_is_told(robot: MakeRobot) -> None:
         find_wheel_pair(model, left="left", right="rigt")
     with pytest.raises(JointError, match=r"the right wheel's joint is not named"):
         find_wheel_pair(model, left="left")
+
+
+def test_nobody_guesses_the_driven_pair_of_a_hundred_wheels(robot: MakeRobot) -> None:
+    many = robot(*(wheel(f"w{i}", f"{i} 0 0") for i in range(100)))
+    with pytest.raises(JointError, match="100 continuous joints turn about level axes"):
+        find_wheel_pair(many)

@@ -18,6 +18,9 @@ _Vector = npt.NDArray[np.float64]
 _PARALLEL = 1e-3
 """Two directions count as one below this sine: URDFs write 1.5708 for a right angle."""
 
+MOST_WHEELS = 40
+"""With more level continuous joints than this nobody guesses the driven pair."""
+
 _SAME_LINE = 1e-3
 """Two axes count as one line below this distance [m]."""
 
@@ -115,7 +118,13 @@ def _best_pair(wheels: list[_Wheel]) -> tuple[_Wheel, _Wheel]:
             f"a differential drive needs two continuous joints; this robot has "
             f"{len(wheels)}"
         )
-    pairs = [pair for pair in combinations(wheels, 2) if _is_pair(*pair)]
+    level = [wheel for wheel in wheels if abs(wheel.axis[2]) <= _PARALLEL]
+    if len(level) > MOST_WHEELS:
+        raise JointError(
+            f"{len(level)} continuous joints turn about level axes, too many to guess "
+            "which are the driven wheels; name the left and the right one"
+        )
+    pairs = [pair for pair in combinations(level, 2) if _is_pair(*pair)]
     if not pairs:
         names = ", ".join(f"'{wheel.joint.name}'" for wheel in wheels)
         raise JointError(
@@ -129,7 +138,7 @@ def _is_pair(one: _Wheel, other: _Wheel) -> bool:
     between = other.point - one.point
     distance = float(np.linalg.norm(between))
     beside = float(np.linalg.norm(np.cross(between, one.axis)))
-    if distance < _SAME_LINE or beside > _SAME_LINE or abs(one.axis[2]) > _PARALLEL:
+    if distance < _SAME_LINE or beside > _SAME_LINE:
         return False
     if not _parallel(one.axis, other.axis):
         return False

@@ -101,7 +101,7 @@ class DisplaysPanel:
         with self._container:
             self._folder = gui.add_folder(None)
         with self._folder:
-            with gui.add_folder("Global Options", expand_by_default=False):
+            with gui.add_folder("Global Options"):
                 self._options = _ItemRows(
                     gui,
                     session.config.global_options,
