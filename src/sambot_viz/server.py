@@ -10,7 +10,6 @@ from typing import Literal, cast
 import viser
 
 from sambot_viz import compat
-from sambot_viz.advice import Advice
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.listening import close, listen, url_of
 from sambot_viz.panels.layout import Layout
@@ -19,7 +18,8 @@ from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session import Audience, Reloaded, Session
-from sambot_viz.session_setup import SessionSetup
+from sambot_viz.session.advice import Advice
+from sambot_viz.session.setup import SessionSetup
 
 SessionMode = Literal["shared", "private"]
 MakeConfig = Callable[[], RvizConfig]

@@ -12,7 +12,6 @@ import viser
 
 from sambot_viz import resources
 from sambot_viz.config import declarations, load_config
-from sambot_viz.drive_control import WheelOptions
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.find import find
 from sambot_viz.frames import FrameTree, Transform
@@ -25,7 +24,8 @@ from sambot_viz.robot.model import Robot, Vector3
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import Server, ServerOptions, SessionMode
 from sambot_viz.session import Session
-from sambot_viz.session_setup import make_setup, poses_beside
+from sambot_viz.session.drive_control import WheelOptions
+from sambot_viz.session.setup import make_setup, poses_beside
 
 PathLike = Path | str
 

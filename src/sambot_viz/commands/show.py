@@ -69,7 +69,7 @@ def run(words: list[str]) -> int:
         # From here on a browser can load the page; the rest is imported meanwhile.
         loading = in_thread(partial(wanted.load, found.model))
         waited_for.append(loading)
-        from sambot_viz.drive_control import WheelOptions
+        from sambot_viz.session.drive_control import WheelOptions
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer(

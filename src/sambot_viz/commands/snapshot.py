@@ -41,7 +41,7 @@ def run(words: list[str]) -> int:
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.snapshot import snapshot
     from sambot_viz.server import Server, ServerOptions
-    from sambot_viz.session_setup import SessionSetup
+    from sambot_viz.session.setup import SessionSetup
 
     with Chromium() as chromium:
         begin = SessionSetup(setup.start, setup.static_transforms)

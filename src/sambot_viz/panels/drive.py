@@ -15,12 +15,12 @@ import numpy as np
 import viser
 
 from sambot_viz.displays.display import any_gone, remove_all
-from sambot_viz.drive_control import ODOM
 from sambot_viz.errors import FrameError
-from sambot_viz.motion import HOLD
-from sambot_viz.pacer import Pacer
 from sambot_viz.panels.widgets import Input, finite, on_click, on_hold, watch
 from sambot_viz.session import Event, Session
+from sambot_viz.session.drive_control import ODOM
+from sambot_viz.session.motion import HOLD
+from sambot_viz.session.pacer import Pacer
 from sambot_viz.text import html_text
 
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0

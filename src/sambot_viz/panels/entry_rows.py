@@ -15,9 +15,9 @@ import viser
 
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.pacer import Pacer
 from sambot_viz.panels.widgets import Input, add_property, options, watch
 from sambot_viz.session import Session
+from sambot_viz.session.pacer import Pacer
 from sambot_viz.text import html_text, text
 
 NOBODY: str = "—"

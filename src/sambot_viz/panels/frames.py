@@ -11,9 +11,9 @@ from sambot_viz.errors import FrameError, UsageError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.static_transform import parse_static_transform
-from sambot_viz.pacer import Pacer
 from sambot_viz.panels.widgets import add_text, on_click, options, plain_text, watch
 from sambot_viz.session import Event, Session
+from sambot_viz.session.pacer import Pacer
 from sambot_viz.text import html_text, text
 
 SHOW_PERIOD = 0.25

@@ -11,8 +11,6 @@ from functools import partial
 
 import viser
 
-from sambot_viz.motion import HOLD
-from sambot_viz.pacer import Pacer
 from sambot_viz.panels.joint_arrow import JointArrow
 from sambot_viz.panels.joint_notes import as_text, factor_of, notes_html, unit_of
 from sambot_viz.panels.pose_folder import PoseFolder
@@ -26,6 +24,8 @@ from sambot_viz.panels.widgets import (
 )
 from sambot_viz.robot.model import Joint
 from sambot_viz.session import Event, Session
+from sambot_viz.session.motion import HOLD
+from sambot_viz.session.pacer import Pacer
 from sambot_viz.text import text
 
 MIRROR_PERIOD = 0.2

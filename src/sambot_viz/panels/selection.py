@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Sequence
 import viser
 
 from sambot_viz.frames import LookupRefused
-from sambot_viz.pacer import Pacer
 from sambot_viz.panels.widgets import add_property, frame_choices
 from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Place, Sphere
 from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
 from sambot_viz.session import Event, Session
+from sambot_viz.session.pacer import Pacer
 from sambot_viz.text import html_text, text
 from sambot_viz.tools.tool import Thing
 

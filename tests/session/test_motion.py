@@ -11,8 +11,8 @@ from inside import node_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import JointError, Visualizer
-from sambot_viz.motion import Motion
 from sambot_viz.session import Session
+from sambot_viz.session.motion import Motion
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 TRANSFORMS = ("SetOrientationMessage", "SetPositionMessage")

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 import viser
 
-from sambot_viz.pacer import Pacer
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
 from sambot_viz.rviz.declared import Findings
 from sambot_viz.rviz.nodes import copied_map
+from sambot_viz.session.pacer import Pacer
 from sambot_viz.views.browser_camera import BrowserCamera, same_picture
 from sambot_viz.views.camera import Camera, Vector, subtract
 from sambot_viz.views.orbit import OrbitView

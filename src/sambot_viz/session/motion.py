@@ -11,8 +11,8 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sambot_viz.drive_control import DriveControl
 from sambot_viz.joints.animation import turn
+from sambot_viz.session.drive_control import DriveControl
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session

@@ -17,7 +17,6 @@ from typing import Any, Literal, Protocol
 import numpy as np
 import viser
 
-from sambot_viz.added_frames import AddedFrames
 from sambot_viz.displays.assets import Reader, SessionAssets
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.frame_nodes import FrameNodes, short_id
@@ -25,19 +24,19 @@ from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.status import Status
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints import JointState
 from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.start import StartPose
-from sambot_viz.motion import Motion
-from sambot_viz.pacer import Pacer
-from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.meshes import MeshStore
 from sambot_viz.robot.model import Matrix, Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
-from sambot_viz.tool_control import ToolControl
-from sambot_viz.view_control import ViewControl
+from sambot_viz.session.added_frames import AddedFrames
+from sambot_viz.session.motion import Motion
+from sambot_viz.session.pacer import Pacer
+from sambot_viz.session.posed_robot import PosedRobot
+from sambot_viz.session.tool_control import ToolControl
+from sambot_viz.session.view_control import ViewControl
 
 Event = Literal[
     "robot", "config", "frames", "joints", "status", "problems", "view", "tools"
@@ -85,20 +84,16 @@ class Session:
         self.loop = loop
         self.audience = audience
         self.config = config
-        self.robot: Robot | None = None
-        self.joints: JointState | None = None
         self.tree = FrameTree()
         self.displays: list[Display] = []
         self.problems: tuple[Problem, ...] = ()
         self.reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self.listeners: list[Listener] = []
-        self._kinematics: Kinematics | None = None
         self.start = StartPose()
         self.poses = Presets()
         self.added = AddedFrames(self.tree)
+        self._posed = PosedRobot(self.tree, self.added)
         self._of_frames: tuple[Problem, ...] = ()
-        self._swept: dict[str, Matrix] = {}
-        self._moved: dict[str, None] = {}
         self._keys = 0
         self._drawn_tree = self.tree.version
         self._background: tuple[int, int, int] | None = None
@@ -144,41 +139,35 @@ class Session:
     def show_robot(self, robot: Robot) -> None:
         """Show a robot, or the same after an edit: joints keep their values."""
         with self.change("robot"):
-            self.robot = self.context.robot = robot
+            self.context.robot = robot
             self.context.assets.look_again()
-            self._kinematics = Kinematics(robot)
-            if self.joints is None:
-                self.joints = self.start.state(robot)
-            else:
-                self.joints.reload(robot)
+            self._posed.take(robot, self.start)
             self.motion.drive.take(robot)
-            refused = self._build_tree(robot, self._kinematics, self.joints)
+            refused = self._build_tree()
             self._take_globals()
             wheels = self.motion.drive.problems
             self._of_frames = (*floating_problems(robot), *refused, *wheels)
-            self.set_problems((*robot.problems, *self.joints.problems))
+            of_joints = self.joints.problems if self.joints else ()
+            self.set_problems((*robot.problems, *of_joints))
             self._frames_changed()
 
-    def _build_tree(
-        self, robot: Robot, kinematics: Kinematics, joints: JointState
-    ) -> tuple[Problem, ...]:
-        """The frames of the robot, then the added ones again; why some cannot be."""
-        positions = joints.all_positions()
-        self.tree.clear()
-        self.tree.declare(robot.root)
-        for name, joint in robot.joints.items():
-            T = kinematics.joint_transform(name, positions.get(name, joint.start))
-            set_transform = self.tree.set if joint.movable else self.tree.set_static
-            set_transform(joint.parent, joint.child, Transform.trusted(T))
-        refused = self.added.set_again()
+    def _build_tree(self) -> tuple[Problem, ...]:
+        """All frames anew; why some that were added cannot be."""
+        refused = self._posed.build_tree()
         for display in self.displays:
             display.publish()
-        self.context.moving = {
-            plain_name(joint.child): joint.type
-            for joint in robot.joints.values()
-            if joint.movable
-        }
+        self.context.moving = self._posed.moving
         return refused
+
+    @property
+    def robot(self) -> Robot | None:
+        """What is shown, or None before the first robot."""
+        return self._posed.robot
+
+    @property
+    def joints(self) -> JointState | None:
+        """The positions of its joints; move them with the methods of the session."""
+        return self._posed.joints
 
     # Changing
 
@@ -220,22 +209,22 @@ class Session:
         """
         with self.lock:
             if self.joints is not None:
-                self._mark_moved(self.joints.set_all(positions))
-            self._swept.update(frames)
+                self._posed.mark(self.joints.set_all(positions))
+            self._posed.sweep(frames)
         self._pacer.request()
 
     def center_joints(self) -> None:
         """All joints to their start values."""
         with self.lock:
             if self.joints is not None:
-                self._mark_moved(self.joints.center())
+                self._posed.mark(self.joints.center())
         self._pacer.request()
 
     def randomize_joints(self, seed: int | None = None) -> None:
         """All joints to random values of their ranges."""
         with self.lock:
             if self.joints is not None:
-                self._mark_moved(self.joints.randomize(seed))
+                self._posed.mark(self.joints.randomize(seed))
         self._pacer.request()
 
     def set_static_transform(
@@ -258,7 +247,7 @@ class Session:
         """
         with self.change("frames"):
             self.added.set(parent, child, transform, static=static)
-            self._swept.pop(plain_name(child), None)
+            self._posed.forget_sweep(child)
             self._frames_changed()
 
     def remove_frame(self, child: str) -> None:
@@ -269,10 +258,9 @@ class Session:
         """
         with self.change("frames"):
             self.added.forget(child)
-            self._swept.pop(plain_name(child), None)
-            if self.robot and self._kinematics and self.joints:
-                # The robot's own joint may have held that frame before.
-                self._build_tree(self.robot, self._kinematics, self.joints)
+            self._posed.forget_sweep(child)
+            # The robot's own joint may have held that frame before.
+            self._build_tree()
             self._frames_changed()
 
     def set_global(self, name: str, value: Any) -> None:
@@ -343,32 +331,13 @@ class Session:
 
     # Inside
 
-    def _mark_moved(self, joints: Sequence[str]) -> None:
-        self._moved.update(dict.fromkeys(joints))
-
     def _draw_moved(self) -> None:
-        """Send the poses of all joints that moved since the last time."""
+        """Send the poses of all that moved since the last time."""
         with self.lock:
-            robot, kinematics, state = self.robot, self._kinematics, self.joints
-            moved, self._moved = list(self._moved), {}
-            swept, self._swept = self._swept, {}
-            if robot is None or kinematics is None or state is None:
-                return
-            if not moved and not swept:
-                return
-            positions = state.all_positions()
             with self.audience.atomic():
-                frames = {
-                    plain_name(robot.joints[name].child): kinematics.joint_transform(
-                        name, positions[name]
-                    )
-                    for name in moved
-                    if plain_name(robot.joints[name].child) not in self.added
-                }
-                frames |= swept
-                self.tree.update(frames)
-                for frame, T in swept.items():
-                    self.added.moved(frame, Transform.trusted(T))
+                frames = self._posed.settle()
+                if not frames:
+                    return
                 self.context.nodes.place(self.tree, self.context.fixed_frame, frames)
                 for display in self.displays:
                     display.frames_moved(frames)
@@ -404,11 +373,8 @@ class Session:
 
     def _apply_boxes(self) -> None:
         """Show what is ticked itself and in all groups above it."""
-        on: dict[int, bool] = {}
-        for item, above in walk_with_groups(self.config.displays):
-            on[id(item)] = item.enabled and all(group.enabled for group in above)
         for display in self.displays:
-            display.show(on[id(display.config)])
+            display.show(display.config.active)
 
     def _next_key(self) -> str:
         """A name that begins no other display's node names."""
@@ -422,14 +388,6 @@ class Session:
 
 def walk(items: Sequence[DisplayConfig]) -> Iterator[DisplayConfig]:
     """All displays of a tree, groups before their members."""
-    for item, _ in walk_with_groups(items):
-        yield item
-
-
-def walk_with_groups(
-    items: Sequence[DisplayConfig], above: tuple[DisplayConfig, ...] = ()
-) -> Iterator[tuple[DisplayConfig, tuple[DisplayConfig, ...]]]:
-    """All displays of a tree, each with the groups it is in."""
     for item in items:
-        yield item, above
-        yield from walk_with_groups(item.displays, (*above, item))
+        yield item
+        yield from walk(item.displays)

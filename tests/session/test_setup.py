@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import JointError, Visualizer, resources
-from sambot_viz.drive_control import WheelOptions
-from sambot_viz.session_setup import poses_beside
+from sambot_viz.session.drive_control import WheelOptions
+from sambot_viz.session.setup import poses_beside
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 

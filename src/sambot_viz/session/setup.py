@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from sambot_viz import resources
-from sambot_viz.drive_control import WheelOptions
 from sambot_viz.frames.static_transform import StaticTransform, parse_static_transform
 from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.start import StartPose
 from sambot_viz.joints.values import load_joint_state
 from sambot_viz.session import Session
+from sambot_viz.session.drive_control import WheelOptions
 
 
 @dataclass(frozen=True, slots=True)
