@@ -12,6 +12,7 @@ from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
+from sambot_viz.panels.joints import slider_step
 
 Join = Callable[[Visualizer], ProtocolClient]
 LEFT = "drivewhl_l_joint"
@@ -214,3 +215,14 @@ def test_the_arrow_of_the_positive_direction_comes_with_the_second_step(
     client.set_value(slider, 0.6)
     client.set_value(slider, 0.7)
     client.wait_until(lambda: arrows() == 1)
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper"),
+    [(-math.pi, math.pi), (-1.9198, 0.5), (-0.02, 3.0), (-180.0, 180.0), (-1e-4, 2e-4)],
+)
+def test_zero_is_a_step_of_every_slider_that_has_it(lower: float, upper: float) -> None:
+    step = slider_step(lower, upper)
+    steps = -lower / step
+    assert steps == pytest.approx(round(steps), abs=1e-6)
+    assert (upper - lower) / 20000 < step < (upper - lower) / 500

@@ -257,8 +257,13 @@ class JointsPanel:
 
 
 def slider_step(lower: float, upper: float) -> float:
-    """A power of ten, a few thousand of which make the range: 0.001 for ±π."""
-    return 10.0 ** (math.floor(math.log10(max(upper - lower, 1e-9))) - 3)
+    """Near a power of ten, a few thousand of which make the range: 0.001 for ±π.
+
+    Steps are counted from the lower end, so the step is made a little smaller where
+    0 would otherwise lie between two of them.
+    """
+    step = 10.0 ** (math.floor(math.log10(max(upper - lower, 1e-9))) - 3)
+    return -lower / math.ceil(-lower / step - 1e-9) if lower < 0 < upper else step
 
 
 def _seed(value: object) -> str:
