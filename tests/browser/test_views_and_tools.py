@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -72,6 +73,16 @@ def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
     raise AssertionError("the server never came to know")
 
 
+def chosen(session: Session, viewer: ViewerPage, label: str) -> None:
+    """Wait until a tool is current, on the server and in the page: a click that comes
+    before the page has heard what to do with clicks is lost."""
+    tools = session.tools
+    until(viewer, lambda: tools.current.label == label)
+    said = json.dumps((tools.status or tools.current.help)[:30])
+    viewer.wait_for(f"document.body.innerText.includes({said})")
+    viewer.wait_until_drawn()
+
+
 def value(session: Session, path: str) -> Any:
     return session.views.view.config.get(path)
 
@@ -121,7 +132,7 @@ def test_keys_choose_tools_and_clicks_select_and_measure(
 ) -> None:
     keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, session.tools
     keyboard.press("s")
-    until(viewer, lambda: tools.current.label == "Select")
+    chosen(session, viewer, "Select")
     mouse.click(*place(viewer, (0.0, 0.0, 0.09)))
     until(viewer, lambda: [t.name for t in tools.selection] == ["base_link"])
     yaw = value(session, "Yaw")
@@ -130,9 +141,9 @@ def test_keys_choose_tools_and_clicks_select_and_measure(
     until(viewer, lambda: len(tools.selection) > 1)
     assert value(session, "Yaw") == yaw, "a rectangle turns nothing"
     keyboard.press("Escape")
-    until(viewer, lambda: tools.current.label == "Move Camera")
+    chosen(session, viewer, "Move Camera")
     keyboard.press("n")
-    until(viewer, lambda: tools.current.label == "Measure")
+    chosen(session, viewer, "Measure")
     mouse.click(*place(viewer, (0.5, 0.3, 0.0)))
     until(viewer, lambda: "second point" in tools.status)
     mouse.drag(SKY, (SKY[0] - 20, SKY[1]))

@@ -263,7 +263,9 @@ def slider_step(lower: float, upper: float) -> float:
     0 would otherwise lie between two of them.
     """
     step = 10.0 ** (math.floor(math.log10(max(upper - lower, 1e-9))) - 3)
-    return -lower / math.ceil(-lower / step - 1e-9) if lower < 0 < upper else step
+    if not (lower <= -step and upper > 0):
+        return step
+    return -lower / math.ceil(-lower / step - 1e-9)
 
 
 def _seed(value: object) -> str:
