@@ -6,17 +6,13 @@ unlit, blended, without depth writes, as RViz draws its grid.
 
 from __future__ import annotations
 
-import json
-import struct
-
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.solids import OPAQUE_FROM, linear
+from sambot_viz.robot.mesh.glb import glb_file
 
-_GLB_MAGIC, _JSON_CHUNK, _BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 _FLOAT, _LINES = 5126, 1
-
 
 MOST_PIECES = 20000
 """More pieces than this are not made of lines (0.5 MB)."""
@@ -93,15 +89,4 @@ def lines_glb(
             }
         ],
     }
-    text = json.dumps(document, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + points.nbytes
-    return b"".join(
-        (
-            struct.pack("<III", _GLB_MAGIC, 2, total),
-            struct.pack("<II", len(text), _JSON_CHUNK),
-            text,
-            struct.pack("<II", points.nbytes, _BINARY_CHUNK),
-            points.tobytes(),
-        )
-    )
+    return glb_file(document, points.tobytes())

@@ -16,6 +16,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.poses import Position, Wxyz, wxyz_from_z
+from sambot_viz.robot.mesh.glb import linear_light
 from sambot_viz.robot.mesh.primitives import (
     Primitive,
     unit_cone,
@@ -32,15 +33,14 @@ _AXIS_WXYZ = ((_HALF, 0.0, _HALF, 0.0), (_HALF, -_HALF, 0.0, 0.0), (1.0, 0.0, 0.
 _AXIS_COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
+def linear(channel: int) -> float:
+    """An 8-bit sRGB channel in linear colour space, 0 to 1."""
+    return linear_light(channel / 255)
+
+
 def opacity_of(alpha: float) -> float | None:
     """An alpha as viser's opacity: None (no blending) from 0.9998 on, as RViz."""
     return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
-
-
-def linear(channel: int) -> float:
-    """An 8-bit sRGB channel in linear colour space, 0 to 1."""
-    c = channel / 255
-    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -131,7 +131,12 @@ class _Writer:
         red, green, blue, opacity = rgba or part.rgba or WHITE
         opacity *= alpha
         pbr: dict[str, Any] = {
-            "baseColorFactor": [_linear(red), _linear(green), _linear(blue), opacity],
+            "baseColorFactor": [
+                linear_light(red),
+                linear_light(green),
+                linear_light(blue),
+                opacity,
+            ],
             "metallicFactor": 0.0,
             "roughnessFactor": 1.0,
         }
@@ -172,23 +177,35 @@ class _Writer:
             document["textures"] = [
                 {"source": number, "sampler": 0} for number in range(len(self.images))
             ]
-        text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-        text += b" " * (-len(text) % 4)
-        body = b"".join(self.chunks)
-        total = 12 + 8 + len(text) + 8 + len(body)
-        return b"".join(
-            [
-                struct.pack("<4sII", b"glTF", 2, total),
-                struct.pack("<I4s", len(text), b"JSON"),
-                text,
-                struct.pack("<I4s", len(body), b"BIN\0"),
-                body,
-            ]
-        )
+        return glb_file(document, b"".join(self.chunks))
 
 
-def _linear(value: float) -> float:
-    """A colour value as it is shown → the linear light that glTF stores."""
+def glb_file(document: dict[str, Any], body: bytes) -> bytes:
+    """A GLB container.
+
+    Args:
+        document: the glTF document.
+        body: its one binary buffer, padded to a multiple of 4.
+
+    Raises:
+        ValueError: a number of the document is not finite.
+    """
+    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-len(text) % 4)
+    total = 12 + 8 + len(text) + 8 + len(body)
+    return b"".join(
+        [
+            struct.pack("<4sII", b"glTF", 2, total),
+            struct.pack("<I4s", len(text), b"JSON"),
+            text,
+            struct.pack("<I4s", len(body), b"BIN\0"),
+            body,
+        ]
+    )
+
+
+def linear_light(value: float) -> float:
+    """A colour value as it is shown, 0 to 1 → the linear light that glTF stores."""
     return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
 
 
