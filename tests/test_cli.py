@@ -180,7 +180,7 @@ def test_a_package_folder_shows_its_own_model_and_config(
     model.write_text('<robot name="my"><link name="hull"/></robot>')
     config = repository / "rviz" / "urdf_config.rviz"
     (package / "rviz" / "view.rviz").write_text(config.read_text())
-    from sambot_viz.find import find
+    from sambot_viz.bundled import find
 
     found = find(package)
     assert (found.model, found.config) == (model, package / "rviz" / "view.rviz")

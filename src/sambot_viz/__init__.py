@@ -13,7 +13,6 @@ from sambot_viz._version import __version__
 
 if TYPE_CHECKING:
     from sambot_viz.checks import check
-    from sambot_viz.config import load_config
     from sambot_viz.errors import (
         ConfigError,
         FrameError,
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
         UsageError,
     )
     from sambot_viz.frames import Transform
+    from sambot_viz.open_config import load_config
     from sambot_viz.robot import load_robot
     from sambot_viz.robot.model import Joint, Link, Robot
     from sambot_viz.rviz import RvizConfig
@@ -46,7 +46,7 @@ _HOMES = {
     "UsageError": "errors",
     "Visualizer": "visualizer",
     "check": "checks",
-    "load_config": "config",
+    "load_config": "open_config",
     "load_robot": "robot",
 }
 

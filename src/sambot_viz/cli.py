@@ -13,7 +13,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from sambot_viz import report
+from sambot_viz import problem_text
 from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageError
 
 OK, ERRORS, USAGE, FAULT = 0, 1, 2, 3
@@ -37,7 +37,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         command = importlib.import_module(f"sambot_viz.commands.{name}")
         return int(command.run(words))
     except (RobotError, ConfigError) as error:
-        report.write(error.problems)
+        problem_text.write(error.problems)
         return ERRORS
     except UsageError as error:
         return _complain(error, USAGE)

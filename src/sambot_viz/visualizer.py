@@ -10,22 +10,22 @@ from types import MappingProxyType, TracebackType
 
 import viser
 
-from sambot_viz import resources
-from sambot_viz.config import declarations, load_config
+from sambot_viz import bundled
+from sambot_viz.background import Loading, finished, in_thread
+from sambot_viz.bundled import find
 from sambot_viz.errors import Problem, ServerError
-from sambot_viz.find import find
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.static_transform import StaticTransform
-from sambot_viz.loading import Loading, finished, in_thread
-from sambot_viz.reload import Documents, Reloader
-from sambot_viz.robot.loading import load_robot
+from sambot_viz.open_config import declarations, load_config
+from sambot_viz.robot.load import load_robot
 from sambot_viz.robot.model import Robot, Vector3
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.server import Server, ServerOptions, SessionMode
+from sambot_viz.server.reload import Documents, Reloader
+from sambot_viz.server.server import Server, ServerOptions, SessionMode
 from sambot_viz.session import Session
 from sambot_viz.session.drive_control import WheelOptions
-from sambot_viz.session.setup import make_setup, poses_beside
+from sambot_viz.session.start_state import make_setup, poses_beside
 
 PathLike = Path | str
 
@@ -115,8 +115,8 @@ class Visualizer:
         else:
             loading = in_thread(partial(self._load, found.model))
         document = config if isinstance(config, RvizConfig) else None
-        bundled = document is None and found.config is None
-        document = document or load_config(found.config or resources.config_path())
+        no_config = document is None and found.config is None
+        document = document or load_config(found.config or bundled.config_path())
         _set_fixed_frame(document, fixed_frame)
         beside = None if isinstance(model, Robot) else poses_beside(found.model)
         setup = make_setup(
@@ -135,7 +135,7 @@ class Visualizer:
         self._reloader: Reloader | None = None
         try:
             robot = loading.result()
-            if bundled and fixed_frame is None:
+            if no_config and fixed_frame is None:
                 _fit_fixed_frame(document, robot)
             self._server.show_robot(robot)
             if watch:

@@ -11,7 +11,7 @@ import pytest
 import xacro  # pyright: ignore[reportMissingTypeStubs]
 import yaml
 
-from sambot_viz import resources
+from sambot_viz import bundled
 
 COLLISION = "sam_bot_collision.urdf.xacro"
 
@@ -102,7 +102,7 @@ def inertial(robot: ElementTree.Element, link: str) -> tuple[float, list[float]]
 
 
 def test_sam_bot_is_the_robot_of_the_tutorial(shared: Path) -> None:
-    ours = expand(resources.model_path())
+    ours = expand(bundled.model_path())
     seed = expand(shared / "data" / "seed" / "sam_bot.urdf.xacro")
     assert ours.get("name") == seed.get("name") == "sam_bot"
     assert list(links(ours)) == list(links(seed))
@@ -115,20 +115,20 @@ def test_sam_bot_is_the_robot_of_the_tutorial(shared: Path) -> None:
 
 def test_sam_bot_needs_no_file_beside_it(tmp_path: Path) -> None:
     alone = tmp_path / "mine.xacro"
-    alone.write_bytes(resources.model_path().read_bytes())
+    alone.write_bytes(bundled.model_path().read_bytes())
     assert len(links(expand(alone))) == 5
 
 
 def test_the_collision_step_is_the_same_robot() -> None:
     first, next_step = map(
-        expand, (resources.model_path(), resources.model_path(COLLISION))
+        expand, (bundled.model_path(), bundled.model_path(COLLISION))
     )
     assert links(first) == links(next_step)
     assert joints(first) == joints(next_step)
 
 
 def test_every_collision_shape_equals_the_visual_of_its_link() -> None:
-    robot = expand(resources.model_path(COLLISION))
+    robot = expand(bundled.model_path(COLLISION))
     compared: list[str] = []
     for link in robot.findall("link"):
         visuals = [shape(element) for element in link.findall("visual")]
@@ -143,7 +143,7 @@ def test_every_collision_shape_equals_the_visual_of_its_link() -> None:
 
 
 def test_the_base_has_the_inertia_of_a_box() -> None:
-    mass, diagonal = inertial(expand(resources.model_path(COLLISION)), "base_link")
+    mass, diagonal = inertial(expand(bundled.model_path(COLLISION)), "base_link")
     x, y, z = 0.42, 0.31, 0.18
     assert mass == 15.0
     assert diagonal == pytest.approx(
@@ -153,7 +153,7 @@ def test_the_base_has_the_inertia_of_a_box() -> None:
 
 @pytest.mark.parametrize("wheel", ["drivewhl_l_link", "drivewhl_r_link"])
 def test_a_wheel_has_the_inertia_of_a_cylinder_along_its_axle(wheel: str) -> None:
-    robot = expand(resources.model_path(COLLISION))
+    robot = expand(bundled.model_path(COLLISION))
     mass, diagonal = inertial(robot, wheel)
     across = 0.5 / 12 * (3 * 0.1**2 + 0.04**2)
     assert mass == 0.5
@@ -164,13 +164,13 @@ def test_a_wheel_has_the_inertia_of_a_cylinder_along_its_axle(wheel: str) -> Non
 
 
 def test_the_caster_has_the_inertia_of_a_ball() -> None:
-    mass, diagonal = inertial(expand(resources.model_path(COLLISION)), "front_caster")
+    mass, diagonal = inertial(expand(bundled.model_path(COLLISION)), "front_caster")
     assert mass == 0.5
     assert diagonal == pytest.approx([2 / 5 * 0.5 * 0.06**2] * 3)
 
 
 def test_a_box_inertia_agrees_with_a_box_of_many_small_pieces() -> None:
-    _, diagonal = inertial(expand(resources.model_path(COLLISION)), "base_link")
+    _, diagonal = inertial(expand(bundled.model_path(COLLISION)), "base_link")
     axes = [(np.arange(60) + 0.5) / 60 * side - side / 2 for side in (0.42, 0.31, 0.18)]
     x, y, z = np.meshgrid(*axes)
     sums = [np.mean(y**2 + z**2), np.mean(x**2 + z**2), np.mean(x**2 + y**2)]
@@ -178,7 +178,7 @@ def test_a_box_inertia_agrees_with_a_box_of_many_small_pieces() -> None:
 
 
 def test_mbot_stands_on_the_ground_with_lidar_and_camera() -> None:
-    robot = expand(resources.model_path("mbot.urdf.xacro"))
+    robot = expand(bundled.model_path("mbot.urdf.xacro"))
     assert robot.get("name") == "mbot"
     assert list(links(robot)) == [
         "base_footprint",
@@ -201,13 +201,13 @@ def test_mbot_stands_on_the_ground_with_lidar_and_camera() -> None:
 
 
 def test_mbot_can_leave_its_sensors_out() -> None:
-    path = resources.model_path("mbot.urdf.xacro")
+    path = bundled.model_path("mbot.urdf.xacro")
     robot = expand(path, lidar="false", camera="false")
     assert {"laser_link", "camera_link"}.isdisjoint(links(robot))
 
 
 def test_every_link_of_mbot_with_a_shape_has_mass() -> None:
-    robot = expand(resources.model_path("mbot.urdf.xacro"))
+    robot = expand(bundled.model_path("mbot.urdf.xacro"))
     for link in robot.findall("link"):
         if link.find("visual") is not None:
             mass, diagonal = inertial(robot, link.get("name", ""))
@@ -218,12 +218,12 @@ def test_every_link_of_mbot_with_a_shape_has_mass() -> None:
 
 def test_the_tutorial_config_is_the_one_that_users_have(shared: Path) -> None:
     seed = (shared / "data" / "seed" / "urdf_config.rviz").read_text("utf-8")
-    assert yaml.safe_load(resources.config_path().read_text("utf-8")) == (
+    assert yaml.safe_load(bundled.config_path().read_text("utf-8")) == (
         yaml.safe_load(seed)
     )
 
 
 def test_the_config_of_mbot_starts_at_a_frame_of_mbot() -> None:
-    config = yaml.safe_load(resources.config_path("mbot.rviz").read_text("utf-8"))
+    config = yaml.safe_load(bundled.config_path("mbot.rviz").read_text("utf-8"))
     fixed = config["Visualization Manager"]["Global Options"]["Fixed Frame"]
-    assert fixed in links(expand(resources.model_path("mbot.urdf.xacro")))
+    assert fixed in links(expand(bundled.model_path("mbot.urdf.xacro")))

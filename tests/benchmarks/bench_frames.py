@@ -16,8 +16,8 @@ import pytest
 
 from sambot_viz import Robot, load_robot
 from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.frames.export.svg import tree_svg
 from sambot_viz.frames.robot_frames import robot_frames
-from sambot_viz.frames.svg import tree_svg
 from sambot_viz.joints import JointState
 from sambot_viz.robot.kinematics import Kinematics
 

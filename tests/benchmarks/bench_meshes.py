@@ -14,7 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sambot_viz.robot.meshes import MeshError, MeshStore, read_mesh, to_glb
+from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.meshes.glb import to_glb
+from sambot_viz.meshes.mesh import MeshError
+from sambot_viz.meshes.read_mesh import read_mesh
 
 pytestmark = pytest.mark.benchmark
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer, resources
+from sambot_viz import Visualizer, bundled
 
 pytestmark = pytest.mark.benchmark
 LIMIT = 0.5
@@ -23,7 +23,7 @@ def test_a_save_of_sam_bot_reaches_the_browser_in_half_a_second(
     protocol: Callable[[int], ProtocolClient],
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    shutil.copytree(resources.assets_folder(), tmp_path, dirs_exist_ok=True)
+    shutil.copytree(bundled.assets_folder(), tmp_path, dirs_exist_ok=True)
     model = tmp_path / "sam_bot.urdf.xacro"
     content = model.read_text("utf-8")
     width = '<xacro:property name="base_width" value="0.31"/>'

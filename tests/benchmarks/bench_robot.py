@@ -19,8 +19,9 @@ import pytest
 import yaml
 
 from sambot_viz import Robot, RobotError, load_robot
+from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.meshes.mesh import MeshError
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.meshes import MeshError, MeshStore
 from sambot_viz.robot.model import MeshFile
 
 pytestmark = pytest.mark.benchmark

@@ -12,7 +12,7 @@ import viser
 from sambot_viz import page
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
-from sambot_viz.listening import close, listen
+from sambot_viz.server.bind import close, listen
 
 PARTS = 1000
 # Seconds for twenty pictures of a scene that is drawn again and again.

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from sambot_viz import resources
+from sambot_viz import bundled
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
@@ -70,7 +70,7 @@ def plain_urdf(tmp_path_factory: pytest.TempPathFactory) -> str:
 
     reader: Any = xacro
     path = tmp_path_factory.mktemp("model") / "sam_bot.urdf"
-    path.write_text(reader.process_file(str(resources.model_path())).toxml(), "utf-8")
+    path.write_text(reader.process_file(str(bundled.model_path())).toxml(), "utf-8")
     return str(path)
 
 

@@ -11,7 +11,7 @@ import yaml
 from inside import node_of
 from viewer_page import Pixels, ViewerPage
 
-from sambot_viz import Visualizer, resources
+from sambot_viz import Visualizer, bundled
 
 pytestmark = pytest.mark.browser
 
@@ -23,7 +23,7 @@ LINK = "drivewhl_l_link"
 @pytest.fixture
 def viz(tmp_path: Path) -> Iterator[Visualizer]:
     """sam_bot, seen from the left and near enough to see a wheel turn."""
-    config = yaml.safe_load(resources.config_path().read_text("utf-8"))
+    config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     view = config["Visualization Manager"]["Views"]["Current"]
     view |= {"Distance": 1.2, "Yaw": 1.9, "Pitch": 0.4}
     path = tmp_path / "near.rviz"

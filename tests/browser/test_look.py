@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, load_config, resources
+from sambot_viz import Visualizer, bundled, load_config
 
 pytestmark = pytest.mark.browser
 
@@ -20,7 +20,7 @@ BACKGROUND, TOP, SIDE = (48, 48, 48), (19, 127, 127), (19, 96, 96)
 @pytest.fixture
 def viz() -> Iterator[Visualizer]:
     """A translucent sam_bot with its names, seen from RViz's default direction."""
-    config = load_config(resources.config_path())
+    config = load_config(bundled.config_path())
     config.view.set("Distance", 1.5)
     for display in config.displays:
         if display.name == "RobotModel":

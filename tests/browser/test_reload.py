@@ -11,7 +11,7 @@ import pytest
 from inside import node_of
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, resources
+from sambot_viz import Visualizer, bundled
 
 pytestmark = pytest.mark.browser
 
@@ -21,7 +21,7 @@ NOTE = "Showing the last good version"
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
-    shutil.copytree(resources.assets_folder(), tmp_path, dirs_exist_ok=True)
+    shutil.copytree(bundled.assets_folder(), tmp_path, dirs_exist_ok=True)
     return tmp_path / "sam_bot.urdf.xacro"
 
 

@@ -12,7 +12,7 @@ import yaml
 from inside import node_of
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, resources
+from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
 
 pytestmark = pytest.mark.browser
@@ -25,7 +25,7 @@ SKY = (640.0, 80.0)
 @pytest.fixture
 def viz(tmp_path: Path) -> Iterator[Visualizer]:
     """sam_bot without axes, seen from above and near."""
-    config = yaml.safe_load(resources.config_path().read_text("utf-8"))
+    config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     manager = config["Visualization Manager"]
     manager["Displays"] = [
         d for d in manager["Displays"] if not d["Class"].endswith("/TF")

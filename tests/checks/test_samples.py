@@ -12,7 +12,7 @@ import sambot_viz
 from sambot_viz.checks.registry import RULES
 from sambot_viz.checks.rules_page import PAGE, rules_page
 from sambot_viz.checks.samples import Sample, all_samples, problems_of
-from sambot_viz.robot.xml_tokens import SlipKind
+from sambot_viz.robot.xml.diagnose.lexer import SlipKind
 
 CODE = re.compile(r"[a-z0-9]+(-[a-z0-9]+)+")
 TELLING = {

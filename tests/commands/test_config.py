@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from sambot_viz.bundled import config_path
 from sambot_viz.cli import main
-from sambot_viz.resources import config_path
 
 Capture = pytest.CaptureFixture[str]
 

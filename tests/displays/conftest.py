@@ -9,10 +9,10 @@ import pytest
 import viser
 
 from sambot_viz import load_robot
-from sambot_viz.config import declarations
+from sambot_viz.open_config import declarations
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.server import Server, ServerOptions
+from sambot_viz.server.server import Server, ServerOptions
 from sambot_viz.session import Session
 
 ARM = """

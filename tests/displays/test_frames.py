@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import viser
 
-from sambot_viz.displays.tf import TfDisplay
+from sambot_viz.displays.tf.tf import TfDisplay
 from sambot_viz.frames import Transform
 from sambot_viz.session import Session
 

@@ -136,8 +136,8 @@ def recorded(name: str) -> tuple[Path, dict[str, Any], Image, Mask]:
 def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image:
     """Our picture, of the size of the recording, through the config's own view."""
     from sambot_viz import load_config, load_robot
-    from sambot_viz.export.snapshot import snapshot
-    from sambot_viz.server import Server, ServerOptions
+    from sambot_viz.export.view_picture import snapshot
+    from sambot_viz.server.server import Server, ServerOptions
 
     config = load_config(folder / "config.rviz")
     packages = [COLLECTION / "golden_meshes"] if COLLECTION.is_dir() else []

@@ -53,8 +53,8 @@ def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> Non
     from PIL import Image
 
     from sambot_viz import load_config, load_robot
-    from sambot_viz.export.snapshot import snapshot
-    from sambot_viz.server import Server, ServerOptions
+    from sambot_viz.export.view_picture import snapshot
+    from sambot_viz.server.server import Server, ServerOptions
 
     folder = DATA / name
     golden = np.asarray(Image.open(folder / "render.png").convert("RGB"), np.int16)

@@ -35,15 +35,15 @@ def main() -> None:
 def find_what_is_bundled() -> None:
     """The package is the installed one, typed, with its robots and configs."""
     import sambot_viz
-    from sambot_viz import resources
+    from sambot_viz import bundled
 
     package = Path(sambot_viz.__file__).parent
     expect(package.is_relative_to(ENVIRONMENT), f"imported from {package}")
     expect((package / "py.typed").is_file(), "py.typed is missing")
     expect((package / "page" / "rviz_look.js").is_file(), "the page script is missing")
-    expect(len(resources.model_names()) >= 3, "models are missing")
-    expect(len(resources.config_names()) >= 2, "configs are missing")
-    for path in (resources.model_path(), resources.config_path()):
+    expect(len(bundled.model_names()) >= 3, "models are missing")
+    expect(len(bundled.config_names()) >= 2, "configs are missing")
+    for path in (bundled.model_path(), bundled.config_path()):
         expect(path.is_relative_to(package), f"{path} is not in the package")
 
 
@@ -55,10 +55,10 @@ def ask_for_version() -> None:
 
 def check_bundled_models() -> None:
     """No bundled model has an error."""
-    from sambot_viz import resources
+    from sambot_viz import bundled
 
-    for name in resources.model_names():
-        run("check", str(resources.model_path(name)))
+    for name in bundled.model_names():
+        run("check", str(bundled.model_path(name)))
 
 
 def show_the_default_robot() -> None:

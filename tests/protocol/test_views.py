@@ -11,7 +11,7 @@ import yaml
 from inside import viser_server
 from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer, resources
+from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
 
 FRESH = (3.0, 3.0, 3.0)
@@ -23,7 +23,7 @@ def config(tmp_path: Path) -> Callable[..., Path]:
     """The bundled config with another current view."""
 
     def write(kind: str = ORBIT, **values: object) -> Path:
-        document = yaml.safe_load(resources.config_path().read_text("utf-8"))
+        document = yaml.safe_load(bundled.config_path().read_text("utf-8"))
         manager = document["Visualization Manager"]
         manager["Global Options"]["Fixed Frame"] = "base_link"
         manager["Views"] = {

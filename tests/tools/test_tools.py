@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from sambot_viz import Visualizer, resources
+from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
 from sambot_viz.tools.measure import MeasureTool
 from sambot_viz.tools.tool import Ray, Rays, Thing
@@ -20,7 +20,7 @@ PREFIX = "rviz_default_plugins/"
 @pytest.fixture
 def session(tmp_path: Path) -> Iterator[Session]:
     """sam_bot without the axes of its frames, which stand in front of its links."""
-    config = yaml.safe_load(resources.config_path().read_text("utf-8"))
+    config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     manager = config["Visualization Manager"]
     manager["Displays"] = [
         d for d in manager["Displays"] if not d["Class"].endswith("/TF")

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.checks import check_robot, check_unloadable
+from sambot_viz.checks.config_against_robot import check_setup
 from sambot_viz.checks.launch_files import check_package
-from sambot_viz.checks.setup import check_setup
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.robot.model import Robot
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.packages import package_name
+from sambot_viz.robot.packages.package_index import package_name
 
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
 _TRUE = frozenset({"true", "1"})

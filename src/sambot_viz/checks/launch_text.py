@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from sambot_viz.checks.rule import Finding, Rule, Subject
 from sambot_viz.robot.model import Place
-from sambot_viz.robot.xml_source import Source
+from sambot_viz.robot.xml.diagnose.source_text import SourceText
 
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
 _SAYING = {":": '": "', "#": '" #"', "\t": "a tab at the start of a line"}
@@ -54,7 +54,7 @@ def _traps(subject: Subject) -> Iterator[Finding]:
     )
 
 
-def _survives(subject: Subject, source: Source, trap: _Trap) -> bool:
+def _survives(subject: Subject, source: SourceText, trap: _Trap) -> bool:
     """Whether these words are still there after xacro."""
     if subject.robot is None:
         return False
@@ -70,7 +70,7 @@ def _survives(subject: Subject, source: Source, trap: _Trap) -> bool:
     return not inside
 
 
-def _traps_in(source: Source, file: str, *, is_main: bool) -> Iterator[_Trap]:
+def _traps_in(source: SourceText, file: str, *, is_main: bool) -> Iterator[_Trap]:
     tokens = source.tokens
     root = source.first("robot")
     for index, token in enumerate(tokens):
@@ -93,7 +93,7 @@ def _traps_in(source: Source, file: str, *, is_main: bool) -> Iterator[_Trap]:
                     yield from _found(source, file, start, end, what)
 
 
-def _before_xacro(source: Source, index: int) -> bool:
+def _before_xacro(source: SourceText, index: int) -> bool:
     """Whether xacro drops this comment: it stands directly before its own tag."""
     for token in source.tokens[index + 1 :]:
         if token.kind == "comment":
@@ -105,7 +105,7 @@ def _before_xacro(source: Source, index: int) -> bool:
 
 
 def _found(
-    source: Source, file: str, start: int, end: int, what: str
+    source: SourceText, file: str, start: int, end: int, what: str
 ) -> Iterator[_Trap]:
     for match in _TRAP.finditer(source.text, start, end):
         mark = match[0]

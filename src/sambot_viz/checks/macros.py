@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.rule import Finding, Rule, Subject
-from sambot_viz.robot.xacro_sources import named_things
+from sambot_viz.robot.xacro.diagnose.source_files import named_things
 
 
 def _unused(subject: Subject) -> Iterator[Finding]:

@@ -10,13 +10,13 @@ from sambot_viz.checks.inertia import (
     INERTIA_ON_ROOT,
     MASS_ZERO,
 )
+from sambot_viz.checks.invisible_shapes import ALPHA_ZERO, SIZE_NOT_POSITIVE
 from sambot_viz.checks.launch_text import LAUNCH_TEXT_AS_YAML
 from sambot_viz.checks.macros import UNUSED_MACRO
 from sambot_viz.checks.mesh_files import MESH_EMPTY, MESH_LFS_POINTER
 from sambot_viz.checks.mesh_size import MESH_SIZE
 from sambot_viz.checks.names import NAME_WITH_BLANK, NAMES_DIFFER_IN_CASE
 from sambot_viz.checks.rule import Rule
-from sambot_viz.checks.shapes import ALPHA_ZERO, SIZE_NOT_POSITIVE
 
 RULES: tuple[Rule, ...] = (
     LIMIT_IN_DEGREES,

@@ -12,9 +12,9 @@ from functools import cached_property
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.robot.model import Place, Robot
-from sambot_viz.robot.xacro_sources import SourceSet, token_place
-from sambot_viz.robot.xml_source import Source
-from sambot_viz.robot.xml_tokens import Token
+from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
+from sambot_viz.robot.xml.diagnose.lexer import Token
+from sambot_viz.robot.xml.diagnose.source_text import SourceText
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Subject:
         return place if at is None else token_place(source, place.file, source.tags[at])
 
 
-def _tag_index(source: Source, place: Place) -> int | None:
+def _tag_index(source: SourceText, place: Place) -> int | None:
     on_line = [
         (index, token)
         for index, token in enumerate(source.tags)

@@ -5,16 +5,11 @@ from __future__ import annotations
 import json
 import sys
 
-from sambot_viz import report
+from sambot_viz import problem_text
+from sambot_viz.bundled import Found, find
 from sambot_viz.checks import check
-from sambot_viz.commands.options import (
-    ModelOptions,
-    Parser,
-    add_model_options,
-    parse,
-)
+from sambot_viz.commands.options import ModelOptions, Parser, add_model_options, parse
 from sambot_viz.errors import Problem
-from sambot_viz.find import Found, find
 
 
 def run(words: list[str]) -> int:
@@ -34,7 +29,7 @@ def run(words: list[str]) -> int:
         listed = [problem.as_json() for problem in problems]
         print(json.dumps({"model": str(model), "problems": listed}, indent=2))
     elif problems:
-        report.write(problems, sys.stdout)
+        problem_text.write(problems, sys.stdout)
     else:
         print(f"{model}: no problems found")
     return int(any(problem.severity == "error" for problem in problems))

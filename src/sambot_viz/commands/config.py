@@ -6,7 +6,7 @@ import json
 import sys
 from pathlib import Path
 
-from sambot_viz import report
+from sambot_viz import problem_text
 from sambot_viz.commands.options import Parser
 from sambot_viz.errors import UsageError
 
@@ -27,13 +27,13 @@ def run(words: list[str]) -> int:
     options = parser.parse_args(words)
     if not Path(options.file).is_file():
         raise UsageError(f"no config '{options.file}': there is no such file")
-    from sambot_viz.config import load_config
-    from sambot_viz.rviz.report import config_report
+    from sambot_viz.open_config import load_config
+    from sambot_viz.rviz.support_report import config_report
 
     found = config_report(load_config(options.file))
     if options.format == "json":
         print(json.dumps(found.as_json(), indent=2))
     else:
         sys.stdout.write(found.as_text())
-        report.write(found.problems)
+        problem_text.write(found.problems)
     return 0

@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 
-from sambot_viz import report
+from sambot_viz import problem_text
+from sambot_viz.bundled import find
 from sambot_viz.commands.options import Parser, add_model_options, parse
 from sambot_viz.commands.pose_options import add_pose_options, read_setup
 from sambot_viz.errors import FrameError
-from sambot_viz.find import find
-from sambot_viz.frames.echo import echo_json, format_echo
 from sambot_viz.frames.explain import Explanation, explain
+from sambot_viz.frames.export.echo_text import echo_json, format_echo
 
 
 class _AnyOrder(Parser):
@@ -25,7 +25,7 @@ def run(words: list[str]) -> int:
     options, wanted = parse(_parser(), words)
     setup = read_setup(options)
     robot = wanted.load(find(wanted.model).model)
-    report.write(p for p in robot.problems if p.severity != "info")
+    problem_text.write(p for p in robot.problems if p.severity != "info")
     tree = setup.tree(robot)
     # What tf2_echo calls the source is the target of tf2's look-up.
     found = explain(tree, options.source, options.target, robot)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 
+from sambot_viz.bundled import find
 from sambot_viz.commands.options import Parser, add_model_options, parse
-from sambot_viz.find import find
-from sambot_viz.robot.loading import expand
+from sambot_viz.robot.load import expand
 
 
 def run(words: list[str]) -> int:

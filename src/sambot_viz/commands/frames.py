@@ -6,14 +6,14 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz import report
+from sambot_viz import problem_text
+from sambot_viz.bundled import find
 from sambot_viz.commands.options import Parser, add_model_options, parse
 from sambot_viz.commands.pose_options import add_pose_options, read_setup
 from sambot_viz.errors import UsageError
-from sambot_viz.find import find
-from sambot_viz.frames.drawing import tree_dot, tree_json_text
-from sambot_viz.frames.svg import tree_svg
-from sambot_viz.frames.tree import FrameTree
+from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
+from sambot_viz.frames.export.svg import tree_svg
+from sambot_viz.frames.frame_tree import FrameTree
 from sambot_viz.robot.model import Robot
 
 Draw = Callable[[FrameTree, "Robot | None"], str]
@@ -45,7 +45,7 @@ def run(words: list[str]) -> int:
     draw = tree_dot if output is None else _format(output)
     setup = read_setup(options)
     robot = wanted.load(find(wanted.model).model)
-    report.write(p for p in robot.problems if p.severity != "info")
+    problem_text.write(p for p in robot.problems if p.severity != "info")
     drawing = draw(setup.tree(robot), robot)
     if output is None:
         sys.stdout.write(drawing)

@@ -49,7 +49,7 @@ class ModelOptions:
         Raises:
             RobotError: it cannot be shown.
         """
-        from sambot_viz.robot.loading import load_robot
+        from sambot_viz.robot.load import load_robot
 
         return load_robot(
             path,

@@ -11,18 +11,13 @@ from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
-from sambot_viz import report
+from sambot_viz import problem_text
 from sambot_viz._version import __version__
-from sambot_viz.commands.options import (
-    ModelOptions,
-    Parser,
-    add_model_options,
-    parse,
-)
+from sambot_viz.background import Loading, give_up, in_thread
+from sambot_viz.bundled import Found, find
+from sambot_viz.commands.options import ModelOptions, Parser, add_model_options, parse
 from sambot_viz.commands.pose_options import add_pose_options, any_given, read_setup
 from sambot_viz.errors import Problem, UsageError
-from sambot_viz.find import Found, find
-from sambot_viz.loading import Loading, give_up, in_thread
 
 EPILOG = """\
 commands:
@@ -56,8 +51,8 @@ def run(words: list[str]) -> int:
     gui = _gui(options.gui, wanted.words.get("gui"))
     setup = read_setup(options) if any_given(options) else None
     _refuse_early(wanted, found)
-    from sambot_viz.listening import close, listen, url_of
-    from sambot_viz.origins import only_this_machine
+    from sambot_viz.server.access import only_this_machine
+    from sambot_viz.server.bind import close, listen, url_of
 
     stop, waited_for = threading.Event(), list[Loading]()
     _stop_on_signals(stop, waited_for)
@@ -96,7 +91,7 @@ def run(words: list[str]) -> int:
             ),
             poses=options.poses,
         ):
-            report.write(loading.result().problems)
+            problem_text.write(loading.result().problems)
             stop.wait()
     finally:
         close(server)
@@ -184,7 +179,7 @@ def _parser() -> argparse.ArgumentParser:
 def _report_reload(problems: Sequence[Problem]) -> None:
     """Say what a save has brought, on the terminal as in the page."""
     if problems:
-        report.write(problems)
+        problem_text.write(problems)
     else:
         sys.stderr.write("sambot-viz: no problems any more\n")
 

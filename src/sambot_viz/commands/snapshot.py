@@ -9,14 +9,14 @@ import secrets
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz import report, resources
+from sambot_viz import bundled, problem_text
+from sambot_viz.bundled import find
 from sambot_viz.commands.options import Parser, add_model_options, parse
 from sambot_viz.commands.pose_options import add_pose_options, read_setup
 from sambot_viz.errors import UsageError
-from sambot_viz.find import find
 
 if TYPE_CHECKING:
-    from sambot_viz.export.snapshot import Picture
+    from sambot_viz.export.view_picture import Picture
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
 
@@ -33,15 +33,15 @@ def run(words: list[str]) -> int:
     config = options.display_config or wanted.words.get("rvizconfig")
     found = find(wanted.model, Path(config) if config else None)
     robot = wanted.load(found.model)
-    report.write(robot.problems)
+    problem_text.write(robot.problems)
     # What is wrong with the joints or frames is told before a browser is started.
     setup.tree(robot)
     document = _document(found.config, options.fixed_frame, robot)
 
     from sambot_viz.export.chromium import Chromium
-    from sambot_viz.export.snapshot import snapshot
-    from sambot_viz.server import Server, ServerOptions
-    from sambot_viz.session.setup import SessionSetup
+    from sambot_viz.export.view_picture import snapshot
+    from sambot_viz.server.server import Server, ServerOptions
+    from sambot_viz.session.start_state import SessionSetup
 
     with Chromium() as chromium:
         begin = SessionSetup(setup.start, setup.static_transforms)
@@ -98,10 +98,10 @@ def _output(text: str) -> Path:
 
 def _document(config: Path | None, fixed_frame: str | None, robot: Robot) -> RvizConfig:
     """The config to show; the bundled one fits any robot by taking its root."""
-    from sambot_viz.config import load_config
+    from sambot_viz.open_config import load_config
 
-    document = load_config(config or resources.config_path())
-    report.write(document.problems)
+    document = load_config(config or bundled.config_path())
+    problem_text.write(document.problems)
     options = document.global_options
     if fixed_frame is not None:
         options.set("Fixed Frame", fixed_frame)

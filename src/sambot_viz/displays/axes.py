@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz.displays.display import Display, Handle, remove_all
-from sambot_viz.displays.solids import add_axes
+from sambot_viz.displays.scene.solids import add_axes
 from sambot_viz.rviz import FIXED_FRAME, FloatProperty, TfFrameProperty
 
 

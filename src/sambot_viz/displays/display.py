@@ -13,14 +13,14 @@ from typing import ClassVar
 
 import viser
 
-from sambot_viz import compat
-from sambot_viz.displays.assets import SessionAssets
+from sambot_viz import viser_private
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.frame_nodes import FrameNodes
+from sambot_viz.displays.scene.frame_nodes import FrameNodes
+from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.status import StatusList
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, LookupRefused
-from sambot_viz.robot.meshes import MeshStore
+from sambot_viz.meshes.cache import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
 
@@ -160,10 +160,10 @@ Handle = viser.SceneNodeHandle
 def remove_all(handles: Iterable[Handle]) -> None:
     """Take nodes out of the scene, also when their parent is gone already."""
     for handle in handles:
-        if not compat.is_removed(handle):
+        if not viser_private.is_removed(handle):
             handle.remove()
 
 
 def any_gone(handles: Iterable[Handle]) -> bool:
     """Whether some of the nodes went with the frame they hung below."""
-    return any(compat.is_removed(handle) for handle in handles)
+    return any(viser_private.is_removed(handle) for handle in handles)

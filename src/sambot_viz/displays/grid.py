@@ -7,9 +7,9 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.display import Display, Handle, remove_all
-from sambot_viz.displays.lines import in_pieces, lines_glb
-from sambot_viz.displays.poses import Position, Wxyz
-from sambot_viz.displays.solids import Rgb
+from sambot_viz.displays.scene.lines import in_pieces, lines_glb
+from sambot_viz.displays.scene.poses import Position, Wxyz
+from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.rviz import (
     FIXED_FRAME,
     ColorProperty,

@@ -1,8 +1,8 @@
 """Coordinate frames: the tree, look-ups, static transforms, and their texts."""
 
-from sambot_viz.frames.errors import CycleRefused, LookupRefused, TransformRefused
+from sambot_viz.frames.frame_tree import FrameTree, Hop
+from sambot_viz.frames.refusals import CycleRefused, LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
-from sambot_viz.frames.tree import FrameTree, Hop
 
 __all__ = [
     "CycleRefused",

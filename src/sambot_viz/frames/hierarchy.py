@@ -8,7 +8,7 @@ when it would be made.
 from __future__ import annotations
 
 from sambot_viz.errors import FrameError
-from sambot_viz.frames.errors import CycleRefused, LookupRefused, TransformRefused
+from sambot_viz.frames.refusals import CycleRefused, LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from sambot_viz.errors import Problem
+from sambot_viz.frames.frame_tree import FrameTree
 from sambot_viz.frames.transform import Transform
-from sambot_viz.frames.tree import FrameTree
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import viser
 
-from sambot_viz import resources
+from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.panels.widgets import add_buttons, add_text, on_press
 from sambot_viz.session import Event, Session
@@ -155,6 +155,6 @@ class ConfigFile:
 
 def _is_bundled(path: Path) -> bool:
     try:
-        return path.resolve().is_relative_to(resources.configs_folder().resolve())
+        return path.resolve().is_relative_to(bundled.configs_folder().resolve())
     except UsageError:
         return False

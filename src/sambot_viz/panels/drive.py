@@ -20,7 +20,7 @@ from sambot_viz.panels.widgets import Input, finite, on_click, on_hold, watch
 from sambot_viz.session import Event, Session
 from sambot_viz.session.drive_control import ODOM
 from sambot_viz.session.motion import HOLD
-from sambot_viz.session.pacer import Pacer
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text
 
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
@@ -52,7 +52,7 @@ class DrivePanel:
         self._commands: list[viser.CommandHandle] = []
         self._pieces: list[viser.LineSegmentsHandle] = []
         self._drawn = 1
-        self._show = Pacer(session.loop, SHOW_PERIOD, self._show_state)
+        self._show = Throttle(session.loop, SHOW_PERIOD, self._show_state)
         with container:
             self._content = self._gui.add_folder(None)
         with self._content:

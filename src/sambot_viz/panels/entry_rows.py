@@ -17,7 +17,7 @@ from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.panels.widgets import Input, add_property, options, watch
 from sambot_viz.session import Session
-from sambot_viz.session.pacer import Pacer
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
 
 NOBODY: str = "—"
@@ -59,7 +59,7 @@ class EntryRows:
         watch(self._list, self._named, self._choose)
         self._folder = self._gui.add_folder(None, visible=False)
         self._facts: viser.GuiHtmlHandle | None = None
-        self._pacer = Pacer(session.loop, FACTS_PERIOD, self._follow)
+        self._pacer = Throttle(session.loop, FACTS_PERIOD, self._follow)
         self.offer()
 
     def close(self) -> None:

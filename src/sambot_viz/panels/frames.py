@@ -13,7 +13,7 @@ from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.static_transform import parse_static_transform
 from sambot_viz.panels.widgets import add_text, on_click, options, plain_text, watch
 from sambot_viz.session import Event, Session
-from sambot_viz.session.pacer import Pacer
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
 
 SHOW_PERIOD = 0.25
@@ -37,7 +37,7 @@ class FramesPanel:
         self._gui = session.audience.gui
         self._search = ""
         self._offered: tuple[str, ...] = ()
-        self._show = Pacer(session.loop, SHOW_PERIOD, self._show_answer)
+        self._show = Throttle(session.loop, SHOW_PERIOD, self._show_answer)
         with container:
             content = self._gui.add_folder(None)
         with content:

@@ -25,7 +25,7 @@ from sambot_viz.panels.widgets import (
 from sambot_viz.robot.model import Joint
 from sambot_viz.session import Event, Session
 from sambot_viz.session.motion import HOLD
-from sambot_viz.session.pacer import Pacer
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import text
 
 MIRROR_PERIOD = 0.2
@@ -63,7 +63,7 @@ class JointsPanel:
         self._rate = 1.0
         self._keep = False
         self._arrow = JointArrow(session)
-        self._mirror = Pacer(session.loop, MIRROR_PERIOD, self._show_positions)
+        self._mirror = Throttle(session.loop, MIRROR_PERIOD, self._show_positions)
         session.listeners.append(self._hear)
         self._build()
 

@@ -10,7 +10,7 @@ import numpy as np
 import viser
 from PIL import Image
 
-from sambot_viz.displays.poses import wxyz_of
+from sambot_viz.displays.scene.poses import wxyz_of
 from sambot_viz.panels.widgets import watch
 from sambot_viz.session import Session
 

@@ -14,7 +14,7 @@ from pathlib import PurePath
 
 import viser
 
-from sambot_viz import compat, report
+from sambot_viz import problem_text, viser_private
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.session import Event, Session
 from sambot_viz.text import html_text, text
@@ -59,7 +59,7 @@ class ProblemsPanel:
         if (problems, note) == self._shown:
             return
         self._shown = (problems, note)
-        compat.set_tab_label(self._tab, title(problems))
+        viser_private.set_tab_label(self._tab, title(problems))
         self._list.content = note + problems_html(problems)
         self._panel.visible = bool(problems)
 
@@ -121,7 +121,7 @@ def _problem_html(problem: Problem) -> str:
         f"{_place_html(problem)}</div>"
         f"<div>{html_text(problem.message)}</div>"
     ]
-    line = report.excerpt(problem)
+    line = problem_text.excerpt(problem)
     if line is not None and line.strip():
         lines.append(f"<pre>{_excerpt_html(line, problem.column)}</pre>")
     if problem.hint:

@@ -11,7 +11,7 @@ from sambot_viz.panels.widgets import add_property, frame_choices
 from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Place, Sphere
 from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
 from sambot_viz.session import Event, Session
-from sambot_viz.session.pacer import Pacer
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
 from sambot_viz.tools.tool import Thing
 
@@ -48,7 +48,7 @@ class SelectionPanel:
             self._list = gui.add_html(NOTHING)
             for tool in session.tools.tools:
                 self._add_settings(gui, tool.kind)
-        self._pacer = Pacer(session.loop, REFRESH, self._write)
+        self._pacer = Throttle(session.loop, REFRESH, self._write)
         session.listeners.append(self._hear)
 
     def close(self) -> None:

@@ -13,18 +13,18 @@ typed values by path; the classes of `properties` declare what values there are:
 
 from __future__ import annotations
 
-from sambot_viz.rviz.config import RvizConfig
-from sambot_viz.rviz.declarations import Declarations
-from sambot_viz.rviz.declared import Declared, UnknownPropertyError
-from sambot_viz.rviz.entries import (
+from sambot_viz.rviz.class_items import (
     DisplayConfig,
     GlobalOptions,
     ToolConfig,
     ViewConfig,
 )
+from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.declared import Declared, UnknownPropertyError
 from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
 from sambot_viz.rviz.item import ConfigItem
-from sambot_viz.rviz.properties import (
+from sambot_viz.rviz.properties.base import Property, PropertyError
+from sambot_viz.rviz.properties.kinds import (
     FILTER_SIZE,
     FIXED_FRAME,
     QOS_PROPERTIES,
@@ -43,7 +43,7 @@ from sambot_viz.rviz.properties import (
     TopicProperty,
     VectorProperty,
 )
-from sambot_viz.rviz.property import Property, PropertyError
+from sambot_viz.rviz.rviz_config import RvizConfig
 
 __all__ = [
     "FILTER_SIZE",

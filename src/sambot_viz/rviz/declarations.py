@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from sambot_viz.rviz.class_name import GROUP
 from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
-from sambot_viz.rviz.property import Property
+from sambot_viz.rviz.properties.base import Property
 
 Classes: TypeAlias = Mapping[str, Sequence[Property]]
 """ROS 2 class id, such as "rviz_default_plugins/Grid", → its properties."""

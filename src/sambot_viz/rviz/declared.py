@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, UsageError, did_you_mean
-from sambot_viz.rviz.nodes import Node
-from sambot_viz.rviz.property import Property
+from sambot_viz.rviz.properties.base import Property
+from sambot_viz.rviz.yaml.nodes import Node
 
 
 class UnknownPropertyError(UsageError):
@@ -39,7 +39,7 @@ class Declared:
     above: Declared | None = None
 
 
-class Findings:
+class ConfigFindings:
     """Collects what is doubtful in a file.
 
     Attributes:

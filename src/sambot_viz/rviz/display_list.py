@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from sambot_viz.errors import UsageError
+from sambot_viz.rviz.class_items import DisplayConfig, new_map
 from sambot_viz.rviz.class_name import GROUP, kind_of, short_name, written_in_ros1
-from sambot_viz.rviz.entries import DisplayConfig, new_map
-from sambot_viz.rviz.manager import Manager
-from sambot_viz.rviz.nodes import Entry, List, Map, copied_map, items_of
+from sambot_viz.rviz.manager import VisualizationManager
+from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
 
 
-class DisplayList(Manager):
+class DisplayList(VisualizationManager):
     """The displays of a config."""
 
     def _load_displays(self) -> None:

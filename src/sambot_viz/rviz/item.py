@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
-from sambot_viz.rviz.declared import Declared, Findings, UnknownPropertyError
-from sambot_viz.rviz.fresh import Fresh, parts_map
-from sambot_viz.rviz.nodes import Map, Node, Plain, plain
-from sambot_viz.rviz.number import float_text
-from sambot_viz.rviz.properties import EnumProperty, VectorProperty, checked_text
-from sambot_viz.rviz.property import Property
+from sambot_viz.rviz.declared import ConfigFindings, Declared, UnknownPropertyError
+from sambot_viz.rviz.new_nodes import NewNodes, parts_map
+from sambot_viz.rviz.properties.base import Property
+from sambot_viz.rviz.properties.kinds import EnumProperty, VectorProperty, checked_text
+from sambot_viz.rviz.properties.number_text import float_text
+from sambot_viz.rviz.yaml.nodes import Map, Node, Plain, plain
 
 Path = str | Sequence[str]
 
@@ -31,7 +31,7 @@ class ConfigItem:
         self,
         node: Map,
         declared: Sequence[Property],
-        findings: Findings,
+        findings: ConfigFindings,
         *,
         ros1: bool = False,
         attach: Callable[[Map], None] | None = None,
@@ -53,7 +53,7 @@ class ConfigItem:
         self._declared: dict[str, Declared] = {}
         self._given: set[str] = set()
         self._unreadable: set[str] = set()
-        self._fresh = Fresh(self._declared, self._values)
+        self._fresh = NewNodes(self._declared, self._values)
         self._top = tuple(p for p in declared if self._ros1 or not p.ros1_only)
         for prop in self._top:
             self._read(prop, (), self._node, None)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from sambot_viz.rviz.class_name import is_ros1
 from sambot_viz.rviz.declarations import Declarations
-from sambot_viz.rviz.declared import Findings
-from sambot_viz.rviz.document import Document
-from sambot_viz.rviz.nodes import Map, items_of
+from sambot_viz.rviz.declared import ConfigFindings
+from sambot_viz.rviz.yaml.document import Document
+from sambot_viz.rviz.yaml.nodes import Map, items_of
 
 _MANAGER = "Visualization Manager"
 
 
-class Manager:
+class VisualizationManager:
     """Where displays, views and tools are found in a document.
 
     Attributes:
@@ -27,7 +27,7 @@ class Manager:
         """
         self._document = document
         self._declarations = declarations
-        self._findings = Findings(document.file)
+        self._findings = ConfigFindings(document.file)
         manager = document.root.get(_MANAGER)
         self._manager = manager if isinstance(manager, Map) else Map()
         self.ros1 = any(is_ros1(name) for name in self._class_ids())

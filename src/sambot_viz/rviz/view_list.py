@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz.errors import UsageError
+from sambot_viz.rviz.class_items import ViewConfig, new_map
 from sambot_viz.rviz.class_name import (
     is_ros1,
     kind_of,
@@ -10,15 +11,14 @@ from sambot_viz.rviz.class_name import (
     short_name,
     written_in_ros1,
 )
-from sambot_viz.rviz.entries import ViewConfig, new_map
-from sambot_viz.rviz.manager import Manager
-from sambot_viz.rviz.nodes import Entry, List, Map, copied_map, items_of
+from sambot_viz.rviz.manager import VisualizationManager
+from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
 
 CURRENT = "Current View"
 ORBIT = "rviz_default_plugins/Orbit"
 
 
-class ViewList(Manager):
+class ViewList(VisualizationManager):
     """The views of a config."""
 
     def _load_views(self) -> None:

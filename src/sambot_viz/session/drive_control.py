@@ -11,12 +11,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sambot_viz.drive.differential import DifferentialDrive, PlanarPose, WheelPair
+from sambot_viz.drive.wheels import find_wheel_pair
 from sambot_viz.errors import FrameError, JointError, Problem
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.joints.animation import wrap_angle
-from sambot_viz.joints.drive import DifferentialDrive, PlanarPose, WheelPair
-from sambot_viz.joints.wheels import find_wheel_pair
 from sambot_viz.robot.model import Matrix, Robot
 
 if TYPE_CHECKING:

@@ -17,10 +17,10 @@ from typing import Any, Literal, Protocol
 import numpy as np
 import viser
 
-from sambot_viz.displays.assets import Reader, SessionAssets
 from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.frame_nodes import FrameNodes, short_id
 from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
+from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.displays.status import Status
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
@@ -28,14 +28,14 @@ from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints import JointState
 from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.start import StartPose
-from sambot_viz.robot.meshes import MeshStore
+from sambot_viz.meshes.cache import MeshStore
 from sambot_viz.robot.model import Matrix, Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
-from sambot_viz.session.added_frames import AddedFrames
 from sambot_viz.session.motion import Motion
-from sambot_viz.session.pacer import Pacer
-from sambot_viz.session.posed_robot import PosedRobot
+from sambot_viz.session.robot_state import RobotState
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.tool_control import ToolControl
+from sambot_viz.session.user_frames import UserFrames
 from sambot_viz.session.view_control import ViewControl
 
 Event = Literal[
@@ -91,8 +91,8 @@ class Session:
         self.listeners: list[Listener] = []
         self.start = StartPose()
         self.poses = Presets()
-        self.added = AddedFrames(self.tree)
-        self._posed = PosedRobot(self.tree, self.added)
+        self.added = UserFrames(self.tree)
+        self._posed = RobotState(self.tree, self.added)
         self._of_frames: tuple[Problem, ...] = ()
         self._keys = 0
         self._drawn_tree = self.tree.version
@@ -105,7 +105,7 @@ class Session:
             load_file=load_file,
         )
         self.context.assets = SessionAssets(meshes, reader, self._assets_read)
-        self._pacer = Pacer(loop, self.period, self._draw_moved)
+        self._pacer = Throttle(loop, self.period, self._draw_moved)
         self._take_globals()
         self.views = ViewControl(self)
         self.motion = Motion(self)

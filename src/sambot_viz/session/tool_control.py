@@ -14,11 +14,11 @@ import numpy as np
 import viser
 import viser.transforms
 
-from sambot_viz.tools.marks import SelectionMarks
 from sambot_viz.tools.move_camera import MoveCameraTool
-from sambot_viz.tools.raycast import Array
+from sambot_viz.tools.picking.pick_scene import PickScene
+from sambot_viz.tools.picking.raycast import Array
+from sambot_viz.tools.picking.selection_marks import SelectionMarks
 from sambot_viz.tools.registry import TOOLS
-from sambot_viz.tools.scenery import Scenery
 from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Hit, Ray, Rays, Thing, Tool, as_vector
 from sambot_viz.views.camera import Vector
@@ -42,7 +42,7 @@ class ToolControl:
         self.status = ""
         self.selection: dict[Thing, None] = {}
         self._session = session
-        self._scenery = Scenery(session.context, lambda: session.displays)
+        self._scenery = PickScene(session.context, lambda: session.displays)
         self._marks = SelectionMarks(session.audience.scene)
         self._config: object = None
         self.tools: tuple[Tool, ...] = ()
@@ -105,7 +105,7 @@ class ToolControl:
                 tool.config.set(path, value)
                 tool.property_changed()
 
-    # What tools work with (tools.tool.Desk)
+    # What tools work with (tools.tool.ToolContext)
 
     @property
     def scene(self) -> viser.SceneApi:

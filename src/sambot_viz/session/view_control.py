@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 import viser
 
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
-from sambot_viz.rviz.declared import Findings
-from sambot_viz.rviz.nodes import copied_map
-from sambot_viz.session.pacer import Pacer
-from sambot_viz.views.browser_camera import BrowserCamera, same_picture
+from sambot_viz.rviz.declared import ConfigFindings
+from sambot_viz.rviz.yaml.nodes import copied_map
+from sambot_viz.session.browser_camera import BrowserCamera, same_picture
+from sambot_viz.session.throttle import Throttle
 from sambot_viz.views.camera import Camera, Vector, subtract
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
@@ -47,7 +47,7 @@ class ViewControl:
         self._target = Target()
         self._view: tuple[ViewConfig, View] | None = None
         self._mover: int | None = None
-        self._reader = Pacer(session.loop, READ_PERIOD, self._read)
+        self._reader = Throttle(session.loop, READ_PERIOD, self._read)
         session.listeners.append(self._hear)
 
     def close(self) -> None:
@@ -273,4 +273,4 @@ def _round(value: Any) -> Any:
 def _stand_in(item: ViewConfig) -> View:
     """An Orbit view of its own for a type nobody knows, which stays as it is."""
     copy = copied_map(item.node)
-    return OrbitView(ViewConfig(copy, OrbitView.properties, Findings(None)))
+    return OrbitView(ViewConfig(copy, OrbitView.properties, ConfigFindings(None)))

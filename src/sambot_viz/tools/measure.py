@@ -6,7 +6,7 @@ import numpy as np
 import viser
 
 from sambot_viz.rviz import ColorProperty, ToolConfig
-from sambot_viz.tools.tool import Desk, Ray, Tool
+from sambot_viz.tools.tool import Ray, Tool, ToolContext
 from sambot_viz.views.camera import Vector, add, length, subtract, times
 
 COLOR = (128, 128, 0)
@@ -29,7 +29,7 @@ class MeasureTool(Tool):
         ColorProperty("Line color", default=COLOR, help="Colour of the line."),
     )
 
-    def __init__(self, desk: Desk, config: ToolConfig | None) -> None:
+    def __init__(self, desk: ToolContext, config: ToolConfig | None) -> None:
         """See `Tool`."""
         super().__init__(desk, config)
         self._points: list[Vector] = []

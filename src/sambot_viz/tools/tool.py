@@ -9,7 +9,7 @@ import numpy as np
 import viser
 
 from sambot_viz.rviz import Property, ToolConfig
-from sambot_viz.tools.raycast import Array
+from sambot_viz.tools.picking.raycast import Array
 from sambot_viz.views.camera import Vector, add, times
 
 Key = Literal["I", "M", "S", "C", "N"]
@@ -72,7 +72,7 @@ class Hit:
     thing: Thing | None
 
 
-class Desk(Protocol):
+class ToolContext(Protocol):
     """What a tool works with; the session's, see `tool_control`."""
 
     @property
@@ -127,7 +127,7 @@ class Tool:
     rectangles: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]] = ()
 
-    def __init__(self, desk: Desk, config: ToolConfig | None) -> None:
+    def __init__(self, desk: ToolContext, config: ToolConfig | None) -> None:
         """Make the tool.
 
         Args:

@@ -1,0 +1,191 @@
+"""Which file is meant: the bundled robots and configs, and what a user names.
+
+In a checkout the bundled files are the folders ``assets/`` and ``rviz/`` beside
+``src/``. A wheel carries both inside the package, in ``sambot_viz/share/`` (see
+force-include in pyproject.toml).
+
+A package folder holds its model in urdf/, description/, robots/ or beside package.xml,
+and its .rviz file in rviz/, config/ or launch/; the bundled robot is the last resort.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz.errors import UsageError, did_you_mean
+
+DEFAULT_MODEL = "sam_bot.urdf.xacro"
+"""The robot that is shown when no model is given."""
+
+DEFAULT_CONFIG = "urdf_config.rviz"
+"""The config that is used when none is given."""
+
+_MODEL_FOLDERS = ("urdf", "description", "src/description", "robots", "model", ".")
+_CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
+_MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
+
+
+def assets_folder() -> Path:
+    """The folder of the bundled robots.
+
+    Raises:
+        UsageError: this installation was made without it.
+    """
+    return _folder("assets")
+
+
+def configs_folder() -> Path:
+    """The folder of the bundled .rviz files.
+
+    Raises:
+        UsageError: this installation was made without it.
+    """
+    return _folder("rviz")
+
+
+def model_path(name: str = DEFAULT_MODEL) -> Path:
+    """The bundled model file `name`, such as "mbot.urdf.xacro".
+
+    Raises:
+        UsageError: there is no such file; the message offers the nearest one.
+    """
+    return _file(assets_folder(), name, "model")
+
+
+def config_path(name: str = DEFAULT_CONFIG) -> Path:
+    """The bundled config file `name`, such as "mbot.rviz".
+
+    Raises:
+        UsageError: there is no such file; the message offers the nearest one.
+    """
+    return _file(configs_folder(), name, "config")
+
+
+def model_names() -> list[str]:
+    """The names of the bundled models, sorted; files that others include left out."""
+    return sorted(path.name for path in assets_folder().glob("*.urdf.xacro"))
+
+
+def config_names() -> list[str]:
+    """The names of the bundled configs, sorted."""
+    return sorted(path.name for path in configs_folder().glob("*.rviz"))
+
+
+def _folder(name: str) -> Path:
+    package = Path(__file__).resolve().parent
+    # The wheel's place comes first: an installed package must not pick up a folder
+    # that happens to stand two levels above it.
+    places = (package / "share" / name, package.parents[1] / name)
+    for place in places:
+        if place.is_dir():
+            return place
+    raise UsageError(
+        f"this installation has no bundled '{name}' folder; install sambot-viz again"
+    )
+
+
+def _file(folder: Path, name: str, kind: str) -> Path:
+    path = folder / name
+    if Path(name).name != name or not path.is_file():
+        names = model_names() if kind == "model" else config_names()
+        raise UsageError(f"no bundled {kind} '{name}'; {did_you_mean(name, names)}")
+    return path
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The files to show.
+
+    Attributes:
+        model: the model file.
+        config: the .rviz file, or None when none was named and none belongs to the
+            model; then the bundled one serves, with a fixed frame of the robot.
+    """
+
+    model: Path
+    config: Path | None
+
+
+def find(model: Path | None, config: Path | None = None) -> Found:
+    """The model and config files that are meant.
+
+    Args:
+        model: a file, a package folder, or None for the bundled robot.
+        config: a .rviz file, or None for the one that belongs to the model.
+
+    Raises:
+        UsageError: nothing there, or several models and none the obvious one.
+    """
+    if config is not None and not config.is_file():
+        raise UsageError(_missing("config", config))
+    if model is None:
+        return Found(model_path(), config)
+    if not model.exists():
+        raise UsageError(_missing("model", model))
+    if not model.is_dir():
+        return Found(model, config)
+    found = _model_in(model)
+    return Found(found, config or _config_in(model))
+
+
+def _model_in(folder: Path) -> Path:
+    for name in _MODEL_FOLDERS:
+        files = _files(folder / name, _MODEL_ENDINGS)
+        if len(files) == 1:
+            return files[0]
+        if files:
+            return _obvious(folder, files)
+    raise UsageError(
+        f"no model in the folder '{folder}': looked for *.urdf.xacro, *.urdf and "
+        f"*.xacro in {', '.join(_MODEL_FOLDERS)}; name the model file itself"
+    )
+
+
+def _obvious(folder: Path, files: Sequence[Path]) -> Path:
+    """The model named like the package, or the only one that is no part of another."""
+    package = folder.resolve().name
+    stems = {package, package.removesuffix("_description"), "robot"}
+    for ending in _MODEL_ENDINGS:
+        for path in files:
+            if path.name.endswith(ending) and path.name.removesuffix(ending) in stems:
+                return path
+    for ending in _MODEL_ENDINGS:
+        matching = [path for path in files if path.name.endswith(ending)]
+        if len(matching) == 1:
+            return matching[0]
+        if matching:
+            break
+    names = ", ".join(str(path.relative_to(folder)) for path in files[:8])
+    raise UsageError(
+        f"several models in the folder '{folder}' ({names}); name the one to show"
+    )
+
+
+def _config_in(folder: Path) -> Path | None:
+    for name in _CONFIG_FOLDERS:
+        files = _files(folder / name, (".rviz",))
+        for path in files:
+            if path.name == DEFAULT_CONFIG:
+                return path
+        if files:
+            return files[0]
+    return None
+
+
+def _files(folder: Path, endings: Iterable[str]) -> list[Path]:
+    if not folder.is_dir():
+        return []
+    ends = tuple(endings)
+    return sorted(p for p in folder.iterdir() if p.name.endswith(ends) and p.is_file())
+
+
+def _missing(what: str, path: Path) -> str:
+    folder = path.parent
+    if not folder.is_dir():
+        return f"no {what} '{path}': the folder '{folder}' does not exist"
+    endings = _MODEL_ENDINGS if what == "model" else (".rviz",)
+    names = [p.name for p in _files(folder, endings)]
+    near = did_you_mean(path.name, names) if names else f"'{folder}' holds no {what}"
+    return f"no {what} '{path}': there is no such file; {near}"

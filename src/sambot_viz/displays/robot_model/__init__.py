@@ -1,0 +1,1 @@
+"""RobotModel: the shapes of a robot at its frames, and what RViz draws at its links."""

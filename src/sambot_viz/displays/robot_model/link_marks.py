@@ -1,0 +1,197 @@
+"""What RViz draws at single links and joints: axes, arrows, masses, inertias, trails.
+
+Sizes and colours are those of spec/rviz-core.md §5.8; no Alpha changes them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from sambot_viz.displays.display import DisplayContext, Handle, any_gone, remove_all
+from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
+from sambot_viz.displays.robot_model.link_settings import RobotSettings
+from sambot_viz.displays.robot_model.trail import Trail
+from sambot_viz.displays.scene.poses import Position, position_of, wxyz_of
+from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes, sphere
+from sambot_viz.robot.model import Joint, Link, Robot
+
+AXES_LENGTH, AXES_DIAMETER = 0.1, 0.01
+SHAFT, HEAD = (0.15, 0.05), (0.05, 0.08)
+"""Length and diameter of the two parts of a joint's arrow [m]."""
+GREEN, RED = (0, 204, 0), (255, 0, 0)
+WITH_AXIS = frozenset({"continuous", "revolute", "prismatic", "planar"})
+
+
+@dataclass(frozen=True, slots=True)
+class _Mark:
+    """Something drawn at a node."""
+
+    path: str
+    handles: tuple[Handle, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What the display's own boxes ask for."""
+
+    mass: bool
+    inertia: bool
+
+
+class RobotMarks:
+    """The marks of one RobotModel.
+
+    Args:
+        context: what to draw with.
+        key: begins the names of all nodes.
+        frame_of: the frame of a link.
+    """
+
+    def __init__(
+        self, context: DisplayContext, key: str, frame_of: Callable[[str], str]
+    ) -> None:
+        self._context = context
+        self._key = key
+        self._frame_of = frame_of
+        self._marks: dict[tuple[str, str], _Mark] = {}
+        self._trails: dict[str, Trail] = {}
+        self._fixed = context.fixed_frame
+
+    def draw(self, robot: Robot, settings: RobotSettings, wanted: Wanted) -> None:
+        """Draw what is missing, take out what is not wanted any more."""
+        keep: set[tuple[str, str]] = set()
+        for link in robot.links.values():
+            own = settings.link(link.name)
+            shown = own.enabled or not (link.visuals or link.collisions)
+            marks: dict[str, bool] = {
+                "a": own.show_axes and shown,
+                "m": wanted.mass and shown,
+                "i": wanted.inertia and shown,
+            }
+            for what, on in marks.items():
+                if on and self._at(what, link.name, link):
+                    keep.add((what, link.name))
+            self._draw_trail(link.name, own.show_trail, shown)
+        for joint in robot.joints.values():
+            own_joint = settings.joint(joint.name)
+            for what, on in {
+                "j": own_joint.show_axes,
+                "x": own_joint.show_joint_axis and joint.type in WITH_AXIS,
+            }.items():
+                if on and self._at(what, joint.name, joint):
+                    keep.add((what, joint.name))
+        for mark in [mark for mark in self._marks if mark not in keep]:
+            remove_all(self._marks.pop(mark).handles)
+        for name in [name for name in self._trails if name not in robot.links]:
+            self._trails.pop(name).remove()
+        self._fixed = self._context.fixed_frame
+        self.moved()
+
+    def moved(self) -> None:
+        """Some frames have moved: the trails follow."""
+        if not self._trails:
+            return
+        tree, fixed = self._context.tree, self._context.fixed_frame
+        for name, trail in self._trails.items():
+            frame = self._frame_of(name)
+            if self._context.nodes.connected(frame):
+                trail.follow(position_of(tree.lookup(fixed, frame).matrix))
+
+    def clear(self) -> None:
+        """Take everything out of the scene."""
+        for mark in self._marks.values():
+            remove_all(mark.handles)
+        for trail in self._trails.values():
+            trail.remove()
+        self._marks.clear()
+        self._trails.clear()
+
+    def _draw_trail(self, link: str, on: bool, visible: bool) -> None:
+        trail = self._trails.get(link)
+        if trail is not None and (not on or self._fixed != self._context.fixed_frame):
+            trail.remove()
+            del self._trails[link]
+            trail = None
+        if on and trail is None:
+            name = f"/{self._key}t{len(self._trails)}"
+            trail = self._trails[link] = Trail(self._context.scene, name)
+        if trail is not None:
+            trail.show(visible)
+
+    def _at(self, what: str, name: str, thing: Link | Joint) -> bool:
+        """Draw one mark at its node; False when there is nothing to draw."""
+        link = thing.parent if isinstance(thing, Joint) else name
+        frame = self._frame_of(link)
+        path = self._context.nodes.path(frame)
+        if path is None or not self._context.nodes.connected(frame):
+            return False
+        # Several joints hang on one link, so the joint's child tells them apart.
+        node = f"{path}/{self._key}{what}"
+        if isinstance(thing, Joint):
+            child = self._context.nodes.path(self._frame_of(thing.child)) or name
+            node += child.rpartition("/")[2]
+        known = self._marks.get((what, name))
+        if known and known.path == node and not any_gone(known.handles):
+            return bool(known.handles)
+        if known is not None:
+            remove_all(known.handles)
+        handles = self._make(what, node, thing)
+        self._marks[what, name] = _Mark(node, handles)
+        return bool(handles)
+
+    def _make(self, what: str, node: str, thing: Link | Joint) -> tuple[Handle, ...]:
+        scene = self._context.scene
+        if isinstance(thing, Joint):
+            return self._make_joint(what, node, thing)
+        if what == "a":
+            return (add_axes(scene, node, AXES_LENGTH, AXES_DIAMETER),)
+        if thing.inertial is None:
+            return ()
+        if what == "m":
+            diameter = ball_diameter(thing.inertial.mass)
+            at = position_of(thing.inertial.origin.matrix)
+            return (self._ball(node, diameter, at),) if diameter > 0 else ()
+        box = inertia_box(thing.inertial)
+        if box is None:
+            return ()
+        return (
+            scene.add_box(
+                node,
+                RED,
+                box.size,
+                wxyz=box.wxyz,
+                position=box.position,
+                **_NO_SHADOWS,
+            ),
+        )
+
+    def _ball(self, node: str, diameter: float, at: Position) -> Handle:
+        shape = sphere()
+        return self._context.scene.add_mesh_simple(
+            node,
+            shape.vertices,
+            shape.faces,
+            color=RED,
+            flat_shading=True,
+            scale=diameter,
+            position=at,
+            **_NO_SHADOWS,
+        )
+
+    def _make_joint(self, what: str, node: str, joint: Joint) -> tuple[Handle, ...]:
+        scene, T_link_joint = self._context.scene, joint.origin.matrix
+        if what == "j":
+            axes = add_axes(scene, node, AXES_LENGTH, AXES_DIAMETER)
+            axes.wxyz, axes.position = wxyz_of(T_link_joint), position_of(T_link_joint)
+            return (axes,)
+        if not any(joint.axis):
+            return ()
+        # RViz leaves the rotation of the joint out, which is an accident (§12, 12).
+        x, y, z = (float(c) for c in T_link_joint[:3, :3] @ joint.axis)
+        arrow = Arrow(position_of(T_link_joint), (x, y, z), SHAFT, HEAD)
+        return add_arrows(scene, node, [arrow], GREEN, GREEN)
+
+
+_NO_SHADOWS: dict[str, Any] = {"cast_shadow": False, "receive_shadow": False}

@@ -1,0 +1,364 @@
+"""One <visual> or <collision> as scene nodes (spec/rviz-core.md §5.5–5.7)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypedDict
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.display import Handle, any_gone, remove_all
+from sambot_viz.displays.scene.poses import Position, Wxyz, position_of, wxyz_of
+from sambot_viz.displays.scene.session_assets import AssetContent, SessionAssets
+from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
+from sambot_viz.errors import Problem
+from sambot_viz.meshes.glb import to_glb
+from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
+from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
+from sambot_viz.robot.model import (
+    Box,
+    Capsule,
+    Cylinder,
+    Material,
+    MeshFile,
+    Rgba,
+    Shape,
+    Sphere,
+)
+from sambot_viz.robot.shape_files import Asset, asset_of
+
+DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
+"""What a link without a material is drawn in."""
+ERROR_WHITE: Rgb = (255, 255, 255)
+STAND_IN_COLOR: Rgb = (255, 140, 0)
+STAND_IN_SIZE = 0.1
+"""Edge of the wire box that stands for a mesh that could not be read [m]."""
+UNLIT = "toon3"
+"""The page script draws toon materials unlit; nothing else here uses one."""
+
+Painted = (
+    viser.BoxHandle | viser.CylinderHandle | viser.MeshHandle | viser.IcosphereHandle
+)
+
+
+class _Pose(TypedDict):
+    wxyz: Wxyz
+    position: Position
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeLook:
+    """How a shape is drawn at the moment.
+
+    Attributes:
+        visible: drawn at all.
+        alpha: display alpha times link alpha; the material's own comes on top.
+        error: white, opaque and unlit, because its link has no transform.
+    """
+
+    visible: bool
+    alpha: float
+    error: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """One node, with the colour and alpha of its material.
+
+    Attributes:
+        handle: the node.
+        color: 0 to 255.
+        alpha: the material's.
+        textured: a GLB, whose alpha is fixed when it is sent.
+    """
+
+    handle: Handle
+    color: Rgb
+    alpha: float
+    textured: bool = False
+
+
+def rgb255(rgba: Rgba) -> Rgb:
+    """A colour of 0 to 1 as 0 to 255."""
+    red, green, blue = (min(255, max(0, int(c * 255 + 0.5))) for c in rgba[:3])
+    return (red, green, blue)
+
+
+class ShapeNode:
+    """The nodes of one shape under its link's frame node.
+
+    Primitives and plain meshes change colour and opacity in place; a textured part
+    is sent again for another opacity.
+
+    Attributes:
+        waiting: the file of the shape is being read.
+    """
+
+    def __init__(
+        self, scene: viser.SceneApi, name: str, shape: Shape, assets: SessionAssets
+    ) -> None:
+        self.waiting = False
+        self._scene = scene
+        self._name = name
+        self._shape = shape
+        self._assets = assets
+        self._asset = asset_of(shape)
+        self._source: AssetContent = None
+        self._generation = -1
+        self._wanted: ShapeLook | None = None
+        self._look: ShapeLook | None = None
+        self._pieces: list[_Piece] = []
+
+    def shows(self, shape: Shape) -> bool:
+        """Whether this is the node of that shape, out of the same file."""
+        # Paths take no part in the comparison of shapes.
+        return shape == self._shape and asset_of(shape) == self._asset
+
+    def draw(self, look: ShapeLook) -> None:
+        """Create the nodes, or change what differs from the last look.
+
+        What comes from a file that is not read yet is drawn by a later call, while
+        `waiting` is true; an older version of it stays until then.
+        """
+        self._wanted = look
+        if look.visible and self._asset is not None:
+            self._take_source(self._asset)
+        if look == self._look or (self.waiting and not self._pieces):
+            return
+        if self._pieces and self._must_resend(look):
+            self.remove()
+        if not self._pieces:
+            if not look.visible:
+                return
+            self._create(look)
+        for piece in self._pieces:
+            piece.handle.visible = look.visible
+            if isinstance(piece.handle, Painted):
+                _paint(piece.handle, piece, look)
+        self._look = look
+
+    def draw_again(self) -> None:
+        """Draw what could not be drawn before its file was read."""
+        if self.waiting and self._wanted is not None:
+            self.draw(self._wanted)
+
+    @property
+    def problem(self) -> str | None:
+        """RViz's sentence when the geometry could not be loaded, else None."""
+        fault = self._source.message if isinstance(self._source, Problem) else None
+        geometry = self._shape.geometry
+        if not isinstance(geometry, MeshFile):
+            return fault
+        text = f"Could not load mesh resource '{geometry.filename}'"
+        if geometry.path is None:
+            return text
+        return None if fault is None else f"{text}: {fault}"
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong or doubtful in the file of the shape."""
+        if isinstance(self._source, Problem):
+            return (self._source,)
+        return self._source.problems if isinstance(self._source, Mesh) else ()
+
+    def _take_source(self, asset: Asset) -> None:
+        """Take what the file holds now, if it is read, and drop what it held before."""
+        if self._generation == self._assets.generation:
+            return
+        self.waiting = not self._assets.is_there(asset)
+        if self.waiting:
+            return
+        self._generation = self._assets.generation
+        source = self._assets.take(asset)
+        if source != self._source:
+            self.remove()
+            self._source = source
+
+    @property
+    def gone(self) -> bool:
+        """Whether its nodes went with the frame they hung below."""
+        return any_gone(piece.handle for piece in self._pieces)
+
+    def remove(self) -> None:
+        """Take the nodes out of the scene."""
+        remove_all(piece.handle for piece in self._pieces)
+        self._pieces.clear()
+        self._look = None
+
+    def _must_resend(self, look: ShapeLook) -> bool:
+        before = self._look
+        same = before is not None and (before.alpha, before.error) == (
+            look.alpha,
+            look.error,
+        )
+        return not same and any(piece.textured for piece in self._pieces)
+
+    def _create(self, look: ShapeLook) -> None:
+        T_link_shape = self._shape.origin.matrix
+        pose: _Pose = {
+            "wxyz": wxyz_of(T_link_shape),
+            "position": position_of(T_link_shape),
+        }
+        geometry, material = self._shape.geometry, self._shape.material
+        if isinstance(geometry, MeshFile):
+            self._create_mesh(geometry, look, pose)
+            return
+        part = None
+        if isinstance(self._source, Texture) and not look.error:
+            part = _textured(geometry, self._source)
+        if part is not None:
+            self._add_part(self._name, part, WHITE, look, pose)
+        else:
+            self._create_primitive(geometry, _rgba(material), pose)
+
+    def _create_primitive(
+        self, geometry: Box | Cylinder | Sphere | Capsule, rgba: Rgba, pose: _Pose
+    ) -> None:
+        scene, name, color = self._scene, self._name, rgb255(rgba)
+        if isinstance(geometry, Box):
+            box = scene.add_box(
+                name,
+                color,
+                geometry.size,
+                cast_shadow=False,
+                receive_shadow=False,
+                **pose,
+            )
+            self._pieces.append(_Piece(box, color, rgba[3]))
+            return
+        if isinstance(geometry, Sphere):
+            self._add_sphere(name, geometry.radius, rgba, pose)
+            return
+        cylinder = scene.add_cylinder(
+            name,
+            geometry.radius,
+            geometry.length,
+            color,
+            radial_segments=16,
+            flat_shading=True,
+            cast_shadow=False,
+            receive_shadow=False,
+            **pose,
+        )
+        self._pieces.append(_Piece(cylinder, color, rgba[3]))
+        if isinstance(geometry, Capsule):
+            for end, z in (("t", geometry.length / 2), ("b", -geometry.length / 2)):
+                cap: _Pose = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, z)}
+                self._add_sphere(f"{name}/{end}", geometry.radius, rgba, cap)
+
+    def _add_sphere(self, name: str, radius: float, rgba: Rgba, pose: _Pose) -> None:
+        shape, color = sphere(), rgb255(rgba)
+        handle = self._scene.add_mesh_simple(
+            name,
+            shape.vertices,
+            shape.faces,
+            color=color,
+            flat_shading=True,
+            scale=2 * radius,
+            cast_shadow=False,
+            receive_shadow=False,
+            **pose,
+        )
+        self._pieces.append(_Piece(handle, color, rgba[3]))
+
+    def _create_mesh(self, geometry: MeshFile, look: ShapeLook, pose: _Pose) -> None:
+        if not isinstance(self._source, Mesh):
+            self._add_stand_in(pose)
+            return
+        rgba = _rgba(self._shape.material)
+        for i, part in enumerate(self._source.parts):
+            own = (
+                rgba if part.rgba is None else (*part.rgba[:3], part.rgba[3] * rgba[3])
+            )
+            name = self._name if i == 0 else f"{self._name}.{i}"
+            self._add_part(name, apply_scale(part, geometry.scale), own, look, pose)
+
+    def _add_part(
+        self, name: str, part: MeshPart, rgba: Rgba, look: ShapeLook, pose: _Pose
+    ) -> None:
+        """A mesh of one colour, or a GLB when it has a texture."""
+        color = rgb255(rgba)
+        textured = part.texture is not None and not look.error
+        if textured:
+            handle = self._scene.add_glb(
+                name,
+                to_glb(part, rgba=rgba, alpha=look.alpha),
+                cast_shadow=False,
+                receive_shadow=False,
+                **pose,
+            )
+        else:
+            handle = self._scene.add_mesh_simple(
+                name,
+                part.vertices,
+                part.faces,
+                color=color,
+                flat_shading=part.normals is None,
+                cast_shadow=False,
+                receive_shadow=False,
+                **pose,
+            )
+        self._pieces.append(_Piece(handle, color, rgba[3], textured))
+
+    def _add_stand_in(self, pose: _Pose) -> None:
+        """A box of orange lines where the mesh should be."""
+        lines = self._scene.add_line_segments(
+            self._name,
+            _box_edges(STAND_IN_SIZE),
+            colors=STAND_IN_COLOR,
+            thickness=1.5,
+            thickness_units="screen",
+            **pose,
+        )
+        self._pieces.append(_Piece(lines, STAND_IN_COLOR, 1.0))
+
+
+WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
+
+
+def _rgba(material: Material | None) -> Rgba:
+    """A material's colour; RViz's red without one, white under a texture."""
+    if material is None:
+        return DEFAULT_RED
+    return material.rgba or WHITE
+
+
+def _paint(handle: Painted, piece: _Piece, look: ShapeLook) -> None:
+    handle.color = ERROR_WHITE if look.error else piece.color
+    handle.opacity = None if look.error else opacity_of(look.alpha * piece.alpha)
+    handle.material = UNLIT if look.error else "standard"
+
+
+def _textured(
+    geometry: Box | Cylinder | Sphere | Capsule, texture: Texture
+) -> MeshPart | None:
+    """A primitive with a texture as a mesh; None for a capsule, which has no uv."""
+    if isinstance(geometry, Box):
+        shape, scale = unit_box(), geometry.size
+    elif isinstance(geometry, Sphere):
+        width = 2 * geometry.radius
+        shape, scale = unit_sphere(), (width, width, width)
+    elif isinstance(geometry, Cylinder):
+        width = 2 * geometry.radius
+        shape, scale = unit_cylinder(), (width, width, geometry.length)
+    else:
+        return None
+    part = MeshPart(shape.vertices, shape.faces, uv=shape.uv, texture=texture)
+    return apply_scale(part, scale)
+
+
+def _box_edges(size: float) -> npt.NDArray[np.float32]:
+    """The twelve edges of a cube around the origin, (12, 2, 3) [m]."""
+    half = size / 2
+    edges: list[list[list[float]]] = []
+    for axis in range(3):
+        for one in (-half, half):
+            for two in (-half, half):
+                start = [one, two]
+                start.insert(axis, -half)
+                end = [one, two]
+                end.insert(axis, half)
+                edges.append([start, end])
+    return np.array(edges, dtype=np.float32)

@@ -1,0 +1,106 @@
+"""Frames are the scene tree: one viser frame node per TF frame, under its parent's.
+
+Everything that is drawn at a frame hangs below its node, so a joint that moves is
+one message, whatever the size of the robot (DESIGN §4.2). The node of a root frame
+carries the fixed frame: its pose is T_fixed_root.
+"""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Iterable
+
+import numpy as np
+import viser
+
+from sambot_viz.displays.scene.poses import inverse, position_of, wxyz_of
+from sambot_viz.frames import FrameTree
+from sambot_viz.robot.model import Matrix
+from sambot_viz.viser_private import is_removed
+
+_DIGITS = string.digits + string.ascii_lowercase
+
+
+def short_id(number: int) -> str:
+    """A number in base 36: node names travel in every message."""
+    text = _DIGITS[number % 36]
+    while number := number // 36:
+        text = _DIGITS[number % 36] + text
+    return text
+
+
+class FrameNodes:
+    """The frames of one session as viser nodes.
+
+    A frame whose tree does not contain the fixed frame has no place in the picture;
+    its node is hidden, and `connected` tells.
+    """
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        self._scene = scene
+        self._handles: dict[str, viser.FrameHandle] = {}
+        self._paths: dict[str, str] = {}
+        self._ids: dict[str, str] = {}
+        self._root_of: dict[str, str] = {}
+        self._fixed_root: str | None = None
+
+    def path(self, frame: str) -> str | None:
+        """The name of the frame's node, or None for an unknown frame."""
+        return self._paths.get(frame)
+
+    def connected(self, frame: str) -> bool:
+        """Whether the frame can be placed in the fixed frame."""
+        return frame in self._root_of and self._root_of[frame] == self._fixed_root
+
+    def sync(self, tree: FrameTree, fixed_frame: str) -> None:
+        """Bring the nodes in line with the tree: new, gone and re-hung frames."""
+        wanted = self._wanted_paths(tree)
+        for frame in [f for f, path in self._paths.items() if wanted.get(f) != path]:
+            del self._paths[frame]
+            handle = self._handles.pop(frame)
+            # A node that hung below another one has gone with it.
+            if not is_removed(handle):
+                handle.remove()
+        self._fixed_root = self._root_of.get(fixed_frame)
+        for frame, path in wanted.items():
+            if frame not in self._handles:
+                self._paths[frame] = path
+                self._handles[frame] = self._scene.add_frame(path, show_axes=False)
+        self.place(tree, fixed_frame, wanted)
+
+    def place(self, tree: FrameTree, fixed_frame: str, frames: Iterable[str]) -> None:
+        """Send the poses of some frames (and of the roots, if they changed)."""
+        for frame in frames:
+            parent = tree.parent(frame)
+            if parent is not None:
+                self._set(frame, tree.hop(frame).transform.matrix)
+        self._place_roots(tree, fixed_frame)
+
+    def _place_roots(self, tree: FrameTree, fixed_frame: str) -> None:
+        for root in tree.roots:
+            connected = root == self._fixed_root
+            self._handles[root].visible = connected
+            if connected:
+                T_root_fixed = np.eye(4)
+                if fixed_frame != root:
+                    T_root_fixed = tree.lookup(root, fixed_frame).matrix
+                self._set(root, inverse(T_root_fixed))
+
+    def _set(self, frame: str, T: Matrix) -> None:
+        handle = self._handles[frame]
+        handle.wxyz = wxyz_of(T)
+        handle.position = position_of(T)
+
+    def _wanted_paths(self, tree: FrameTree) -> dict[str, str]:
+        paths: dict[str, str] = {}
+        self._root_of = {}
+        pending = [(root, "", root) for root in reversed(list(tree.roots))]
+        while pending:
+            frame, above, root = pending.pop()
+            if frame not in self._ids:
+                self._ids[frame] = short_id(len(self._ids))
+            paths[frame] = f"{above}/{self._ids[frame]}"
+            self._root_of[frame] = root
+            children = list(tree.children(frame))
+            pending.extend((c, paths[frame], root) for c in reversed(children))
+        return paths

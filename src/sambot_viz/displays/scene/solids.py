@@ -1,0 +1,188 @@
+"""The solids that RViz builds its markers from: axes, arrows, unit shapes.
+
+Sizes and colours are those of spec/rviz-core.md §5.8, §6.4 and §7. Every solid is
+flat shaded; the page script lights it as RViz does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.scene.poses import Position, Wxyz, wxyz_from_z
+from sambot_viz.meshes.glb import srgb_to_linear
+from sambot_viz.meshes.primitives import (
+    Primitive,
+    unit_cone,
+    unit_cylinder,
+    unit_sphere,
+)
+
+Rgb = tuple[int, int, int]
+OPAQUE_FROM = 0.9998
+"""RViz blends below this alpha and writes no depth (spec/rviz-core.md §8.4)."""
+
+_HALF = math.sqrt(0.5)
+_AXIS_WXYZ = ((_HALF, 0.0, _HALF, 0.0), (_HALF, -_HALF, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+_AXIS_COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
+
+
+def linear(channel: int) -> float:
+    """An 8-bit sRGB channel in linear colour space, 0 to 1."""
+    return srgb_to_linear(channel / 255)
+
+
+def opacity_of(alpha: float) -> float | None:
+    """An alpha as viser's opacity: None (no blending) from 0.9998 on, as RViz."""
+    return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Compact:
+    """A unit shape with shared corners, for viser's own flat shading."""
+
+    vertices: npt.NDArray[np.float32]
+    faces: npt.NDArray[np.uint32]
+
+
+def _compact(shape: Primitive) -> Compact:
+    rounded: npt.NDArray[np.float32] = np.round(shape.vertices, 6)
+    rows = [tuple(row) for row in rounded.tolist()]
+    corners = {row: i for i, row in enumerate(dict.fromkeys(rows))}
+    index = np.array([corners[row] for row in rows], dtype=np.uint32)
+    return Compact(np.array(list(corners), dtype=np.float32), index[shape.faces])
+
+
+@cache
+def cylinder() -> Compact:
+    """A 16-sided cylinder along z, diameter 1, height 1."""
+    return _compact(unit_cylinder())
+
+
+@cache
+def cone() -> Compact:
+    """A 16-sided cone along z, diameter 1, height 1, tip up."""
+    return _compact(unit_cone())
+
+
+@cache
+def sphere() -> Compact:
+    """RViz's sphere of 224 triangles, diameter 1, poles on z."""
+    return _compact(unit_sphere())
+
+
+def add_batch(
+    scene: viser.SceneApi,
+    name: str,
+    shape: Compact,
+    wxyzs: Sequence[Wxyz],
+    positions: Sequence[Position],
+    scales: Sequence[Position],
+    colors: Sequence[Rgb],
+) -> viser.BatchedMeshHandle:
+    """One node for several copies of a unit shape (see the fields of viser).
+
+    Colours are sRGB as everywhere here; viser takes those of batches as linear.
+    """
+    linear_colors = [[round(255 * linear(c)) for c in rgb] for rgb in colors]
+    return scene.add_batched_meshes_simple(
+        name,
+        shape.vertices,
+        shape.faces,
+        np.array(wxyzs, dtype=np.float32),
+        np.array(positions, dtype=np.float32),
+        batched_scales=np.array(scales, dtype=np.float32),
+        batched_colors=np.array(linear_colors, dtype=np.uint8),
+        lod="off",
+        flat_shading=True,
+        cast_shadow=False,
+        receive_shadow=False,
+    )
+
+
+def add_axes(
+    scene: viser.SceneApi, name: str, length: float, diameter: float
+) -> viser.BatchedMeshHandle:
+    """Three cylinders from the origin along +x (red), +y (green) and +z (blue).
+
+    Args:
+        scene: where to draw.
+        name: node name; the axes stand at its parent's frame.
+        length: [m].
+        diameter: what RViz calls "radius" is the diameter of the cylinders [m].
+    """
+    half = length / 2
+    positions = [(half, 0.0, 0.0), (0.0, half, 0.0), (0.0, 0.0, half)]
+    scales = [(diameter, diameter, length)] * 3
+    return add_batch(
+        scene, name, cylinder(), _AXIS_WXYZ, positions, scales, _AXIS_COLORS
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """An arrow as RViz draws it: a shaft, and a head at its end.
+
+    Attributes:
+        start: where the shaft begins [m].
+        direction: towards the tip; any length but 0.
+        shaft: length and diameter of the shaft [m].
+        head: length and diameter of the head [m].
+    """
+
+    start: Position
+    direction: Position
+    shaft: tuple[float, float]
+    head: tuple[float, float]
+
+    def parts(self) -> tuple[Wxyz, Position, Position]:
+        """Rotation of both parts, centre of the shaft, centre of the head."""
+        norm = math.sqrt(sum(c * c for c in self.direction))
+        unit = tuple(c / norm for c in self.direction)
+        shaft_at, head_at = self.shaft[0] / 2, self.shaft[0] + self.head[0] / 2
+        x, y, z = self.start
+        return (
+            wxyz_from_z(self.direction),
+            (x + unit[0] * shaft_at, y + unit[1] * shaft_at, z + unit[2] * shaft_at),
+            (x + unit[0] * head_at, y + unit[1] * head_at, z + unit[2] * head_at),
+        )
+
+
+def add_arrows(
+    scene: viser.SceneApi,
+    name: str,
+    arrows: Sequence[Arrow],
+    shaft_color: Rgb,
+    head_color: Rgb,
+) -> tuple[viser.BatchedMeshHandle, viser.BatchedMeshHandle]:
+    """Several arrows in one frame: one node for the shafts, one for the heads."""
+    parts = [arrow.parts() for arrow in arrows]
+    turns = [turn for turn, _, _ in parts]
+    shaft_sizes = [(a.shaft[1], a.shaft[1], a.shaft[0]) for a in arrows]
+    head_sizes = [(a.head[1], a.head[1], a.head[0]) for a in arrows]
+    count = len(arrows)
+    shafts = add_batch(
+        scene,
+        f"{name}s",
+        cylinder(),
+        turns,
+        [at for _, at, _ in parts],
+        shaft_sizes,
+        [shaft_color] * count,
+    )
+    heads = add_batch(
+        scene,
+        f"{name}h",
+        cone(),
+        turns,
+        [at for _, _, at in parts],
+        head_sizes,
+        [head_color] * count,
+    )
+    return shafts, heads

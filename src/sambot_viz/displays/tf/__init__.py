@@ -1,0 +1,1 @@
+"""TF: axes, names and arrows of the frames."""

@@ -1,0 +1,295 @@
+"""TF: axes, names and arrows of the frames (spec/rviz-core.md §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import viser
+
+from sambot_viz.displays.display import (
+    Display,
+    DisplayContext,
+    Handle,
+    any_gone,
+    remove_all,
+)
+from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.scene.poses import Position, position_of
+from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes
+from sambot_viz.displays.status import Status
+from sambot_viz.displays.tf.frame_rows import (
+    ALL_ENABLED,
+    ALL_FRAMES,
+    frame_boxes,
+    frame_entries,
+    set_all_frames,
+)
+from sambot_viz.rviz import (
+    BoolProperty,
+    DisplayConfig,
+    FloatProperty,
+    GroupProperty,
+    RegexProperty,
+)
+from sambot_viz.text import text
+
+AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
+HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
+SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
+EM_HEIGHT = 0.0889
+"""Height of the em square of names, in a character cell of 0.1 m (§6.4)."""
+SHORTEST_ARROW = 0.001
+"""Frames nearer than this have no arrow [m]."""
+
+
+def frame_arrow(at: Position, scale: float) -> Arrow | None:
+    """The arrow from a frame to its parent, in the parent's coordinates.
+
+    Args:
+        at: origin of the frame in its parent [m].
+        scale: Marker Scale.
+
+    Returns:
+        None when the frames are too close for an arrow.
+    """
+    distance = math.sqrt(sum(c * c for c in at))
+    if distance <= SHORTEST_ARROW:
+        return None
+    head = HEAD_LENGTH * scale
+    if distance < head:
+        head *= distance
+    shaft = max(0.0, distance - head)
+    towards_parent = (-at[0], -at[1], -at[2])
+    return Arrow(
+        start=at,
+        direction=towards_parent,
+        shaft=(shaft, SHAFT_DIAMETER * scale),
+        head=(head, HEAD_DIAMETER * scale),
+    )
+
+
+@dataclass
+class _FrameMarks:
+    """What is drawn for one frame, and at which node."""
+
+    path: str
+    axes: viser.BatchedMeshHandle | None = None
+    name: viser.LabelHandle | None = None
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        """Its nodes."""
+        return tuple(h for h in (self.axes, self.name) if h is not None)
+
+
+@dataclass
+class _Arrows:
+    """The arrows of all children of one frame: they turn with the parent only."""
+
+    state: tuple[object, ...] = ()
+    handles: tuple[Handle, ...] = field(default_factory=tuple)
+
+
+class TfDisplay(Display):
+    """The frames: axes, names, and arrows from child to parent."""
+
+    kind = "rviz_default_plugins/TF"
+    help = "The frames and how they hang together."
+    properties = (
+        BoolProperty(
+            "Show Names", default=False, help="Write each frame's name below it."
+        ),
+        BoolProperty("Show Axes", default=True, help="Draw the axes of each frame."),
+        BoolProperty(
+            "Show Arrows",
+            default=True,
+            help="Draw an arrow from each frame to its parent.",
+        ),
+        FloatProperty(
+            "Marker Scale",
+            default=1.0,
+            help="Size of names, axes and arrows.",
+        ),
+        FloatProperty(
+            "Update Interval",
+            default=0.0,
+            minimum=0.0,
+            unit="s",
+            help="Seconds between updates; frames move at once here.",
+            support="approximate",
+        ),
+        FloatProperty(
+            "Frame Timeout",
+            default=15.0,
+            minimum=1.0,
+            unit="s",
+            help="Seconds after which RViz takes a silent frame out; frames here "
+            "never grow old.",
+            support="approximate",
+        ),
+        RegexProperty(
+            "Filter (whitelist)",
+            default="",
+            help="Show only frames whose name matches; empty shows all.",
+        ),
+        RegexProperty(
+            "Filter (blacklist)",
+            default="",
+            help="Hide frames whose name matches; empty hides none.",
+        ),
+        GroupProperty(
+            "Frames",
+            help="The frames, each with a box to show or hide it.",
+            children=(
+                BoolProperty(
+                    "All Enabled", default=True, help="Show or hide all frames."
+                ),
+            ),
+            open_keys=True,
+        ),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """See `Display`."""
+        super().__init__(context, config, key)
+        self._marks: dict[str, _FrameMarks] = {}
+        self._arrows: dict[str, _Arrows] = {}
+
+    def draw(self) -> None:
+        """Draw what is missing and change what differs."""
+        tree, nodes = self.context.tree, self.context.nodes
+        boxes = frame_boxes(self.config)
+        frames = {
+            frame: None
+            for frame in tree.frames
+            if nodes.connected(frame)
+            and self._passes(frame)
+            and boxes.get(frame, boxes[ALL_FRAMES])
+        }
+        for frame in [f for f in self._marks if f not in frames]:
+            self._drop(self._marks.pop(frame))
+        for frame in frames:
+            self._draw_marks(frame)
+        parents = {tree.parent(f) for f in frames}
+        for parent in [p for p in self._arrows if p not in parents]:
+            remove_all(self._arrows.pop(parent).handles)
+        for parent in parents:
+            if parent is not None:
+                self._draw_arrows(parent)
+        self._report()
+
+    def _passes(self, frame: str) -> bool:
+        """Whether the filters let a frame through (§6.1)."""
+        whitelist = RegexProperty.compiled(self.config.get("Filter (whitelist)"))
+        blacklist = RegexProperty.compiled(self.config.get("Filter (blacklist)"))
+        if whitelist is not None and not whitelist.search(frame):
+            return False
+        return blacklist is None or not blacklist.search(frame)
+
+    def _draw_marks(self, frame: str) -> None:
+        path = self.context.nodes.path(frame)
+        if path is None:
+            return
+        marks = self._marks.get(frame)
+        if marks is not None and (marks.path != path or any_gone(marks.handles)):
+            self._drop(marks)
+            marks = None
+        if marks is None:
+            marks = self._marks[frame] = _FrameMarks(path)
+        scene, scale = self.context.scene, float(self.config.get("Marker Scale"))
+        if bool(self.config.get("Show Axes")):
+            if marks.axes is None:
+                marks.axes = add_axes(
+                    scene, f"{path}/{self.key}a", AXES_LENGTH, AXES_DIAMETER
+                )
+            marks.axes.scale = scale
+        elif marks.axes is not None:
+            remove_all([marks.axes])
+            marks.axes = None
+        if bool(self.config.get("Show Names")):
+            height = EM_HEIGHT * abs(scale)
+            if marks.name is None:
+                marks.name = scene.add_label(
+                    f"{path}/{self.key}n",
+                    text(frame),
+                    font_size_mode="scene",
+                    font_scene_height=height,
+                    depth_test=True,
+                    anchor="top-center",
+                )
+            marks.name.font_scene_height = height
+        elif marks.name is not None:
+            remove_all([marks.name])
+            marks.name = None
+
+    def _draw_arrows(self, parent: str) -> None:
+        """The arrows of all children of a frame, as two nodes below it."""
+        path = self.context.nodes.path(parent)
+        arrows: list[Arrow] = []
+        if bool(self.config.get("Show Arrows")):
+            scale = float(self.config.get("Marker Scale"))
+            for child in self.context.tree.children(parent):
+                T_parent_child = self.context.tree.hop(child).transform.matrix
+                arrow = frame_arrow(position_of(T_parent_child), scale)
+                if arrow is not None and child in self._marks:
+                    arrows.append(arrow)
+        known = self._arrows.setdefault(parent, _Arrows())
+        state = (path, tuple(arrows))
+        if state == known.state and not any_gone(known.handles):
+            return
+        remove_all(known.handles)
+        known.state, known.handles = state, ()
+        if arrows and path is not None:
+            known.handles = add_arrows(
+                self.context.scene,
+                f"{path}/{self.key}",
+                arrows,
+                SHAFT_COLOR,
+                HEAD_COLOR,
+            )
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value."""
+        if path == ALL_ENABLED:
+            set_all_frames(self.config)
+        super().property_changed(path)
+
+    def entries(self) -> tuple[EntryList, ...]:
+        """The frames."""
+        return (frame_entries(self.context, self.config),)
+
+    def frames_moved(self, frames: Iterable[str]) -> None:
+        """An arrow only changes when its frame has moved away from its parent."""
+        if not self.shown:
+            return
+        for frame in frames:
+            if self.context.moving.get(frame) not in ("revolute", "continuous"):
+                parent = self.context.tree.parent(frame)
+                if parent in self._arrows:
+                    self._draw_arrows(parent)
+
+    def _report(self) -> None:
+        fixed = self.context.fixed_frame
+        rows: dict[str, Status] = {}
+        for frame in self.context.tree.frames:
+            if self.context.nodes.connected(frame):
+                rows[frame] = Status("Ok", "Transform OK")
+            else:
+                sentence = f"No transform from [{frame}] to [{fixed}]"
+                rows[frame] = Status("Warn", sentence)
+        self.status.replace(rows)
+
+    def clear(self) -> None:
+        """Take all marks out of the scene."""
+        for marks in self._marks.values():
+            self._drop(marks)
+        for arrows in self._arrows.values():
+            remove_all(arrows.handles)
+        self._marks.clear()
+        self._arrows.clear()
+
+    @staticmethod
+    def _drop(marks: _FrameMarks) -> None:
+        remove_all(marks.handles)

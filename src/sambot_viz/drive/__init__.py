@@ -1,0 +1,1 @@
+"""The differential drive: exact arcs, and the two driven wheels of a robot."""

@@ -1,0 +1,94 @@
+"""A picture of the 3D view alone, at an exact size, from a Chromium of this machine."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.errors import ServerError
+from sambot_viz.export.chromium import Chromium
+from sambot_viz.server.server import Server
+from sambot_viz.session.browser_camera import BrowserCamera
+from sambot_viz.views.camera import Camera
+
+Picture = npt.NDArray[np.uint8]
+
+LONGEST_WAIT = 60.0
+"""For the page to show everything [s]; software rendering takes its time."""
+
+_EVERYTHING_IS_THERE = """(() => {
+  const look = window.sambotVizLook, page = window.__viserMutable;
+  if (!look || !page || !look.frames) return false;
+  const nodes = Object.entries(window.__viserSceneTree.getState());
+  if (nodes.length < %d) return false;
+  const names = nodes.filter(([, node]) => node.message.type === "LabelMessage");
+  return look.labels >= names.length
+    && nodes.every(([name, node]) => node.message.type === "LabelMessage"
+                   || page.nodeRefFromName[name]);
+})()"""
+"""Holds when the page has as many nodes as the server, each with its object (a mesh
+has one when it is parsed; a label has none), and all names are laid out."""
+
+
+def snapshot(
+    server: Server, chromium: Chromium, width: int, height: int, camera: Camera
+) -> Picture:
+    """Render what a session shows.
+
+    Args:
+        server: what to show, with a shared session.
+        chromium: a running browser.
+        width: of the picture [pixels].
+        height: of the picture [pixels].
+        camera: where to look from, such as `Session.views.camera`.
+
+    Returns:
+        (height, width, 3) uint8, RGB.
+
+    Raises:
+        ServerError: the page did not come to show everything in time.
+    """
+    end = time.monotonic() + LONGEST_WAIT
+    page = chromium.open(f"{server.url}/?fixedDpr=1", width=width, height=height)
+    try:
+        client = server.wait_for_browser(LONGEST_WAIT)
+        server.wait_for_meshes(max(1.0, end - time.monotonic()))
+        nodes = server.node_count()
+        page.wait_for(
+            _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())
+        )
+        before: Picture | None = None
+        standing: tuple[float, ...] | None = None
+        while time.monotonic() < end:
+            # viser draws a picture's background where the page's own camera is, and
+            # nothing beyond 1000 m: the page itself must stand there. A page that was
+            # just opened may report its first camera after it was told another.
+            if standing is None or not np.allclose(
+                _place(client), standing, rtol=1e-4, atol=1e-3
+            ):
+                BrowserCamera(client).point(camera, flat_fov=None)
+                standing, before = _place(client), None
+            image = client.get_render(
+                height,
+                width,
+                transport_format="png",
+                timeout=max(1.0, end - time.monotonic()),
+            )
+            picture: Picture = image[..., :3].astype(np.uint8)
+            # Meshes and names appear some frames after their messages; two equal
+            # pictures in a row say that nothing more is coming.
+            if before is not None and np.array_equal(picture, before):
+                return picture
+            before = picture
+    finally:
+        page.close()
+    raise ServerError(f"the page did not show everything within {LONGEST_WAIT:g} s")
+
+
+def _place(client: viser.ClientHandle) -> tuple[float, ...]:
+    """Where the page's camera is and looks, as far as is known [m]."""
+    camera = client.camera
+    return tuple(float(v) for v in (*camera.position, *camera.look_at))

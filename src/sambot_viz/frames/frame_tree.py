@@ -1,0 +1,293 @@
+"""The tree of frames: where anything is seen from anywhere.
+
+The rules are tf2's (spec/ros-nodes.md §4): the latest value counts, and a look-up from
+a frame to itself always works, even without any data.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sambot_viz.frames.compose import compose
+from sambot_viz.frames.hierarchy import Edge, FrameHierarchy, plain_name
+from sambot_viz.frames.refusals import LookupRefused, TransformRefused
+from sambot_viz.frames.transform import Transform
+from sambot_viz.robot.model import Matrix
+
+FrameListener = Callable[[tuple[str, ...]], None]
+"""Is called with the child frames whose transform was set or removed."""
+
+_SEEN_LIMIT = 4096
+"""So many answers are kept, lest asking for all pairs of frames fills the memory."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hop:
+    """One step of a chain, walked from the source towards the target.
+
+    Attributes:
+        parent: the upper frame of the transform that is crossed.
+        child: its lower frame.
+        up: True when the step goes from the child to the parent, False when it goes
+            down (then the inverse of the transform takes part).
+        transform: the pose of the child in the parent.
+        static: whether it was set as a static transform.
+        stamp: time of the latest value [s]; 0.0 when static.
+    """
+
+    parent: str
+    child: str
+    up: bool
+    transform: Transform
+    static: bool
+    stamp: float
+
+    @property
+    def start(self) -> str:
+        """The frame that the step leaves."""
+        return self.child if self.up else self.parent
+
+    @property
+    def end(self) -> str:
+        """The frame that the step reaches."""
+        return self.parent if self.up else self.child
+
+    @property
+    def step(self) -> Transform:
+        """The pose of `start` in `end`: what the step contributes to the product."""
+        return self.transform if self.up else self.transform.inverse()
+
+
+class FrameTree(FrameHierarchy):
+    """Frames and the transforms between them.
+
+    Names are taken as tf2 takes them: one leading slash is stripped. Not thread-safe:
+    the session that owns it holds the lock.
+
+    Attributes:
+        version: grows when a frame appears, disappears or gets another parent.
+        revision: grows at every change, also of values.
+        listeners: called after every change with the names of the changed children.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.revision = 0
+        self.listeners: list[FrameListener] = []
+        self._recent: dict[str, None] = {}
+        self._removed_at = 0
+        # The answers since the last change: whoever asks twice pays once.
+        self._seen: dict[tuple[str, str], Transform] = {}
+
+    # Setting
+
+    def set_static(self, parent: str, child: str, transform: Transform) -> None:
+        """Set a transform that holds for all times.
+
+        Args:
+            parent: the frame in which the pose is given.
+            child: the frame whose pose it is; it leaves its former parent.
+            transform: T_parent_child.
+
+        Raises:
+            TransformRefused: an empty name, or parent and child are the same.
+            CycleRefused: the parent hangs below the child.
+        """
+        edge = self._edge_for(parent, child)
+        edge.transform, edge.static, edge.stamp = transform, True, 0.0
+        self._changed((edge.child,))
+
+    def set(
+        self, parent: str, child: str, transform: Transform, stamp: float = 0.0
+    ) -> None:
+        """Set the latest value of a transform that changes.
+
+        Args:
+            parent: the frame in which the pose is given.
+            child: the frame whose pose it is; it leaves its former parent.
+            transform: T_parent_child.
+            stamp: the time of the value [s].
+
+        Raises:
+            TransformRefused: an empty name, or parent and child are the same.
+            CycleRefused: the parent hangs below the child.
+        """
+        edge = self._edge_for(parent, child)
+        edge.transform, edge.static, edge.stamp = transform, False, stamp
+        self._changed((edge.child,))
+
+    def update(self, transforms: Mapping[str, Matrix], stamp: float = 0.0) -> None:
+        """Set new values of transforms that exist already: the fast way for joints.
+
+        Either all values are taken or, after an error, none.
+
+        Args:
+            transforms: child frame → (4, 4) float64, T_parent_child. The arrays are
+                kept, not copied, and become read-only.
+            stamp: the time of the values [s].
+
+        Raises:
+            FrameError: a child that has no parent yet.
+            TransformRefused: a number that is not finite (TF_NAN_INPUT).
+        """
+        known, edges = self._edges, list[Edge]()
+        for child, matrix in transforms.items():
+            edges.append(known.get(child) or self._edge_of(child))
+            # The sum of all squares finds NaN and infinity at a third of the cost of
+            # isfinite().all().
+            if matrix.shape != (4, 4) or not math.isfinite(np.vdot(matrix, matrix)):
+                raise TransformRefused(
+                    "TF_NAN_INPUT",
+                    f"the transform of frame '{child}' is no finite (4, 4) matrix",
+                )
+        for edge, matrix in zip(edges, transforms.values(), strict=True):
+            matrix.flags.writeable = False
+            edge.transform, edge.stamp = Transform.trusted(matrix), stamp
+        self._changed(tuple(edge.child for edge in edges))
+
+    def remove(self, child: str) -> None:
+        """Take a frame from its parent; frames below it stay below it.
+
+        Raises:
+            FrameError: the frame does not exist or has no parent.
+        """
+        edge = self._edge_of(child)
+        self._unhang(edge)
+        self._recent.pop(edge.child, None)
+        self._removed_at = self.revision + 1
+        self._changed((edge.child,))
+
+    def clear(self) -> None:
+        """Forget all frames."""
+        children = tuple(self._edges)
+        self._edges.clear()
+        self._children.clear()
+        self._declared.clear()
+        self._recent.clear()
+        self._restructured()
+        self._removed_at = self.revision + 1
+        self._changed(children)
+
+    # Asking
+
+    def hop(self, child: str) -> Hop:
+        """The transform that holds a frame at its parent.
+
+        Raises:
+            FrameError: the frame does not exist or has no parent.
+        """
+        return _hop(self._edge_of(child), up=True)
+
+    def changed_since(self, revision: int) -> tuple[str, ...] | None:
+        """The children whose transform was set after a revision, latest first.
+
+        Returns:
+            None when a frame was removed since then: look at everything again.
+        """
+        if self._removed_at > revision:
+            return None
+        changed: list[str] = []
+        for child in reversed(self._recent):
+            if self._edges[child].revision <= revision:
+                break
+            changed.append(child)
+        return tuple(changed)
+
+    def lookup(self, target: str, source: str) -> Transform:
+        """The pose of the source frame in the target frame, T_target_source.
+
+        It takes coordinates of the source to the target, and is what
+        ``tf2_echo TARGET SOURCE`` prints. The same name twice needs no data.
+
+        Raises:
+            LookupRefused: a frame that does not exist (the target is tested first),
+                or frames of separate trees; with the texts of tf2 and RViz.
+        """
+        seen = self._seen.get((target, source))
+        if seen is None:
+            if len(self._seen) >= _SEEN_LIMIT:
+                self._seen.clear()
+            seen = self._seen[target, source] = self._look(target, source)
+        return seen
+
+    def can_lookup(self, target: str, source: str) -> bool:
+        """Whether `lookup` has an answer."""
+        try:
+            self._path(target, source)
+        except LookupRefused:
+            return False
+        return True
+
+    def latest_common_time(self, target: str, source: str) -> float:
+        """The oldest of the latest stamps in the chain [s]; 0.0 when all is static.
+
+        Raises:
+            LookupRefused: as `lookup`.
+        """
+        below, above = self._path(target, source)
+        return min((e.stamp for e in (*below, *above) if not e.static), default=0.0)
+
+    def chain(self, target: str, source: str) -> tuple[Hop, ...]:
+        """The steps from the source to the target, in walking order.
+
+        Raises:
+            LookupRefused: as `lookup`.
+        """
+        below, above = self._path(target, source)
+        ups = [_hop(edge, up=True) for edge in below]
+        downs = [_hop(edge, up=False) for edge in reversed(above)]
+        return (*ups, *downs)
+
+    def poses(self, target: str) -> dict[str, Matrix]:
+        """The poses of all frames that are connected to a frame, in that frame.
+
+        Returns:
+            Frame → (4, 4) float64, T_target_frame, in one walk through the tree.
+
+        Raises:
+            LookupRefused: the frame does not exist.
+        """
+        target = plain_name(target)
+        root = self.root_of(target)
+        poses = {root: self.lookup(target, root).matrix}
+        waiting = [root]
+        while waiting:
+            parent = waiting.pop()
+            T_target_parent = poses[parent]
+            for child in self._children[parent]:
+                poses[child] = T_target_parent.dot(self._edges[child].transform.matrix)
+                waiting.append(child)
+        return poses
+
+    # Inside
+
+    def _look(self, target: str, source: str) -> Transform:
+        below, above = self._path(target, source)
+        if not above and len(below) == 1:
+            return below[0].transform
+        # A list inside tuple() is faster than a generator here.
+        return compose(
+            tuple([edge.transform for edge in below]),
+            tuple([edge.transform for edge in above]),
+        )
+
+    def _changed(self, children: tuple[str, ...]) -> None:
+        self.revision += 1
+        self._seen.clear()
+        for child in children:
+            edge = self._edges.get(child)
+            if edge is not None:
+                edge.revision = self.revision
+                # Taking it out first moves it to the end: the latest stand last.
+                self._recent.pop(child, None)
+                self._recent[child] = None
+        for listener in tuple(self.listeners):
+            listener(children)
+
+
+def _hop(edge: Edge, *, up: bool) -> Hop:
+    return Hop(edge.parent, edge.child, up, edge.transform, edge.static, edge.stamp)

@@ -1,0 +1,1 @@
+"""From what a mesh file says to triangles that can be drawn."""

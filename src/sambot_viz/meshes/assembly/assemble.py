@@ -1,0 +1,249 @@
+"""From what a file says to what is drawn: cleaned, merged by look, vertices shared.
+
+Every reader ends in `assemble`. It is the one place that keeps nonsense away from
+the browser: values that are not finite, indices that point nowhere, empty meshes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.errors import Problem
+from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, mesh_error
+from sambot_viz.robot.model import Rgba
+
+MOST_NODES = 100_000
+MOST_TRIANGLES = 20_000_000
+"""Meshes that unfold to more than this are refused."""
+
+Floats = npt.NDArray[np.floating[Any]]
+Ints = npt.NDArray[np.integer[Any]]
+
+
+@dataclass(slots=True)
+class Submesh:
+    """Triangles of one look, as a reader found them.
+
+    Attributes:
+        vertices: (N, 3) [m].
+        faces: (M, 3) indices into `vertices`, possibly out of range.
+        normals: (N, 3), or None for flat shading.
+        rgba: colour, or None when the URDF decides.
+        uv: (N, 2), v upwards, or None.
+        texture: image, or None.
+        shared: the file already shares vertices as `MeshPart` promises.
+    """
+
+    vertices: Floats
+    faces: Ints
+    normals: Floats | None = None
+    rgba: Rgba | None = None
+    uv: Floats | None = None
+    texture: Texture | None = None
+    shared: bool = False
+
+
+@dataclass(slots=True)
+class MeshFindings:
+    """What a reader wants to say about a file, each sentence once."""
+
+    path: Path
+    problems: list[Problem] = field(default_factory=list[Problem])
+    files: list[Path] = field(default_factory=list[Path])
+    nodes: int = 0
+    triangles: int = 0
+
+    def warn(self, code: str, message: str, hint: str = "") -> None:
+        """Note something doubtful."""
+        problem = Problem("warning", code, message, hint, str(self.path))
+        if problem not in self.problems:
+            self.problems.append(problem)
+
+    def spend(self, *, nodes: int = 0, triangles: int = 0) -> None:
+        """Count what a file unfolds to: a few lines can name a shape a million times.
+
+        Raises:
+            MeshError: more than a browser can be expected to show.
+        """
+        self.nodes += nodes
+        self.triangles += triangles
+        if self.nodes > MOST_NODES or self.triangles > MOST_TRIANGLES:
+            what = (
+                f"{MOST_NODES} nodes"
+                if self.nodes > MOST_NODES
+                else f"{MOST_TRIANGLES} triangles"
+            )
+            raise mesh_error(
+                self.path,
+                "mesh-too-large",
+                f"the mesh has more than {what}, too many for a browser",
+                "reduce its triangles",
+            )
+
+    def read(self, path: Path) -> None:
+        """Note that a file beside the mesh was read."""
+        if path not in self.files:
+            self.files.append(path)
+
+
+def assemble(pieces: Iterable[Submesh], findings: MeshFindings) -> Mesh:
+    """The mesh that the pieces make.
+
+    Raises:
+        MeshError: there is no triangle in it that could be drawn.
+    """
+    groups: dict[object, list[Submesh]] = {}
+    for piece in pieces:
+        clean = _clean(piece, findings)
+        if clean is not None:
+            look = (clean.rgba, id(clean.texture), clean.normals is None)
+            groups.setdefault(look, []).append(clean)
+    if not groups:
+        reasons = [problem.message for problem in findings.problems]
+        raise mesh_error(
+            findings.path,
+            "mesh-broken" if reasons else "mesh-empty",
+            f"nothing of the mesh can be drawn: {reasons[0]}"
+            if reasons
+            else "the mesh has no triangles, so there is nothing to draw",
+            "export it again and check that the part was selected",
+        )
+    return Mesh(
+        path=findings.path,
+        parts=tuple(_weld(_join(group)) for group in groups.values()),
+        problems=tuple(findings.problems),
+        files=(findings.path, *findings.files),
+    )
+
+
+def _clean(piece: Submesh, findings: MeshFindings) -> Submesh | None:
+    """The piece without triangles that cannot be drawn; None when none is left."""
+    vertices = piece.vertices.astype(np.float32, copy=False)
+    faces = piece.faces
+    if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
+        inside = np.all((faces >= 0) & (faces < len(vertices)), axis=1)
+        findings.warn(
+            "mesh-index-out-of-range",
+            f"{np.count_nonzero(~inside)} triangles use vertices that the file does "
+            "not have; they are left out",
+            "export the mesh again",
+        )
+        faces = faces[inside]
+    finite = np.isfinite(np.sum(vertices, axis=1))
+    if not np.all(finite):
+        a, b, c = faces[:, 0], faces[:, 1], faces[:, 2]
+        usable = finite[a] & finite[b] & finite[c]
+        if not np.all(usable):
+            findings.warn(
+                "mesh-vertex-not-finite",
+                f"{np.count_nonzero(~usable)} triangles have a corner that is no "
+                "number (NaN or infinite); they are left out",
+                "export the mesh again",
+            )
+        faces = faces[usable]
+    if not len(faces):
+        return None
+    textured = piece.texture is not None and piece.uv is not None
+    return Submesh(
+        vertices=vertices,
+        faces=faces,
+        normals=None if piece.normals is None else _unit(piece.normals),
+        rgba=piece.rgba,
+        uv=np.nan_to_num(piece.uv) if textured and piece.uv is not None else None,
+        texture=piece.texture if textured else None,
+        shared=piece.shared,
+    )
+
+
+def _unit(normals: Floats) -> Floats:
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.nan_to_num(normals / lengths, posinf=0.0, neginf=0.0)
+
+
+def _join(group: list[Submesh]) -> Submesh:
+    if len(group) == 1:
+        return group[0]
+    sizes = [len(piece.vertices) for piece in group]
+    starts = np.cumsum([0, *sizes[:-1]])
+    first = group[0]
+    normals = [piece.normals for piece in group if piece.normals is not None]
+    uvs = [piece.uv for piece in group if piece.uv is not None]
+    return Submesh(
+        vertices=np.concatenate([piece.vertices for piece in group]),
+        faces=np.concatenate(
+            [piece.faces + start for piece, start in zip(group, starts, strict=True)]
+        ),
+        normals=np.concatenate(normals) if normals else None,
+        rgba=first.rgba,
+        uv=np.concatenate(uvs) if uvs else None,
+        texture=first.texture,
+        shared=all(piece.shared for piece in group),
+    )
+
+
+def _weld(piece: Submesh) -> MeshPart:
+    """Share the vertices that agree in position, normal and uv; drop unused ones.
+
+    Normals count as equal within a quarter of a degree: files write the same
+    smooth normal with differing last digits, and a browser that computes normals
+    from the faces would show an edge there.
+    """
+    used = np.zeros(len(piece.vertices), dtype=bool)
+    used[piece.faces] = True
+    first, group = _kinds(piece, used)
+    renumbered = np.zeros(len(piece.vertices), dtype=np.uint32)
+    renumbered[used] = group
+
+    def pick(values: Floats | None) -> npt.NDArray[np.float32] | None:
+        return None if values is None else values[used][first].astype(np.float32)
+
+    return MeshPart(
+        vertices=piece.vertices[used][first].astype(np.float32),
+        faces=renumbered[piece.faces],
+        normals=pick(piece.normals),
+        rgba=piece.rgba,
+        uv=pick(piece.uv),
+        texture=piece.texture,
+    )
+
+
+def _kinds(piece: Submesh, used: npt.NDArray[np.bool_]) -> tuple[Ints, Ints]:
+    """Among the used vertices: the first of each kind, and the kind of each."""
+    if piece.shared:
+        every = np.arange(np.count_nonzero(used))
+        return every, every
+    # Adding zero makes minus zero the same as zero.
+    columns = [piece.vertices[used].astype(np.float32) + np.float32(0)]
+    if piece.normals is not None:
+        columns.append(np.rint(piece.normals[used] * 256).astype(np.float32))
+        columns[-1] += np.float32(0)
+    if piece.uv is not None:
+        columns.append(piece.uv[used].astype(np.float32) + np.float32(0))
+    return _unique_rows(np.column_stack(columns))
+
+
+def _unique_rows(rows: npt.NDArray[np.float32]) -> tuple[Ints, Ints]:
+    """The first row of each distinct kind in order of appearance, and each row's kind.
+
+    Rows are compared through a 64-bit hash, ten times faster than comparing them
+    as they are, and the outcome is verified.
+    """
+    flat = np.frombuffer(np.ascontiguousarray(rows), dtype=np.uint32)
+    bits: Ints = np.reshape(flat, rows.shape)
+    hashes = np.zeros(len(rows), dtype=np.uint64)
+    for column in range(rows.shape[1]):
+        hashes = (hashes ^ bits[:, column]) * np.uint64(0x9E3779B97F4A7C15)
+        hashes ^= hashes >> np.uint64(29)
+    _, first, kind = np.unique(hashes, return_index=True, return_inverse=True)
+    if not np.array_equal(bits[first][kind], bits):
+        _, first, kind = np.unique(bits, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return first[order], rank[np.ravel(kind)]

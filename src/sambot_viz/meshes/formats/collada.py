@@ -1,0 +1,233 @@
+"""COLLADA (.dae), as RViz shows it.
+
+`<unit meter>` is applied, `<up_axis>` is not, node transforms are baked in, only the
+first uv set counts, colours are those of the file (spec/rviz-core.md §5.5, §5.6).
+Files that are not well-formed are recovered with a warning (spec/real-files.md §2,
+rows 13 to 15).
+"""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+
+import numpy as np
+
+from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
+from sambot_viz.meshes.assembly.placing import placed
+from sambot_viz.meshes.formats.collada_geometry import Geometry, read_geometry
+from sambot_viz.meshes.formats.collada_material import Materials
+from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_document
+from sambot_viz.meshes.textures import TextureStore
+from sambot_viz.robot.model import Matrix
+
+_DEEPEST = 200
+
+
+def read_collada(
+    data: bytes, findings: MeshFindings, images: TextureStore
+) -> list[Submesh]:
+    """The triangles of a COLLADA file [m].
+
+    Raises:
+        MeshError: no COLLADA even when read leniently.
+    """
+    document = parse_document(data, findings)
+    materials = Materials(document, findings, images)
+    scene = _Scene(document, materials, findings)
+    pieces = list(scene.pieces())
+    if not pieces:
+        pieces = list(scene.loose_pieces())
+    return pieces
+
+
+class _Scene:
+    """The tree of nodes, turned into pieces."""
+
+    def __init__(
+        self, document: ColladaDocument, materials: Materials, findings: MeshFindings
+    ) -> None:
+        self.document = document
+        self.materials = materials
+        self.findings = findings
+        self.unit = _unit(document, findings)
+        self._geometries: dict[int, Geometry] = {}
+
+    def pieces(self) -> Iterator[Submesh]:
+        """What the scene shows."""
+        scene = self.document.root.find("scene/instance_visual_scene")
+        visual = self.document.target(scene) if scene is not None else None
+        if visual is None:
+            visual = self.document.root.find("library_visual_scenes/visual_scene")
+        if visual is not None:
+            for node in visual.findall("node"):
+                yield from self._node(
+                    node, _scaling(self.unit, self.unit, self.unit), 0
+                )
+
+    def loose_pieces(self) -> Iterator[Submesh]:
+        """Every geometry of the file, for files whose scene shows none of them."""
+        start = _scaling(self.unit, self.unit, self.unit)
+        for geometry in self.document.root.iterfind("library_geometries/geometry"):
+            pieces = list(self._geometry(geometry, None, start))
+            if pieces:
+                self.findings.warn(
+                    "mesh-scene-missing",
+                    "the COLLADA file has no scene that shows its geometries; they are "
+                    "drawn as they stand in the file",
+                    "export the mesh again",
+                )
+            yield from pieces
+
+    def _node(self, node: ET.Element, T: Matrix, depth: int) -> Iterator[Submesh]:
+        if depth > _DEEPEST:
+            self.findings.warn(
+                "mesh-nodes-too-deep",
+                "the COLLADA nodes contain themselves or are "
+                f"nested more than {_DEEPEST} deep; the rest is left out",
+            )
+            return
+        self.findings.spend(nodes=1)
+        T_root_node = T @ _local_transform(node)
+        for child in node:
+            if child.tag == "node":
+                yield from self._node(child, T_root_node, depth + 1)
+            elif child.tag == "instance_node":
+                target = self.document.target(child)
+                if target is not None:
+                    yield from self._node(target, T_root_node, depth + 1)
+            elif child.tag == "instance_geometry":
+                target = self.document.target(child)
+                if target is not None:
+                    yield from self._geometry(target, child, T_root_node)
+            elif child.tag == "instance_controller":
+                yield from self._controller(child, T_root_node)
+
+    def _controller(self, instance: ET.Element, T: Matrix) -> Iterator[Submesh]:
+        """A skinned mesh stands as it was bound."""
+        controller = self.document.target(instance)
+        skin = controller.find("skin") if controller is not None else None
+        if skin is None:
+            return
+        target = self.document.by_id(skin.get("source"))
+        if target is not None:
+            bind = _numbers(skin.findtext("bind_shape_matrix"), 16)
+            T_bind = np.eye(4) if bind is None else np.reshape(bind, (4, 4))
+            yield from self._geometry(target, instance, T @ T_bind)
+
+    def _geometry(
+        self, element: ET.Element, instance: ET.Element | None, T: Matrix
+    ) -> Iterator[Submesh]:
+        geometry = self._geometries.get(id(element))
+        if geometry is None:
+            geometry = read_geometry(element, self.document, self.findings)
+            self._geometries[id(element)] = geometry
+        bound = self.materials.bindings(instance)
+        for primitives in geometry:
+            self.findings.spend(triangles=len(primitives.faces))
+            look = self.materials.look(primitives.symbol, bound)
+            yield placed(
+                Submesh(
+                    vertices=primitives.vertices,
+                    faces=primitives.faces,
+                    normals=primitives.normals,
+                    rgba=look.rgba,
+                    uv=primitives.uv,
+                    texture=look.texture,
+                ),
+                T,
+            )
+
+
+def _unit(document: ColladaDocument, findings: MeshFindings) -> float:
+    element = document.root.find("asset/unit")
+    text = element.get("meter") if element is not None else None
+    if text is None:
+        return 1.0
+    value = _numbers(text, 1)
+    if value is None or not value[0] > 0:
+        findings.warn(
+            "mesh-unit-invalid",
+            f'<unit meter="{text}"> is no positive number; 1 m is taken',
+            'write the length of one unit in metres, for example meter="0.001"',
+        )
+        return 1.0
+    return float(value[0])
+
+
+def _scaling(x: float, y: float, z: float) -> Matrix:
+    """The (4, 4) matrix that enlarges."""
+    return np.array([[x, 0, 0, 0], [0, y, 0, 0], [0, 0, z, 0], [0, 0, 0, 1]], float)
+
+
+def _local_transform(node: ET.Element) -> Matrix:
+    local = np.eye(4)
+    for child in node:
+        step = _TRANSFORMS.get(child.tag)
+        if step is not None:
+            local = local @ step(child.text)
+    return local
+
+
+def _numbers(text: str | None, count: int) -> Matrix | None:
+    try:
+        values = np.array((text or "").split(), dtype=np.float64)
+    except ValueError:
+        return None
+    return values if len(values) == count and np.isfinite(values).all() else None
+
+
+def _matrix(text: str | None) -> Matrix:
+    values = _numbers(text, 16)
+    return np.eye(4) if values is None else np.reshape(values, (4, 4))
+
+
+def _translate(text: str | None) -> Matrix:
+    T = np.eye(4)
+    values = _numbers(text, 3)
+    if values is not None:
+        T[:3, 3] = values
+    return T
+
+
+def _scale(text: str | None) -> Matrix:
+    values = _numbers(text, 3)
+    return np.eye(4) if values is None else _scaling(*values)
+
+
+def _rotate(text: str | None) -> Matrix:
+    T = np.eye(4)
+    values = _numbers(text, 4)
+    length = 0.0 if values is None else float(np.linalg.norm(values[:3]))
+    if values is None or length == 0:
+        return T
+    x, y, z = values[:3] / length
+    angle = math.radians(values[3])
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    T[:3, :3] += math.sin(angle) * K + (1 - math.cos(angle)) * (K @ K)
+    return T
+
+
+def _lookat(text: str | None) -> Matrix:
+    T = np.eye(4)
+    values = _numbers(text, 9)
+    if values is None:
+        return T
+    eye, target, up = np.reshape(values, (3, 3))
+    back = eye - target
+    right = np.cross(up, back)
+    if not np.linalg.norm(back) or not np.linalg.norm(right):
+        return T
+    back, right = back / np.linalg.norm(back), right / np.linalg.norm(right)
+    T[:3] = np.column_stack([right, np.cross(back, right), back, eye])
+    return T
+
+
+_TRANSFORMS = {
+    "matrix": _matrix,
+    "translate": _translate,
+    "scale": _scale,
+    "rotate": _rotate,
+    "lookat": _lookat,
+}

@@ -1,0 +1,101 @@
+"""The colours and textures of glTF, as RViz reads them (spec/rviz-core.md §5.6)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sambot_viz.meshes.assembly.assemble import MeshFindings
+from sambot_viz.meshes.assembly.materials import MeshMaterial
+from sambot_viz.meshes.formats.gltf_accessor import Accessors
+from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry, section
+from sambot_viz.meshes.formats.gltf_resource import Resources
+from sambot_viz.meshes.mesh import WHITE, Texture
+from sambot_viz.meshes.textures import TextureError, TextureStore
+from sambot_viz.robot.model import Rgba
+
+_GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
+_IMAGE_EXTENSIONS = ("EXT_texture_webp", "KHR_texture_basisu")
+
+
+class GltfMaterials:
+    """The materials of a file, each read once."""
+
+    def __init__(
+        self,
+        document: Json,
+        resources: Resources,
+        accessors: Accessors,
+        findings: MeshFindings,
+        images: TextureStore,
+    ) -> None:
+        self.document = document
+        self.resources = resources
+        self.accessors = accessors
+        self.findings = findings
+        self.images = images
+        self._looks: dict[int, tuple[MeshMaterial, int]] = {}
+
+    def look(self, number: object) -> tuple[MeshMaterial, int]:
+        """Colour and texture of a material, and the uv set of the texture.
+
+        Without a material glTF says white.
+        """
+        if number is None:
+            return MeshMaterial(WHITE), 0
+        material = entry(self.document, "materials", number)
+        known = self._looks.get(id(material))
+        if known is None:
+            known = self._looks[id(material)] = self._read(material)
+        return known
+
+    def _read(self, material: Json) -> tuple[MeshMaterial, int]:
+        pbr = section(material, "pbrMetallicRoughness")
+        factor, info = pbr.get("baseColorFactor"), section(pbr, "baseColorTexture")
+        old = section(section(material, "extensions"), _GLOSSINESS)
+        if old:
+            factor = old.get("diffuseFactor", factor)
+            info = section(old, "diffuseTexture") or info
+        rgba = _rgba(factor)
+        if material.get("alphaMode", "OPAQUE") != "BLEND" or rgba[3] == 0:
+            rgba = (*rgba[:3], 1.0)
+        if not info:
+            return MeshMaterial(rgba), 0
+        uv_set: object = info.get("texCoord", 0)
+        return (
+            MeshMaterial(rgba, self._texture(info.get("index"))),
+            uv_set if isinstance(uv_set, int) else 0,
+        )
+
+    def _texture(self, number: object) -> Texture | None:
+        try:
+            texture = entry(self.document, "textures", number)
+            extensions = section(texture, "extensions")
+            source: object = texture.get("source")
+            for name in _IMAGE_EXTENSIONS:
+                if source is None and name in extensions:
+                    source = section(extensions, name).get("source")
+            image = entry(self.document, "images", source)
+            if "uri" in image:
+                data = self.resources.uri(str(image["uri"]))
+            else:
+                data = self.accessors.view(image.get("bufferView"))
+            if data is not None:
+                return self.images.from_bytes(data)
+            reason = f"'{str(image['uri'])[:80]}' is not there"
+        except (Broken, TextureError) as error:
+            reason = str(error)
+        self.findings.warn(
+            "mesh-texture-broken",
+            f"texture {number} of the glTF file cannot be used: {reason}; the surface "
+            "is shown without it",
+            "export the mesh again with its textures",
+        )
+        return None
+
+
+def _rgba(factor: Any) -> Rgba:
+    try:
+        red, green, blue, alpha = (min(1.0, max(0.0, float(v))) for v in factor)
+    except (TypeError, ValueError):
+        return WHITE
+    return (red, green, blue, alpha)

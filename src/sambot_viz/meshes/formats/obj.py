@@ -1,0 +1,299 @@
+"""OBJ with MTL, as RViz shows it (spec/rviz-core.md §5.5, §5.6).
+
+Grey where no material says otherwise, flat where the file has no normals. Smoothing
+groups, lines, points and curves play no part.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.meshes.assembly.arrays import (
+    parse_floats,
+    parse_ints,
+    table_of,
+    triangulate,
+)
+from sambot_viz.meshes.assembly.assemble import Floats, MeshFindings, Submesh
+from sambot_viz.meshes.assembly.materials import MeshMaterial, load_texture
+from sambot_viz.meshes.mesh import GREY
+from sambot_viz.meshes.textures import TextureStore, find_beside, is_lfs_pointer
+
+_TWO_SLASHES = re.compile(rb"/\d*/")
+_MISSING = np.iinfo(np.int64).min
+
+
+@dataclass(slots=True)
+class _Group:
+    """Consecutive faces of one material, with what had been listed before them."""
+
+    material: str
+    seen: tuple[int, int, int]
+    lines: list[bytes] = field(default_factory=list[bytes])
+
+
+@dataclass(slots=True)
+class _Lines:
+    """The lines of a file by what they are."""
+
+    positions: list[bytes] = field(default_factory=list[bytes])
+    uvs: list[bytes] = field(default_factory=list[bytes])
+    normals: list[bytes] = field(default_factory=list[bytes])
+    groups: list[_Group] = field(default_factory=list[_Group])
+    libraries: list[str] = field(default_factory=list[str])
+
+
+def read_obj(
+    data: bytes, findings: MeshFindings, images: TextureStore
+) -> list[Submesh]:
+    """The triangles of an OBJ file."""
+    lines = _sort(data)
+    looks = _read_libraries(lines.libraries, findings, images)
+    tables = (
+        _table(lines.positions, 3, findings),
+        _table(lines.uvs, 2, findings),
+        _table(lines.normals, 3, findings),
+    )
+    pieces: list[Submesh] = []
+    for group in lines.groups:
+        if not group.lines:
+            continue
+        look = looks.get(group.material)
+        if look is None and group.material and looks:
+            findings.warn(
+                "mesh-material-broken",
+                f"the material '{group.material}' is not in the .mtl file; grey is "
+                "shown",
+            )
+        piece = _piece(group, tables, findings)
+        if piece is not None:
+            piece.rgba, piece.texture = (
+                (GREY, None) if look is None else (look.rgba, look.texture)
+            )
+            pieces.append(piece)
+    return pieces
+
+
+def _sort(data: bytes) -> _Lines:
+    data = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").replace(b"\t", b" ")
+    lines = _Lines()
+    positions, uvs, normals = lines.positions, lines.uvs, lines.normals
+    group = _Group("", (0, 0, 0))
+    lines.groups.append(group)
+    for line in data.splitlines():
+        # Files have hundreds of thousands of lines, so the common ones come first.
+        start = line[:2]
+        if start == b"v ":
+            positions.append(line[2:])
+        elif start == b"f ":
+            if b"-" in line:
+                group = _recounted(group, lines)
+            group.lines.append(line[2:])
+        elif start == b"vn":
+            normals.append(line[3:])
+        elif start == b"vt":
+            uvs.append(line[3:])
+        else:
+            keyword, _, rest = line.strip().partition(b" ")
+            if keyword == b"usemtl":
+                group = _Group(_text(rest), group.seen)
+                lines.groups.append(group)
+            elif keyword == b"mtllib":
+                lines.libraries.append(_text(rest))
+            elif keyword in (b"v", b"vn", b"vt", b"f") and line[:1] == b" ":
+                # Indented: rare enough to begin again.
+                stripped = [text.lstrip() for text in data.splitlines()]
+                return _sort(b"\n".join(stripped))
+    return lines
+
+
+def _recounted(group: _Group, lines: _Lines) -> _Group:
+    """The group for a face that counts backwards from the lines so far."""
+    seen = (len(lines.positions), len(lines.uvs), len(lines.normals))
+    if group.seen == seen:
+        return group
+    following = _Group(group.material, seen)
+    lines.groups.append(following)
+    return following
+
+
+def _text(line: bytes) -> str:
+    return line.decode("utf-8", "replace").strip()
+
+
+def _table(lines: list[bytes], width: int, findings: MeshFindings) -> Floats:
+    """(rows, width): the first numbers of every line."""
+    if not lines:
+        return np.empty((0, width), dtype=np.float32)
+    columns = len(lines[0].split())
+    values = parse_floats(b" ".join(lines))
+    if values is not None and columns >= width and len(values) == columns * len(lines):
+        return table_of(values, columns)[:, :width]
+    rows = [parse_floats(b" ".join(line.split()[:width])) for line in lines]
+    table = np.full((len(rows), width), np.nan, dtype=np.float32)
+    for number, row in enumerate(rows):
+        if row is not None:
+            table[number, : len(row)] = row
+    if width == 2:
+        return np.nan_to_num(table)
+    if np.any(np.isnan(table)):
+        findings.warn(
+            "mesh-geometry-broken",
+            "some lines of the OBJ file are not three numbers; what uses them is left "
+            "out",
+            "export the mesh again",
+        )
+    return table
+
+
+def _piece(
+    group: _Group, tables: tuple[Floats, Floats, Floats], findings: MeshFindings
+) -> Submesh | None:
+    counts = np.array([len(line.split()) for line in group.lines], dtype=np.int64)
+    corners = _corners(b" ".join(group.lines), int(counts.sum()))
+    if corners is None:
+        findings.warn(
+            "mesh-geometry-broken",
+            "a face of the OBJ file has an index that is no whole number; the faces of "
+            f"the material '{group.material}' are left out",
+            "export the mesh again",
+        )
+        return None
+    # Counted from one, or backwards from what had been listed so far.
+    index = corners - 1
+    if corners.min() < 0:
+        seen = np.array(group.seen, dtype=np.int64)
+        index = np.where((corners < 0) & (corners != _MISSING), corners + seen, index)
+        index = np.where(corners == _MISSING, -1, index)
+    positions, uvs, normals = tables
+    points = _pick(positions, index[:, 0])
+    if points is None:
+        there = (index[:, 0] >= 0) & (index[:, 0] < len(positions))
+        points = np.full((len(index), 3), np.nan, dtype=np.float32)
+        points[there] = positions[index[there, 0]]
+    return Submesh(
+        vertices=points,
+        faces=triangulate(counts, points),
+        normals=_pick(normals, index[:, 2]),
+        uv=_pick(uvs, index[:, 1]),
+    )
+
+
+def _pick(table: Floats, index: npt.NDArray[np.int64]) -> Floats | None:
+    """The rows at these places; None unless all of them exist."""
+    if not len(index) or index.min() < 0 or index.max() >= len(table):
+        return None
+    return table[index]
+
+
+def _corners(text: bytes, count: int) -> npt.NDArray[np.int64] | None:
+    """(count, 3): position, uv and normal of each corner as written."""
+    text = text.replace(b"//", b"/0/")
+    slashes = text.count(b"/")
+    table = np.full((count, 3), _MISSING, dtype=np.int64)
+    uniform = slashes in (0, 2 * count) or (
+        slashes == count and _TWO_SLASHES.search(text) is None
+    )
+    if uniform and count:
+        width = 1 + slashes // count
+        values = parse_ints(text.replace(b"/", b" "))
+        if values is None or len(values) != width * count:
+            return None
+        table[:, :width] = table_of(values, width)
+    else:
+        for row, corner in enumerate(text.split()):
+            values = parse_ints(corner.replace(b"/", b" "))
+            if values is None or not 1 <= len(values) <= 3:
+                return None
+            table[row, : len(values)] = values
+    table[table == 0] = _MISSING
+    return table
+
+
+def _read_libraries(
+    names: list[str], findings: MeshFindings, images: TextureStore
+) -> dict[str, MeshMaterial]:
+    looks: dict[str, MeshMaterial] = {}
+    for name in dict.fromkeys(names):
+        path = find_beside(findings.path, name)
+        try:
+            data = None if path is None else path.read_bytes()
+        except OSError:
+            data = None
+        if path is None or data is None:
+            findings.warn(
+                "mesh-material-missing",
+                f"the material file '{name}' is not there; grey is shown",
+                "put it beside the mesh",
+            )
+            continue
+        if is_lfs_pointer(data):
+            findings.warn(
+                "mesh-lfs-pointer",
+                f"the material file '{name}' is a git-LFS pointer; grey is shown",
+                "run 'git lfs pull' in its repository",
+            )
+        findings.read(path)
+        looks.update(_read_library(data, findings, images))
+    return looks
+
+
+def _read_library(
+    data: bytes, findings: MeshFindings, images: TextureStore
+) -> dict[str, MeshMaterial]:
+    looks: dict[str, MeshMaterial] = {}
+    name: str | None = None
+    for line in data.decode("utf-8", "replace").splitlines():
+        keyword, _, rest = line.strip().replace("\t", " ").partition(" ")
+        rest = rest.strip()
+        if keyword == "newmtl":
+            name = rest
+            looks[name] = MeshMaterial(GREY)
+        elif name is not None:
+            looks[name] = _changed(looks[name], keyword, rest, findings, images)
+    return looks
+
+
+def _changed(
+    look: MeshMaterial,
+    keyword: str,
+    rest: str,
+    findings: MeshFindings,
+    images: TextureStore,
+) -> MeshMaterial:
+    """The look after one more line of its material."""
+    if keyword == "map_Kd":
+        name = _map_name(rest)
+        return MeshMaterial(look.rgba, load_texture(name, findings, images))
+    if keyword not in ("Kd", "d", "Tr"):
+        return look
+    try:
+        numbers = [min(1.0, max(0.0, float(word))) for word in rest.split()]
+    except ValueError:
+        return look
+    if not numbers:
+        return look
+    if keyword == "Kd":
+        # One number alone stands for all three.
+        red, green, blue = (numbers * 3)[:3] if len(numbers) < 3 else numbers[:3]
+        return MeshMaterial((red, green, blue, look.rgba[3]), look.texture)
+    alpha = numbers[0] if keyword == "d" else 1 - numbers[0]
+    # Exporters write "d 0" for a part that is simply there.
+    return MeshMaterial((*look.rgba[:3], alpha or 1.0), look.texture)
+
+
+def _map_name(rest: str) -> str:
+    """The file name behind options such as "-s 1 1 1 -bm 0.5"."""
+    words = rest.split(" ")
+    while len(words) > 1 and words[0].startswith("-"):
+        option = words.pop(0)
+        if option in ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type"):
+            words.pop(0)
+            continue
+        while len(words) > 1 and re.fullmatch(r"[-+.\deE]*", words[0]):
+            words.pop(0)
+    return " ".join(words).strip()

@@ -1,0 +1,209 @@
+"""Images: found beside the mesh, made fit for a browser once, shared by all.
+
+A browser is sent the original PNG or JPEG bytes when the image is small enough;
+otherwise it is decoded, made smaller and encoded once (spec/real-files.md row 7).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import threading
+from pathlib import Path, PureWindowsPath
+from typing import TYPE_CHECKING, Literal
+from urllib.parse import unquote
+
+from sambot_viz.meshes.mesh import Texture
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+LONGEST_SIDE = 1024
+"""Textures are made this small [pixels] unless somebody asks for more."""
+_MIME: dict[str, Literal["image/png", "image/jpeg"]] = {
+    "PNG": "image/png",
+    "JPEG": "image/jpeg",
+}
+_FOLDERS = ("", "textures", "../materials/textures", "../textures")
+
+
+_Stamp = tuple[int, int]
+
+
+class TextureError(ValueError):
+    """An image that cannot be used; the text says why."""
+
+
+class TextureStore:
+    """Textures by content: the same file or the same bytes give the same object."""
+
+    def __init__(self, longest_side: int = LONGEST_SIDE) -> None:
+        """`longest_side`: the cap [pixels]; larger images are made smaller."""
+        self.longest_side = longest_side
+        self._lock = threading.Lock()
+        self._known: dict[bytes, Texture] = {}
+        self._files: dict[Path, tuple[_Stamp, Texture | str]] = {}
+
+    def from_file(self, path: Path) -> Texture:
+        """The image in a file.
+
+        Raises:
+            TextureError: it cannot be read, or is no image.
+        """
+        stamp = _stamp(path)
+        known = self._files.get(path)
+        if known is None or known[0] != stamp:
+            known = self._files[path] = (stamp, self._read(path))
+        if isinstance(known[1], str):
+            raise TextureError(known[1])
+        return known[1]
+
+    def is_read(self, path: Path) -> bool:
+        """Whether `from_file` has its answer at hand, also a refusal."""
+        known = self._files.get(path)
+        return known is not None and known[0] == _stamp(path)
+
+    def _read(self, path: Path) -> Texture | str:
+        """The image in a file, or why it cannot be used."""
+        try:
+            return self.from_bytes(path.read_bytes())
+        except OSError as error:
+            return (error.strerror or "it cannot be read").lower()
+        except ValueError as error:
+            return str(error)
+
+    def from_bytes(self, data: bytes) -> Texture:
+        """The image in these bytes (PNG, JPEG, TGA, BMP, TIFF, WebP, …).
+
+        Raises:
+            TextureError: no image, or one that is broken.
+        """
+        key = hashlib.sha256(data).digest()
+        with self._lock:
+            known = self._known.get(key)
+            if known is None:
+                known = self._known[key] = encode_texture(data, self.longest_side)
+        return known
+
+
+def _stamp(path: Path) -> _Stamp:
+    try:
+        stat = path.stat()
+    except (OSError, ValueError):
+        return (0, -1)
+    return (stat.st_mtime_ns, stat.st_size)
+
+
+def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
+    """Make an image fit for a browser.
+
+    Args:
+        data: an image file of any kind that Pillow reads.
+        longest_side: the cap [pixels].
+
+    Raises:
+        TextureError: no image, or one that is broken.
+    """
+    if is_lfs_pointer(data):
+        raise TextureError("it is a git-LFS pointer; run 'git lfs pull'")
+    # Pillow takes a twentieth of a second to import, most robots have no texture.
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        image = Image.open(io.BytesIO(data))
+        if max(image.size) <= longest_side and _ready(image, data):
+            return Texture(data, _MIME[image.format or ""], *image.size)
+        return _encode(Image.open(io.BytesIO(data)), longest_side)
+    except UnidentifiedImageError as error:
+        raise TextureError("it is no image that can be read") from error
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+        raise TextureError("it has too many pixels") from error
+    except (OSError, SyntaxError, ValueError, EOFError) as error:
+        raise TextureError(f"the image is broken ({error})") from error
+
+
+def _ready(image: Image, data: bytes) -> bool:
+    """Whether a browser shows these bytes as they are; raises when they are broken.
+
+    The check sums of a PNG and the end mark of a JPEG tell a file that was cut off
+    without the time that decoding takes.
+    """
+    if image.format == "PNG":
+        image.verify()
+        return True
+    if image.format == "JPEG" and image.mode in ("RGB", "L"):
+        return b"\xff\xd9" in data[-1024:]
+    return False
+
+
+def _encode(image: Image, longest_side: int) -> Texture:
+    fits = max(image.size) <= longest_side
+    if not fits:
+        # A JPEG can be decoded at a half, a quarter or an eighth of its size.
+        image.draft("RGB", (longest_side, longest_side))
+    kind = image.format
+    image.load()
+    if image.mode.startswith("I"):
+        # Sixteen bits of grey: the upper eight are what a screen can show.
+        image = image.convert("I").point(lambda value: value / 256).convert("L")
+    alpha = "A" in image.getbands() or "transparency" in image.info
+    image = image.convert("RGBA" if alpha else "RGB")
+    if alpha and image.getchannel("A").getextrema() == (255, 255):
+        # An alpha channel that hides nothing would only forbid JPEG.
+        alpha, image = False, image.convert("RGB")
+    if not fits:
+        image.thumbnail((longest_side, longest_side))
+    lossy = not alpha and (kind == "JPEG" or not fits)
+    out = io.BytesIO()
+    mime: Literal["image/png", "image/jpeg"] = "image/png"
+    if lossy:
+        mime = "image/jpeg"
+        image.save(out, "JPEG", quality=92, subsampling=0)
+    else:
+        image.save(out, "PNG", compress_level=4)
+    return Texture(out.getvalue(), mime, *image.size)
+
+
+def is_lfs_pointer(data: bytes) -> bool:
+    """Whether this only stands for a file that git-LFS keeps elsewhere."""
+    return data.startswith(b"version https://git-lfs")
+
+
+def find_beside(mesh: Path, name: str) -> Path | None:
+    """The file that a mesh file means by a name.
+
+    Looked for relative to the mesh, with the letter case as it comes, and by its last
+    part beside the mesh, in `textures` and in `../materials/textures`: exporters
+    write paths of the machine they ran on.
+
+    Args:
+        mesh: the mesh file.
+        name: as written in it; may be a URI, percent-encoded, or a Windows path.
+    """
+    plain = name.strip().removeprefix("file://")
+    for text in dict.fromkeys((plain, unquote(plain))):
+        if not text or "\0" in text:
+            continue
+        relative = text.replace("\\", "/")
+        base = PureWindowsPath(text).name
+        wanted = [mesh.parent / relative]
+        wanted += [mesh.parent / folder / base for folder in _FOLDERS if base]
+        for path in wanted:
+            found = _as_it_comes(path)
+            if found is not None:
+                return found
+    return None
+
+
+def _as_it_comes(path: Path) -> Path | None:
+    """The file, or the one whose name differs only in letter case."""
+    try:
+        if path.is_file():
+            return path
+        lower = path.name.lower()
+        for other in sorted(path.parent.iterdir()):
+            if other.name.lower() == lower and other.is_file():
+                return other
+    except OSError:
+        return None
+    return None

@@ -1,0 +1,199 @@
+"""From a file name as models write it to a file on this machine.
+
+The package's name counts first; the tail of the path is only the last resort
+(spec/real-files.md §2 number 19, §3.1). Only the standard library is used here: the
+xacro child reads this module too.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Container, Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Literal
+from urllib.parse import unquote
+
+from sambot_viz.robot.packages.package_index import PackageIndex
+
+Doubt = Literal["letter-case", "other-machine", "other-layout", "path-only"]
+"""Why a found file deserves a warning: ROS would not find it so."""
+
+_MAX_FOLDERS = 2000
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """Where a file was found, or where it was looked for.
+
+    Attributes:
+        path: the file, or None.
+        searched: what was tried, in order, as text for a message.
+        doubt: set when ROS itself would not find it this way.
+        missing_package: the package that was not found, when that is the reason.
+    """
+
+    path: Path | None
+    searched: tuple[str, ...] = ()
+    doubt: Doubt | None = None
+    missing_package: str | None = None
+
+
+class FileResolver:
+    """Resolves the file names of one model: meshes, textures, includes."""
+
+    def __init__(self, index: PackageIndex, folder: Path | None) -> None:
+        """Prepare.
+
+        Args:
+            index: where packages are.
+            folder: the model's folder; relative names start there.
+        """
+        self._index = index
+        self._folder = folder
+        self._answers: dict[str, Resolution] = {}
+
+    def resolve(self, name: str) -> Resolution:
+        """Find the file that a model means by `name`; the answer is kept.
+
+        Args:
+            name: "package://pkg/…", "model://…", "file://…", a relative or an
+                absolute path. Web addresses are never fetched.
+        """
+        if name not in self._answers:
+            try:
+                self._answers[name] = self._resolve(name)
+            except (OSError, ValueError) as error:
+                # A name that is too long, or one that no file system can hold.
+                reason = getattr(error, "strerror", None) or str(error)
+                self._answers[name] = Resolution(None, (reason,))
+        return self._answers[name]
+
+    def _resolve(self, name: str) -> Resolution:
+        scheme, separator, rest = name.partition("://")
+        if not separator:
+            return self._plain(name.replace("\\", "/") if "\\" in name else name)
+        if scheme in ("package", "model"):
+            return self._in_package(rest, scheme)
+        if scheme == "file":
+            return self._plain(rest)
+        return Resolution(None, (f"{scheme} addresses are not fetched",))
+
+    def _in_package(self, rest: str, scheme: str) -> Resolution:
+        package, _, tail = rest.partition("/")
+        lookup = self._index.find(package)
+        if lookup.path is None:
+            found = self._by_tail(tail) if scheme == "package" else None
+            if found is not None:
+                return Resolution(found, lookup.searched, "path-only", package)
+            return Resolution(None, lookup.searched, missing_package=package)
+        return self._below(lookup.path, tail)
+
+    def _below(self, root: Path, tail: str) -> Resolution:
+        """A file below a package folder, by its path, its case or its layout."""
+        path = root / tail
+        for candidate in (path, root / unquote(tail)):
+            if candidate.is_file():
+                return Resolution(candidate)
+        cased = other_letter_case(path)
+        if cased is not None:
+            return Resolution(cased, (str(path),), "letter-case")
+        moved = inside_package(root, PurePosixPath(tail), ())
+        if moved is not None:
+            return Resolution(moved, (str(path),), "other-layout")
+        return Resolution(None, (str(path),))
+
+    def _plain(self, name: str) -> Resolution:
+        base = self._folder or Path.cwd()
+        path = base / name
+        for candidate in (path, base / unquote(name)):
+            if candidate.is_file():
+                return Resolution(candidate)
+        cased = other_letter_case(path)
+        if cased is not None:
+            return Resolution(cased, (str(path),), "letter-case")
+        if path.is_absolute() and (name.startswith("/") or name[1:2] == ":"):
+            return self._other_machine(path)
+        found = self._by_tail(name)
+        doubt: Doubt | None = "path-only" if found else None
+        return Resolution(found, (str(path),), doubt)
+
+    def _other_machine(self, path: Path) -> Resolution:
+        """Cut another machine's absolute path at a package name that is known here."""
+        parts = path.parts
+        for position in range(len(parts) - 2, 0, -1):
+            lookup = self._index.find(parts[position])
+            if lookup.path is None:
+                continue
+            found = self._below(lookup.path, "/".join(parts[position + 1 :])).path
+            if found is not None:
+                return Resolution(found, (str(path),), "other-machine")
+        return Resolution(None, (str(path),))
+
+    def _by_tail(self, tail: str) -> Path | None:
+        """The same path below one of the folders above the model."""
+        if ".." in PurePosixPath(tail).parts:
+            return None
+        for folder in self._index.ancestors():
+            if (folder / tail).is_file():
+                return folder / tail
+        return None
+
+
+def other_letter_case(path: Path) -> Path | None:
+    """The file that has this path but for the case of its letters, if there is one."""
+    missing: list[str] = []
+    folder = path
+    while not folder.is_dir():
+        if folder.parent == folder:
+            return None
+        missing.append(folder.name)
+        folder = folder.parent
+    for name in reversed(missing):
+        same = [entry for entry in _names(folder) if entry.lower() == name.lower()]
+        if len(same) != 1:
+            return None
+        folder = folder / same[0]
+    return folder if folder.is_file() else None
+
+
+def _names(folder: Path) -> list[str]:
+    try:
+        return os.listdir(folder)
+    except OSError:
+        return []
+
+
+def inside_package(
+    root: Path, relative: PurePosixPath | Path, refused: Container[str]
+) -> Path | None:
+    """A file whose path ends like `relative` somewhere below a package.
+
+    A source tree need not be laid out like the installed package: what is installed
+    as ros2_control/x.xacro may stand in description/ros2_control/x.xacro.
+
+    Args:
+        root: the package folder.
+        relative: the path that is missing there.
+        refused: real paths that are no answer (files being included, which would
+            include themselves for ever).
+    """
+    if ".." in relative.parts or not relative.parts:
+        return None
+    matches = [
+        folder / relative
+        for folder in _folders(root)
+        if (folder / relative).is_file()
+        and os.path.realpath(folder / relative) not in refused
+    ]
+    return min(matches, key=lambda p: (len(p.parts), str(p)), default=None)
+
+
+def _folders(root: Path) -> Iterator[Path]:
+    count = 0
+    for folder, children, _ in os.walk(root):
+        children[:] = sorted(c for c in children if not c.startswith("."))
+        yield Path(folder)
+        count += 1
+        if count >= _MAX_FOLDERS:
+            return

@@ -1,0 +1,1 @@
+"""From URDF elements to links, joints and one tree, with urdfdom's rules."""

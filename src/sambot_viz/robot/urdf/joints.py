@@ -1,0 +1,202 @@
+"""Joints as urdfdom reads them; one wrong joint rejects the model.
+
+The rules are those of spec/ros-nodes.md §6.2 and the case tables of §6.7.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import get_args
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.model import (
+    Joint,
+    JointType,
+    Mimic,
+    Origin,
+    Vector3,
+)
+from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
+from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.limits import LimitReader
+from sambot_viz.robot.xml.parse import Element
+
+JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
+_REFUSED = "ROS refuses the model"
+
+
+def read_joint(element: Element, findings: Findings) -> Joint | None:
+    """Read one <joint>; every fault in it is reported.
+
+    Returns:
+        The joint, or None when it has no name, no known type or no ends. What else
+        is wrong is reported, and the joint goes on with the default for it, so that
+        the checks of the tree still see it.
+    """
+    name = element.get("name")
+    if name is None:
+        findings.reject(
+            "joint-without-name",
+            f"this <joint> has no name; {_REFUSED}",
+            'write <joint name="…" type="…">',
+            element,
+        )
+    shown = name or f"on line {element.place.line}"
+    kind = _type(element, shown, findings)
+    parent = _end(element, "parent", shown, findings)
+    child = _end(element, "child", shown, findings)
+    if name is None or kind is None or parent is None or child is None:
+        return None
+    return _JointReader(element, name, kind, findings).read(parent, child)
+
+
+def _type(element: Element, name: str, findings: Findings) -> JointType | None:
+    text = element.get("type")
+    if text is None:
+        findings.reject(
+            "joint-without-type",
+            f"joint {name} has no type; {_REFUSED}",
+            f'add type="continuous" or another of {", ".join(JOINT_TYPES)}',
+            element,
+        )
+        return None
+    for kind in JOINT_TYPES:
+        if kind == text:
+            return kind
+    plain = text.strip().lower()
+    if plain in JOINT_TYPES:
+        why = "ROS compares letter by letter, blanks and capitals count"
+        hint = f'write type="{plain}"'
+    else:
+        why = did_you_mean(text, JOINT_TYPES)
+        hint = f"use {', '.join(JOINT_TYPES[:-1])} or {JOINT_TYPES[-1]}"
+    findings.reject(
+        "joint-type-unknown",
+        f"joint {name} has the unknown type '{text}' ({why}); {_REFUSED}",
+        hint,
+        element,
+        "type",
+    )
+    return None
+
+
+def _end(element: Element, tag: str, name: str, findings: Findings) -> str | None:
+    end = element.find(tag)
+    if end is None:
+        findings.reject(
+            f"joint-without-{tag}",
+            f"joint {name} has no <{tag}>; {_REFUSED}",
+            f'write <{tag} link="…"/> into it',
+            element,
+        )
+        return None
+    link = end.get("link")
+    if link is not None:
+        return link
+    text = end.text.strip()
+    if text:
+        message = f"<{tag}> of joint {name} has the link as text, as in SDF"
+        hint = f'write <{tag} link="{text}"/>'
+    else:
+        message = f"<{tag}> of joint {name} names no link"
+        hint = f'write <{tag} link="…"/>'
+    findings.reject(f"joint-{tag}-without-link", f"{message}; {_REFUSED}", hint, end)
+    return None
+
+
+class _JointReader:
+    def __init__(
+        self, element: Element, name: str, kind: JointType, findings: Findings
+    ) -> None:
+        self._element = element
+        self._name = name
+        self._kind: JointType = kind
+        self._findings = findings
+        self._reader = AttributeReader(
+            findings, findings.reject, f"joint {name}", _REFUSED
+        )
+
+    def read(self, parent: str, child: str) -> Joint:
+        origin = Origin()
+        try:
+            origin = self._reader.origin(self._element)
+        except Unreadable:
+            pass
+        limits = LimitReader(
+            self._element, self._name, self._kind, self._reader, self._findings
+        )
+        limits.check_dynamics()
+        limits.check_calibration()
+        return Joint(
+            self._name,
+            self._kind,
+            parent,
+            child,
+            origin,
+            self._axis(),
+            limits.limit(),
+            limits.soft_limit(),
+            self._mimic(),
+            self._element.place,
+        )
+
+    def _axis(self) -> Vector3:
+        element = self._element.find("axis")
+        if element is None or self._kind in ("fixed", "floating"):
+            return (1.0, 0.0, 0.0)
+        if element.get("xyz") is None:
+            wrong = next(iter(element.attributes), None)
+            have = f" but {wrong}" if wrong else ""
+            self._findings.error(
+                "axis-without-xyz",
+                f"<axis> of joint {self._name} has no xyz{have}: ROS reads it as "
+                "0 0 0, which has no direction",
+                'write <axis xyz="0 1 0"/>, or delete <axis> for the default 1 0 0',
+                element,
+            )
+            return (0.0, 0.0, 0.0)
+        try:
+            x, y, z = self._reader.vector(element, "xyz", (0.0, 0.0, 0.0))
+        except Unreadable:
+            return (1.0, 0.0, 0.0)
+        length = math.sqrt(x * x + y * y + z * z)
+        if length == 0.0:
+            self._tell_zero_axis(element)
+            return (0.0, 0.0, 0.0)
+        if abs(length - 1.0) < 1e-12:
+            return (x, y, z)
+        return (x / length, y / length, z / length)
+
+    def _tell_zero_axis(self, element: Element) -> None:
+        if self._kind == "planar":
+            return
+        self._findings.error(
+            "axis-zero",
+            f'the axis "{element.get("xyz")}" of joint {self._name} has no '
+            "direction: ROS divides by zero and the link vanishes",
+            'write a direction such as xyz="0 1 0"',
+            element,
+            "xyz",
+        )
+
+    def _mimic(self) -> Mimic | None:
+        element = self._element.find("mimic")
+        if element is None:
+            return None
+        joint = element.get("joint")
+        if joint is None:
+            self._findings.reject(
+                "mimic-without-joint",
+                f"<mimic> of joint {self._name} names no joint; {_REFUSED}",
+                'write <mimic joint="…"/>',
+                element,
+            )
+            return None
+        try:
+            return Mimic(
+                joint,
+                self._reader.optional(element, "multiplier", 1.0),
+                self._reader.optional(element, "offset", 0.0),
+            )
+        except Unreadable:
+            return None

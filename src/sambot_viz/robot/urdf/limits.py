@@ -1,0 +1,162 @@
+"""The limits of a joint, and its elements that only have to be right."""
+
+from __future__ import annotations
+
+from sambot_viz.robot.model import JointType, Limit, SoftLimit
+from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
+from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.xml.parse import Element
+
+_REFUSED = "ROS refuses the model"
+_LIMIT_EXAMPLE = 'lower="-1.57" upper="1.57" effort="10" velocity="1"'
+
+
+class LimitReader:
+    """Reads <limit>, <safety_controller>, <dynamics> and <calibration> of one joint.
+
+    The rules are those of spec/ros-nodes.md §6.2.
+    """
+
+    def __init__(
+        self,
+        element: Element,
+        name: str,
+        kind: JointType,
+        reader: AttributeReader,
+        findings: Findings,
+    ) -> None:
+        self._element = element
+        self._name = name
+        self._kind = kind
+        self._reader = reader
+        self._findings = findings
+
+    def limit(self) -> Limit | None:
+        """The <limit>; None when there is none."""
+        element = self._element.find("limit")
+        if element is None:
+            if self._kind in ("revolute", "prismatic"):
+                self._tell_no_limit()
+            return None
+        missing = [n for n in ("effort", "velocity") if element.get(n) is None]
+        if missing:
+            self._tell_incomplete(element, missing)
+        try:
+            limit = Limit(
+                self._reader.optional(element, "lower", 0.0),
+                self._reader.optional(element, "upper", 0.0),
+                self._reader.optional(element, "effort", 0.0),
+                self._reader.optional(element, "velocity", 0.0),
+            )
+        except Unreadable:
+            return Limit()
+        if self._kind in ("revolute", "prismatic"):
+            self._check_range(element, limit)
+        return limit
+
+    def _tell_no_limit(self) -> None:
+        unit = "radians" if self._kind == "revolute" else "metres"
+        other = ", or make the joint continuous" if self._kind == "revolute" else ""
+        self._findings.reject(
+            "limit-missing",
+            f"joint {self._name} is {self._kind} and has no <limit>; {_REFUSED}",
+            f"add <limit {_LIMIT_EXAMPLE}/> with lower and upper in {unit}{other}",
+            self._element,
+        )
+
+    def _tell_incomplete(self, element: Element, missing: list[str]) -> None:
+        names = " and ".join(missing)
+        add = " ".join(f'{n}="{10 if n == "effort" else 1}"' for n in missing)
+        even = (
+            ""
+            if self._kind in ("revolute", "prismatic")
+            else (f", even on a {self._kind} joint")
+        )
+        self._findings.reject(
+            "limit-incomplete",
+            f"<limit> of joint {self._name} has no {names}; {_REFUSED}{even}",
+            f"add {add}" + (", or delete <limit>" if even else ""),
+            element,
+        )
+
+    def _check_range(self, element: Element, limit: Limit) -> None:
+        missing = [n for n in ("lower", "upper") if element.get(n) is None]
+        if missing:
+            names = " and no ".join(missing)
+            # A joint that can neither push nor move is meant to stand still.
+            meant = limit.effort == 0.0 and limit.velocity == 0.0
+            grave = len(missing) == 2 and not meant
+            report = self._findings.error if grave else self._findings.warn
+            report(
+                "limit-without-range",
+                f"<limit> of joint {self._name} has no {names}: urdfdom takes 0, so "
+                f"the range is {limit.lower:g} to {limit.upper:g}, and "
+                "joint_state_publisher refuses the model",
+                'give both, such as lower="-1.57" upper="1.57"',
+                element,
+            )
+        elif limit.lower > limit.upper:
+            self._findings.warn(
+                "limit-reversed",
+                f"joint {self._name} has lower ({limit.lower:g}) greater than upper "
+                f"({limit.upper:g})",
+                "exchange the two",
+                element,
+                "lower",
+            )
+
+    def soft_limit(self) -> SoftLimit | None:
+        """The soft limits of <safety_controller>; None when there is none."""
+        element = self._element.find("safety_controller")
+        if element is None:
+            return None
+        if element.get("k_velocity") is None:
+            self._findings.reject(
+                "safety-controller-incomplete",
+                f"<safety_controller> of joint {self._name} has no k_velocity; "
+                f"{_REFUSED}",
+                'add k_velocity="10"',
+                element,
+            )
+        try:
+            for name in ("k_position", "k_velocity"):
+                self._reader.optional(element, name, 0.0)
+            return SoftLimit(
+                self._soft(element, "soft_lower_limit"),
+                self._soft(element, "soft_upper_limit"),
+            )
+        except Unreadable:
+            return None
+
+    def _soft(self, element: Element, name: str) -> float | None:
+        if element.get(name) is None:
+            return None
+        return self._reader.number(element, name)
+
+    def check_dynamics(self) -> None:
+        """Report a <dynamics> that ROS refuses; its numbers are not kept."""
+        element = self._element.find("dynamics")
+        if element is None:
+            return
+        if element.get("damping") is None and element.get("friction") is None:
+            self._findings.reject(
+                "dynamics-empty",
+                f"<dynamics> of joint {self._name} has neither damping nor friction; "
+                f"{_REFUSED}",
+                "delete it, or give one of the two",
+                element,
+            )
+        self._check_numbers(element, ("damping", "friction"))
+
+    def check_calibration(self) -> None:
+        """Report a <calibration> that ROS refuses; its numbers are not kept."""
+        element = self._element.find("calibration")
+        if element is not None:
+            self._check_numbers(element, ("rising", "falling"))
+
+    def _check_numbers(self, element: Element, names: tuple[str, ...]) -> None:
+        for name in names:
+            try:
+                self._reader.optional(element, name, 0.0)
+            except Unreadable:
+                continue

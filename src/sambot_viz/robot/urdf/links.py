@@ -1,0 +1,274 @@
+"""Links with their shapes and inertia, in urdfdom's reading order.
+
+Inertia first, then all visuals, then all collisions; the first thing that cannot be
+read ends the link, and what was read before it stays (spec/ros-nodes.md §6.1).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.model import (
+    Box,
+    Capsule,
+    Cylinder,
+    Geometry,
+    Inertial,
+    Link,
+    Material,
+    MeshFile,
+    Shape,
+    Sphere,
+    Vector3,
+)
+from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
+from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.material_table import MaterialTable
+from sambot_viz.robot.xml.parse import Element
+
+FindMesh = Callable[[str, Element], "Path | None"]
+"""Mesh file name as written and its element → the file, or None."""
+
+_INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+class LinkReader:
+    """Reads <link> elements one after the other, sharing the material table."""
+
+    def __init__(
+        self, findings: Findings, materials: MaterialTable, find_mesh: FindMesh
+    ) -> None:
+        self._findings = findings
+        self._materials = materials
+        self._find_mesh = find_mesh
+
+    def read(self, element: Element, name: str) -> Link:
+        """The link with what ROS would keep of it; every fault in it is reported."""
+        inertial, complete = self._inertial(element, name)
+        visuals, complete = self._visuals(element, name, complete)
+        current = next((v.material for v in reversed(visuals) if v.material), None)
+        collisions = self._collisions(element, name, complete, current)
+        return Link(name, tuple(visuals), tuple(collisions), inertial, element.place)
+
+    def _inertial(self, link: Element, name: str) -> tuple[Inertial | None, bool]:
+        element = link.find("inertial")
+        if element is None:
+            return None, True
+        reader = AttributeReader(
+            self._findings,
+            self._findings.warn,
+            f"the inertial of link {name}",
+            f"ROS then drops all shapes of {name}"
+            if _has_shapes(link)
+            else "ROS leaves it out",
+        )
+        try:
+            return self._read_inertial(element, reader), True
+        except Unreadable:
+            return None, False
+
+    def _read_inertial(self, element: Element, reader: AttributeReader) -> Inertial:
+        origin = reader.origin(element)
+        mass = self._child(element, "mass", '<mass value="1.0"/>', reader)
+        value = reader.number(mass, "value")
+        inertia = self._child(
+            element, "inertia", '<inertia ixx="0.01" ixy="0" …/>', reader
+        )
+        missing = [key for key in _INERTIA if inertia.get(key) is None]
+        if missing:
+            raise reader.fail(
+                "inertia-incomplete",
+                f"<inertia> of {reader.owner} lacks {', '.join(missing)}",
+                f"add {' '.join(f'{key}=…' for key in missing)}".replace("…", '"0"'),
+                inertia,
+            )
+        return Inertial(value, origin, *(reader.number(inertia, k) for k in _INERTIA))
+
+    def _child(
+        self, parent: Element, tag: str, example: str, reader: AttributeReader
+    ) -> Element:
+        child = parent.find(tag)
+        if child is None:
+            raise reader.fail(
+                f"inertial-without-{tag}",
+                f"{reader.owner} has no <{tag}>",
+                f"write {example}",
+                parent,
+            )
+        return child
+
+    def _visuals(
+        self, link: Element, name: str, complete: bool
+    ) -> tuple[list[Shape], bool]:
+        visuals: list[Shape] = []
+        current: Material | None = None
+        for element in link.find_all("visual"):
+            loss = self._loss(link, name, element)
+            try:
+                shape = self._shape(element, f"a visual of link {name}", loss)
+                own = self._material(element, name, loss)
+            except Unreadable:
+                complete = False
+                continue
+            current = own or current
+            if complete:
+                visuals.append(dataclasses.replace(shape, material=current))
+        return visuals, complete
+
+    def _collisions(
+        self, link: Element, name: str, complete: bool, material: Material | None
+    ) -> list[Shape]:
+        collisions: list[Shape] = []
+        for element in link.find_all("collision"):
+            loss = self._loss(link, name, element)
+            try:
+                shape = self._shape(element, f"a collision of link {name}", loss)
+            except Unreadable:
+                complete = False
+                continue
+            if complete:
+                collisions.append(dataclasses.replace(shape, material=material))
+        return collisions
+
+    def _loss(self, link: Element, name: str, element: Element) -> str:
+        later = _later_shapes(link, element)
+        if later:
+            return f"ROS loads {name} without this shape and the {later} after it"
+        return f"ROS loads {name} without this shape"
+
+    def _material(self, visual: Element, link: str, loss: str) -> Material | None:
+        element = visual.find("material")
+        if element is None:
+            return None
+        if element.get("name") is None:
+            self._findings.error(
+                "material-without-name",
+                f"<material> in a visual of link {link} has no name; {loss}",
+                'write <material name="…">',
+                element,
+            )
+            raise Unreadable("material without name")
+        return self._materials.of_visual(element)
+
+    def _shape(self, element: Element, owner: str, loss: str) -> Shape:
+        reader = AttributeReader(self._findings, self._findings.error, owner, loss)
+        origin = reader.origin(element)
+        geometry = self._geometry(element, owner, loss, reader)
+        return Shape(geometry, origin, None, element.get("name") or "", element.place)
+
+    def _geometry(
+        self, shape: Element, owner: str, loss: str, reader: AttributeReader
+    ) -> Geometry:
+        element = shape.find("geometry")
+        if element is None or not element.children:
+            what = "no <geometry>" if element is None else "an empty <geometry>"
+            self._findings.warn(
+                "geometry-empty",
+                f"{owner} has {what}; {loss}",
+                "put a box, cylinder, sphere or mesh into it, or delete the element",
+                element or shape,
+            )
+            raise Unreadable(what)
+        if len(element.children) > 1:
+            self._findings.warn(
+                "geometry-more-than-one",
+                f"{owner} has more than one shape in <geometry>; only the first, "
+                f"<{element.children[0].tag}>, counts",
+                "give each shape its own element",
+                element.children[1],
+            )
+        return self._solid(element.children[0], owner, reader)
+
+    def _solid(self, element: Element, owner: str, reader: AttributeReader) -> Geometry:
+        match element.tag:
+            case "box":
+                return Box(self._size(element, reader))
+            case "sphere":
+                return Sphere(self._length(element, "radius", owner, reader))
+            case "cylinder":
+                return Cylinder(*self._radius_and_length(element, owner, reader))
+            case "capsule":
+                self._findings.warn(
+                    "geometry-capsule",
+                    f"{owner} is a capsule, which is no standard URDF shape; it is "
+                    "drawn here, but ROS loads the robot without it",
+                    "use box, cylinder, sphere or mesh",
+                    element,
+                )
+                return Capsule(*self._radius_and_length(element, owner, reader))
+            case "mesh":
+                return self._mesh(element, reader)
+            case _:
+                raise self._unknown(element, owner, reader)
+
+    def _unknown(
+        self, element: Element, owner: str, reader: AttributeReader
+    ) -> Unreadable:
+        names = ("box", "cylinder", "sphere", "mesh")
+        self._findings.warn(
+            "geometry-unknown",
+            f"{owner} has the shape <{element.tag}>, which is not known "
+            f"({did_you_mean(element.tag, names)}); {reader.loss}",
+            "use box, cylinder, sphere or mesh",
+            element,
+        )
+        return Unreadable(element.tag)
+
+    def _size(self, element: Element, reader: AttributeReader) -> Vector3:
+        reader.required(element, "size", "1 1 1")
+        return reader.vector(element, "size", (0.0, 0.0, 0.0))
+
+    def _radius_and_length(
+        self, element: Element, owner: str, reader: AttributeReader
+    ) -> tuple[float, float]:
+        if element.get("length") is None and element.get("height") is not None:
+            raise reader.fail(
+                "cylinder-height",
+                f"<{element.tag}> of {owner} has a height; the attribute is called "
+                "length",
+                f'write length="{element.get("height")}"',
+                element,
+                "height",
+            )
+        radius = self._length(element, "radius", owner, reader)
+        return radius, self._length(element, "length", owner, reader)
+
+    def _length(
+        self, element: Element, name: str, owner: str, reader: AttributeReader
+    ) -> float:
+        if element.get(name) is None and name == "radius" and element.get("diameter"):
+            raise reader.fail(
+                "sphere-diameter",
+                f"<{element.tag}> of {owner} has a diameter; URDF wants the radius",
+                'write radius="…" with half of it',
+                element,
+                "diameter",
+            )
+        return reader.number(element, name, "0.1")
+
+    def _mesh(self, element: Element, reader: AttributeReader) -> MeshFile:
+        filename = reader.required(element, "filename", "package://…/meshes/….stl")
+        scale = reader.vector(element, "scale", (1.0, 1.0, 1.0))
+        return MeshFile(filename, scale, self._find_mesh(filename, element))
+
+
+def _has_shapes(link: Element) -> bool:
+    return any(child.tag in ("visual", "collision") for child in link.children)
+
+
+def _later_shapes(link: Element, element: Element) -> str:
+    """What urdfdom reads after this shape, and loses with it."""
+    visuals, collisions = link.find_all("visual"), link.find_all("collision")
+    order = [*visuals, *collisions]
+    rest = order[order.index(element) + 1 :]
+    shapes = sum(1 for other in rest if other.tag == "visual")
+    bodies = len(rest) - shapes
+    parts = [
+        f"{count} {word}{'' if count == 1 else 's'}"
+        for count, word in ((shapes, "visual"), (bodies, "collision"))
+        if count
+    ]
+    return " and ".join(parts)

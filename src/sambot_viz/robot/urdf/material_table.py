@@ -1,0 +1,208 @@
+"""Materials by name and order, as urdfdom resolves them (spec/ros-nodes.md §6.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.model import Material, Rgba
+from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.numbers import BadNumber, read_numbers
+from sambot_viz.robot.xml.parse import Element
+
+_BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
+_COLOURS = {
+    "red": "1 0 0 1",
+    "green": "0 1 0 1",
+    "blue": "0 0 1 1",
+    "yellow": "1 1 0 1",
+    "orange": "1 0.5 0 1",
+    "white": "1 1 1 1",
+    "black": "0 0 0 1",
+}
+FindTexture = Callable[[str, Element], "Path | None"]
+"""Texture file name as written and its element → the file, or None."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    material: Material
+    element: Element
+
+
+class MaterialTable:
+    """The materials known so far, in urdfdom's order.
+
+    Global materials are known everywhere; an inline one is known from its visual on;
+    the first definition of a name wins for the whole robot.
+    """
+
+    def __init__(self, findings: Findings, find_texture: FindTexture) -> None:
+        self._findings = findings
+        self._find_texture = find_texture
+        self._known: dict[str, _Known] = {}
+
+    def add_global(self, element: Element) -> None:
+        """Take a <material> that is a child of <robot>."""
+        name = element.get("name")
+        if name is None:
+            self._findings.warn(
+                "material-without-name",
+                "this <material> has no name, so nothing can use it",
+                'write <material name="…">',
+                element,
+            )
+            return
+        if name in self._known:
+            first = self._known[name].element
+            self._findings.reject(
+                "material-duplicate",
+                f"material '{name}' is defined on line {first.place.line} and again "
+                "here; ROS refuses the model",
+                "delete one, or give it another name",
+                element,
+            )
+            return
+        material = self._defined(name, element)
+        if material is None and element.find("color") is None:
+            self._findings.warn(
+                "material-without-colour",
+                f"material '{name}' has neither a colour nor a texture; ROS shows it "
+                "black",
+                'write <color rgba="0.5 0.5 0.5 1"/> inside it',
+                element,
+            )
+        self._known[name] = _Known(material or Material(name, _BLACK), element)
+
+    def of_visual(self, element: Element) -> Material | None:
+        """The material that a <material> inside a visual means; None is RViz's red."""
+        name = element.get("name") or ""
+        inline = self._defined(name, element)
+        if not name:
+            return inline
+        known = self._known.get(name)
+        if known is not None:
+            self._tell_redefined(name, inline, known, element)
+            return known.material
+        if inline is None:
+            self._tell_undefined(name, element)
+            return None
+        self._known[name] = _Known(inline, element)
+        return inline
+
+    def _tell_redefined(
+        self, name: str, inline: Material | None, known: _Known, element: Element
+    ) -> None:
+        if inline is None or inline == known.material:
+            return
+        self._findings.warn(
+            "material-redefined",
+            f"material '{name}' is defined here in another way than on line "
+            f"{known.element.place.line}; ROS uses the first definition everywhere",
+            "give one of the two another name",
+            element,
+        )
+
+    def _tell_undefined(self, name: str, element: Element) -> None:
+        if element.find("color") is not None:
+            return
+        near = did_you_mean(name, [other for other in self._known if other])
+        self._findings.warn(
+            "material-undefined",
+            f"material '{name}' is not defined up to here ({near}); RViz shows the "
+            "shape red",
+            f'write <material name="{name}"><color rgba="{_guess(name)}"/></material>, '
+            "here or at the top of the file",
+            element,
+        )
+
+    def _defined(self, name: str, element: Element) -> Material | None:
+        """What the element itself defines, or None when it is only a reference."""
+        color = element.find("color")
+        texture = element.find("texture")
+        rgba = self._rgba(name, color) if color is not None else None
+        file = texture.get("filename") if texture is not None else None
+        if file is None or texture is None:
+            return Material(name, rgba) if rgba is not None else None
+        return Material(name, rgba, file, self._find_texture(file, texture))
+
+    def _rgba(self, name: str, color: Element) -> Rgba | None:
+        text = color.get("rgba")
+        if text is None:
+            wrong = next(iter(color.attributes), None)
+            have = f" (it has {wrong})" if wrong else ""
+            self._findings.warn(
+                "color-without-rgba",
+                f"<color> of material '{name}' has no rgba{have}; ROS cannot "
+                "use the colour",
+                'write rgba="1 0 0 1"',
+                color,
+            )
+            return None
+        count = len(text.split())
+        if "," not in text and count in (1, 2, 3, 5, 6) and _all_numbers(text, count):
+            self._findings.warn(
+                "color-count",
+                f"rgba=\"{text}\" of material '{name}' has {count} numbers, four are "
+                "needed; ROS shows black without a word",
+                f'write rgba="{_four(text)}"',
+                color,
+                "rgba",
+            )
+            return _BLACK
+        return self._four_numbers(name, text, color)
+
+    def _four_numbers(self, name: str, text: str, color: Element) -> Rgba | None:
+        try:
+            r, g, b, a = read_numbers(text, 4)
+        except BadNumber as bad:
+            self._findings.error(
+                "color-malformed",
+                f"rgba=\"{text}\" of material '{name}' {bad.reason}; ROS cannot "
+                "use the colour",
+                "write four numbers from 0 to 1 with blanks between them, such as "
+                'rgba="1 0 0 1"',
+                color,
+                "rgba",
+            )
+            return None
+        if all(0.0 <= part <= 1.0 for part in (r, g, b, a)):
+            return (r, g, b, a)
+        better = " ".join(f"{_to_unit(part):.3g}" for part in (r, g, b, a))
+        self._findings.error(
+            "color-range",
+            f"rgba=\"{text}\" of material '{name}' leaves the range 0 to 1 (it looks "
+            "like 0 to 255); ROS cannot use the colour",
+            f'write rgba="{better}"',
+            color,
+            "rgba",
+        )
+        return None
+
+
+def _guess(name: str) -> str:
+    """An rgba that somebody may have meant by the name."""
+    found = (rgba for word, rgba in _COLOURS.items() if word in name.lower())
+    return next(found, "0.5 0.5 0.5 1")
+
+
+def _to_unit(part: float) -> float:
+    """A colour component that was meant for 0 to 255, in the range 0 to 1."""
+    return min(max(part if part <= 1 else part / 255, 0.0), 1.0)
+
+
+def _all_numbers(text: str, count: int) -> bool:
+    try:
+        read_numbers(text, count)
+    except BadNumber:
+        return False
+    return True
+
+
+def _four(text: str) -> str:
+    parts = text.split()
+    if len(parts) == 1:
+        parts = parts * 3
+    return " ".join([*parts, *["0"] * (3 - len(parts)), "1"][:4])

@@ -1,0 +1,74 @@
+"""Mimic joints that joint_state_publisher cannot follow (spec/ros-nodes.md §1.6)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.model import Joint
+from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.xml.parse import Element
+
+
+def check_mimics(
+    joints: Mapping[str, Joint], elements: Mapping[str, Element], findings: Findings
+) -> None:
+    """Report unknown, immovable and circular mimic joints; ROS's parser sees none."""
+    told: set[str] = set()
+    for name, joint in joints.items():
+        if joint.mimic is None or name in told:
+            continue
+        element = elements[name].find("mimic") or elements[name]
+        leader = joints.get(joint.mimic.joint)
+        if leader is None:
+            near = did_you_mean(joint.mimic.joint, joints)
+            findings.error(
+                "mimic-joint-unknown",
+                f"joint {name} mimics '{joint.mimic.joint}', which does not exist "
+                f"({near}); joint_state_publisher would crash",
+                "correct the name, or delete <mimic>",
+                element,
+                "joint",
+            )
+        elif not leader.movable:
+            findings.warn(
+                "mimic-joint-immovable",
+                f"joint {name} mimics {leader.name}, which is {leader.type} and has "
+                "no position; joint_state_publisher would crash",
+                "let it mimic a revolute, continuous or prismatic joint",
+                element,
+                "joint",
+            )
+        else:
+            told |= _tell_ring(joint, joints, element, findings)
+
+
+def _tell_ring(
+    joint: Joint, joints: Mapping[str, Joint], element: Element, findings: Findings
+) -> set[str]:
+    """Report the ring that a joint's mimic chain runs into, if the joint is in it."""
+    chain = [joint.name]
+    current = joint
+    while current.mimic is not None and current.mimic.joint in joints:
+        current = joints[current.mimic.joint]
+        if current.name == joint.name:
+            break
+        if current.name in chain:
+            return set()
+        chain.append(current.name)
+    else:
+        return set()
+    names = " → ".join([*chain, joint.name])
+    what = (
+        f"joint {joint.name} mimics itself"
+        if len(chain) == 1
+        else f"these joints mimic each other in a ring: {names}"
+    )
+    findings.error(
+        "mimic-ring",
+        f"{what}; joint_state_publisher would stop",
+        "one of them must be free: delete its <mimic>",
+        element,
+        "joint",
+    )
+    return set(chain)

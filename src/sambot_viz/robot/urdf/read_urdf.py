@@ -1,0 +1,273 @@
+"""From the elements of a URDF to links and joints, with urdfdom's semantics.
+
+Three levels of failure (spec/ros-nodes.md §6.1): a wrong joint, name or tree rejects
+the model; a wrong shape costs the rest of its link; a wrong material costs its
+colour. Everything is read to the end, so that all faults are told at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sambot_viz.robot.model import Joint, Link
+from sambot_viz.robot.urdf.findings import Findings, tag_text
+from sambot_viz.robot.urdf.joints import read_joint
+from sambot_viz.robot.urdf.link_tree import RobotParts, build_tree, is_fragment
+from sambot_viz.robot.urdf.links import FindMesh, LinkReader
+from sambot_viz.robot.urdf.material_table import FindTexture, MaterialTable
+from sambot_viz.robot.urdf.mimic_rules import check_mimics
+from sambot_viz.robot.xml.parse import Element
+
+_OTHER_ROOTS = {
+    "sdf": "an SDF file of Gazebo",
+    "world": "an SDF world of Gazebo",
+    "model": "a Gazebo model",
+    "mujoco": "a MuJoCo model",
+    "COLLADA": "a COLLADA mesh",
+    "launch": "a launch file",
+    "package": "a package manifest",
+    "html": "a web page",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfRobot:
+    """What a URDF document says: name, root link, links and joints of its tree."""
+
+    name: str
+    root: str
+    links: dict[str, Link]
+    joints: dict[str, Joint]
+
+
+def read_urdf(
+    document: Element,
+    findings: Findings,
+    find_mesh: FindMesh,
+    find_texture: FindTexture,
+    expanded: bool,
+) -> UrdfRobot | None:
+    """Read a document.
+
+    Args:
+        document: its root element.
+        findings: where problems go; `findings.rejected` tells whether ROS refuses it.
+        find_mesh: mesh name → file.
+        find_texture: texture name → file.
+        expanded: the document came out of xacro.
+
+    Returns:
+        The robot, or None when nothing can be drawn.
+    """
+    robot = _robot_element(document, findings)
+    if robot is None:
+        return None
+    _check_version(robot, findings)
+    materials = MaterialTable(findings, find_texture)
+    for element in robot.find_all("material"):
+        materials.add_global(element)
+    reader = LinkReader(findings, materials, find_mesh)
+    parts = RobotParts({}, {}, {}, {}, robot)
+    _read_links(parts, reader, findings)
+    _check_slashes(parts, findings)
+    _read_joints(parts, findings)
+    if not parts.links and not parts.nameless and not is_fragment(parts):
+        _tell_no_links(robot, findings)
+        return None
+    name = _robot_name(parts, findings, expanded)
+    check_mimics(parts.joints, parts.joint_elements, findings)
+    tree = build_tree(parts, findings)
+    if tree is None:
+        return None
+    return UrdfRobot(name, tree.root, tree.links, tree.joints)
+
+
+def _robot_element(document: Element, findings: Findings) -> Element | None:
+    if document.tag == "robot":
+        return document
+    inner = document.find("robot")
+    if inner is not None:
+        findings.warn(
+            "robot-not-root",
+            f"<robot> stands inside <{document.tag}>; joint_state_publisher takes it "
+            "so, but robot_state_publisher and RViz want <robot> as the root",
+            f"delete <{document.tag}> and </{document.tag}>",
+            inner,
+        )
+        return inner
+    kind = _OTHER_ROOTS.get(document.tag, "no robot description")
+    more = (
+        "export URDF, or convert the file first"
+        if document.tag in _OTHER_ROOTS
+        else "the root element must be <robot>"
+    )
+    findings.reject(
+        "root-not-robot",
+        f"this is {kind} (<{document.tag}> on line {document.place.line}), not URDF",
+        more,
+        document,
+    )
+    return None
+
+
+def _check_version(robot: Element, findings: Findings) -> None:
+    version = robot.get("version")
+    if version is None or version in ("1.0", "1.00"):
+        return
+    findings.reject(
+        "robot-version",
+        f'version="{version}" of <robot> is not supported; ROS knows only 1.0 and '
+        "refuses the model",
+        'delete the attribute, or write version="1.0"',
+        robot,
+        "version",
+    )
+
+
+def _robot_name(parts: RobotParts, findings: Findings, expanded: bool) -> str:
+    robot = parts.robot
+    name = robot.get("name")
+    if name:
+        return name
+    hint = 'write <robot name="my_robot">'
+    if name is not None:
+        findings.warn("robot-name-empty", "the robot's name is empty", hint, robot)
+        return ""
+    if expanded or is_fragment(parts):
+        findings.warn(
+            "robot-without-name",
+            "<robot> has no name, so this is probably a file for xacro:include; it "
+            "is drawn here, but ROS refuses it alone",
+            f"open the file that includes it, or {hint}",
+            robot,
+        )
+    else:
+        findings.reject(
+            "robot-without-name",
+            "<robot> has no name; ROS refuses the model",
+            hint,
+            robot,
+        )
+    return "robot"
+
+
+def _read_links(parts: RobotParts, reader: LinkReader, findings: Findings) -> None:
+    for element in parts.robot.find_all("link"):
+        name = element.get("name")
+        if not name:
+            parts.nameless += 1
+            _tell_nameless(parts.robot, element, findings)
+            continue
+        first = parts.link_elements.get(name)
+        if first is not None:
+            findings.reject(
+                "link-duplicate",
+                f"the link name {name} is used on line {first.place.line} and again "
+                "here; names must be unique and ROS refuses the model",
+                "give one of the two another name",
+                element,
+            )
+            parts.doubled.add(name)
+            continue
+        if name.startswith("//") or name == "/":
+            findings.reject(
+                "link-name-slashes",
+                f"the link name {name} is no frame for tf2 even without its first "
+                "slash, so nothing can stand there",
+                'write a name without slashes, such as name="arm_link"',
+                element,
+            )
+        elif name.startswith("/"):
+            findings.warn(
+                "link-name-slash",
+                f"the link name {name} begins with a slash, which tf2 does not "
+                "allow: the frame can never be looked up",
+                f'write name="{name.lstrip("/")}", here and in the joints',
+                element,
+            )
+        parts.link_elements[name] = element
+        parts.links[name] = reader.read(element, name)
+
+
+def _check_slashes(parts: RobotParts, findings: Findings) -> None:
+    """Reject links that are one frame for tf2, which strips one slash (§4)."""
+    for name, element in parts.link_elements.items():
+        twin = parts.link_elements.get(name[1:]) if name.startswith("/") else None
+        if twin is not None:
+            findings.reject(
+                "link-name-twin",
+                f"the links {name} and {name[1:]} (line {twin.place.line}) are the "
+                "same frame for tf2, which strips the slash",
+                "give one of the two another name",
+                element,
+            )
+
+
+def _tell_nameless(robot: Element, element: Element, findings: Findings) -> None:
+    named = {link.get("name") for link in robot.find_all("link")}
+    wanted: list[str] = []
+    for joint in robot.find_all("joint"):
+        for tag in ("parent", "child"):
+            end = joint.find(tag)
+            link = end.get("link") if end is not None else None
+            if link and link not in named:
+                wanted.append(f"joint {joint.get('name')} expects one called {link}")
+    more = f"; {wanted[0]}" if wanted else ""
+    findings.reject(
+        "link-without-name",
+        f"this <link> has no name{more}; ROS refuses the model",
+        'write <link name="…">',
+        element,
+    )
+
+
+def _read_joints(parts: RobotParts, findings: Findings) -> None:
+    for element in parts.robot.find_all("joint"):
+        joint = read_joint(element, findings)
+        first = parts.joint_elements.get(element.get("name") or "")
+        if joint is not None and first is not None:
+            findings.reject(
+                "joint-duplicate",
+                f"the joint name {joint.name} is used on line {first.place.line} and "
+                "again here; names must be unique and ROS refuses the model",
+                "give one of the two another name",
+                element,
+            )
+        if joint is None or first is not None:
+            _excuse(parts, element)
+            continue
+        parts.joints[joint.name] = joint
+        parts.joint_elements[joint.name] = element
+
+
+def _excuse(parts: RobotParts, joint: Element) -> None:
+    """Remember that a link is loose only because its joint was not taken."""
+    child = joint.find("child")
+    link = child.get("link") if child is not None else None
+    parts.excused.update([link] if link else parts.links)
+
+
+def _tell_no_links(robot: Element, findings: Findings) -> None:
+    inside = next(
+        (e for e in robot.iter() if e.tag == "link" and e.parent is not robot), None
+    )
+    group = inside.parent if inside is not None else None
+    if inside is not None and group is not None and group.tag not in _NOT_GROUPS:
+        findings.reject(
+            "links-not-direct",
+            f"the links stand inside {tag_text(group)}; links and joints must be "
+            "directly inside <robot>, so ROS sees none",
+            f"delete <{group.tag}> and </{group.tag}>",
+            group,
+        )
+        return
+    findings.reject(
+        "robot-without-links",
+        "the robot has no links; a file that holds only macros or properties is "
+        "included by another one",
+        'open the file that includes it, or add <link name="base_link"/>',
+        robot,
+    )
+
+
+_NOT_GROUPS = frozenset({"joint", "xacro:macro", "transmission", "gazebo"})

@@ -1,0 +1,1 @@
+"""Expanding xacro with the real xacro package, in a child process."""

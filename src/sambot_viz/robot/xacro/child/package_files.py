@@ -1,0 +1,94 @@
+"""Inside the child: packages and files for xacro, without ROS."""
+
+from __future__ import annotations
+
+import glob
+import os
+import re
+import sys
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from sambot_viz.robot.packages.package_index import Lookup, PackageIndex
+from sambot_viz.robot.packages.resolve import inside_package, other_letter_case
+from sambot_viz.robot.xacro.child.sandbox import Guard
+
+
+class PackageNotFoundError(KeyError):
+    """What ament_index_python raises; with what the look-up found."""
+
+    def __init__(self, lookup: Lookup) -> None:
+        super().__init__(f"package '{lookup.name}' not found")
+        self.missing_package = (lookup.name, lookup.searched)
+        self.known_packages = lookup.known
+
+
+class XacroFiles:
+    """Stands in for ament_index_python, and finds files that xacro does not find."""
+
+    def __init__(
+        self,
+        index: PackageIndex,
+        guard: Guard | None,
+        warn: Callable[[str], object],
+    ) -> None:
+        self._index = index
+        self._guard = guard
+        self._warn = warn
+        self._roots: list[Path] = []
+        if guard is not None:
+            guard.roots = self._roots
+
+    def install(self, xacro: Any) -> None:
+        """Patch the imported xacro package."""
+        original: Callable[[str], str] = xacro.abs_filename_spec
+
+        def find(spec: str) -> str:
+            return self._find(spec, original, xacro)
+
+        xacro.abs_filename_spec = find
+        packages: Any = types.ModuleType("ament_index_python.packages")
+        packages.get_package_share_directory = self._share_directory
+        packages.PackageNotFoundError = PackageNotFoundError
+        sys.modules["ament_index_python"] = types.ModuleType("ament_index_python")
+        sys.modules["ament_index_python.packages"] = packages
+
+    def _share_directory(self, name: str) -> str:
+        lookup = self._index.find(name)
+        if lookup.path is None:
+            raise PackageNotFoundError(lookup)
+        if lookup.path not in self._roots:
+            self._roots.append(lookup.path)
+        return str(lookup.path)
+
+    def _find(self, spec: str, original: Callable[[str], str], xacro: Any) -> str:
+        if self._guard is not None:
+            self._guard.check_spec(spec)
+        match = re.match(r"package://([^/]+)/(.*)", spec)
+        if match:
+            spec = os.path.join(self._share_directory(match[1]), match[2])
+        path = original(spec)
+        if self._guard is not None:
+            self._guard.check_path(path)
+        if glob.has_magic(path) or os.path.exists(path):
+            return path
+        return self._elsewhere(Path(path), xacro.filestack) or path
+
+    def _elsewhere(self, path: Path, stack: list[str | None]) -> str | None:
+        """The file in a source tree that is laid out unlike its installed package.
+
+        A file that is being included already is no answer: it would include itself
+        for ever.
+        """
+        cased = other_letter_case(path)
+        if cased is not None:
+            self._warn(f"{path.name} was found as {cased.name}: letter case differs")
+            return str(cased)
+        open_files = {os.path.realpath(file) for file in stack if file}
+        for root in self._roots:
+            if path.is_relative_to(root):
+                found = inside_package(root, path.relative_to(root), open_files)
+                return str(found) if found else None
+        return None

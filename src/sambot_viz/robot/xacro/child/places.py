@@ -1,0 +1,112 @@
+"""Inside the child: minidom nodes that know where they were written.
+
+xacro works on a minidom tree and forgets all positions. Here every element carries
+the place it was parsed at; the mark survives cloning, so an expanded element still
+knows the file and line that the user wrote, and the macro calls it came through.
+"""
+
+from __future__ import annotations
+
+import xml.dom.minidom
+import xml.parsers.expat
+from collections.abc import Callable, Iterator
+from typing import Any
+from xml.dom import expatbuilder
+
+from sambot_viz.robot.xml.decode import XmlFault
+
+_minidom: Any = xml.dom.minidom
+_ELEMENT = _minidom.Node.ELEMENT_NODE
+
+Call = tuple[str, str, int]
+"""Macro, and the file and line of the call."""
+
+
+class PlacedBuilder(expatbuilder.ExpatBuilderNS):
+    """minidom's own builder, with the place on every element."""
+
+    def __init__(self, file: str) -> None:
+        super().__init__()
+        self._file = file
+
+    def start_element_handler(self, name: Any, attributes: Any) -> None:
+        """Build the element as minidom does, then mark it."""
+        super().start_element_handler(name, attributes)
+        this: Any = self
+        parser = this.getParser()
+        this.curNode.sambot_place = (
+            self._file,
+            parser.CurrentLineNumber,
+            parser.CurrentColumnNumber + 1,
+        )
+
+
+def parse_placed(text: str, file: str) -> Any:
+    """A minidom document with places.
+
+    Raises:
+        XmlFault: the text is not well-formed.
+    """
+    try:
+        return PlacedBuilder(file).parseString(text)
+    except xml.parsers.expat.ExpatError as error:
+        message = xml.parsers.expat.ErrorString(error.code) or str(error)
+        column = error.offset + 1
+        raise XmlFault(message, error.lineno, column, text, error.code) from None
+
+
+class PlaceKeeper:
+    """Lets places survive minidom's cloning.
+
+    Attributes:
+        calls: the macro calls being expanded, outermost first.
+    """
+
+    def __init__(self) -> None:
+        self.calls: list[Call] = []
+        self._of_clone: tuple[Call, ...] | None = None
+        self._original: Callable[..., Any] = _minidom._clone_node
+        _minidom._clone_node = self._clone
+
+    def _clone(self, node: Any, deep: Any, document: Any) -> Any:
+        """Clone as minidom does; the body of a macro takes the calls of now."""
+        is_body = getattr(node, "tagName", "") == "xacro:macro"
+        outermost = self._of_clone is None and is_body
+        if outermost:
+            self._of_clone = tuple(self.calls)
+        calls = self._of_clone
+        try:
+            copy = self._original(node, deep, document)
+        finally:
+            if outermost:
+                self._of_clone = None
+        if node.nodeType == _ELEMENT:
+            copy.sambot_place = node.sambot_place
+            copy.sambot_calls = calls or getattr(node, "sambot_calls", ())
+        return copy
+
+
+def elements(root: Any) -> Iterator[Any]:
+    """All elements in document order."""
+    stack = [root]
+    while stack:
+        node = stack.pop()
+        yield node
+        children = [child for child in node.childNodes if child.nodeType == _ELEMENT]
+        stack.extend(reversed(children))
+
+
+def packed(node: Any, names: dict[str, int]) -> list[int]:
+    """A place as numbers: file, line, column, and the outermost call's file and line.
+
+    Args:
+        node: the element.
+        names: file names met so far, each with its number; grows.
+    """
+    file, line, column = node.sambot_place
+    numbers = [names.setdefault(file, len(names)), line, column]
+    calls: tuple[Call, ...] = getattr(node, "sambot_calls", ())
+    if calls:
+        _, call_file, call_line = calls[0]
+        numbers += [names.setdefault(call_file, len(names)), call_line]
+    return numbers

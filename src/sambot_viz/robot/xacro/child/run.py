@@ -1,0 +1,296 @@
+"""Inside the child: run the real xacro and tell what happened, and where."""
+
+from __future__ import annotations
+
+import functools
+import gc
+import importlib
+import os
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.xacro.child.package_files import XacroFiles
+from sambot_viz.robot.xacro.child.places import (
+    Call,
+    PlaceKeeper,
+    elements,
+    packed,
+    parse_placed,
+)
+from sambot_viz.robot.xacro.child.sandbox import Guard
+from sambot_viz.robot.xacro.child.speed import import_lazily, skipping_plain_text
+from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
+
+_XACRO_WORDS = frozenset(
+    {"property", "macro", "arg", "if", "unless", "insert_block", "include"}
+)
+
+
+class OutputLimit(Exception):
+    """The expanded text is longer than allowed."""
+
+
+def run(job: dict[str, Any]) -> dict[str, Any]:
+    """Expand as the job says; never raises for what the model does."""
+    sys.setrecursionlimit(2500)
+    # The trees are large and die with the process: looking for garbage is waste.
+    gc.set_threshold(100_000)
+    expansion = Expansion(job)
+    try:
+        return expansion.result()
+    except XmlFault as fault:
+        return {
+            "xml_fault": [fault.message, fault.line, fault.column, fault.code],
+            "file": expansion.reading,
+            "text": fault.text,
+        }
+    except Exception as error:
+        return {"failure": expansion.failure(error)}
+
+
+class Expansion:
+    """One run of xacro, patched to report."""
+
+    def __init__(self, job: dict[str, Any]) -> None:
+        self._job = job
+        import_lazily("yaml")
+        self._xacro: Any = importlib.import_module("xacro")
+        self._places = PlaceKeeper()
+        self._node: Any = None
+        self._failed_at: tuple[Any, list[Call], list[str]] | None = None
+        self._lazy: list[str] = []
+        self._definitions: dict[tuple[str, str], list[Any]] = {}
+        self._warnings: list[list[Any]] = []
+        self._files: list[str] = []
+        self.reading = ""
+        self._guard = Guard(job["folder"]) if job["untrusted"] else None
+        self._patch()
+
+    def result(self) -> dict[str, Any]:
+        """Expand and describe the outcome.
+
+        Raises:
+            XmlFault: a file is no XML.
+            Exception: whatever xacro or the model's expressions raise.
+        """
+        x, job = self._xacro, self._job
+        if job["text"] is None:
+            document = x.process_file(job["file"], mappings=dict(job["arguments"]))
+        else:
+            x.init_stacks(job["file"])
+            document = self._parse(job["text"])
+            x.process_doc(document, mappings=dict(job["arguments"]))
+        text: str = document.toprettyxml(indent="  ")
+        if len(text) > job["output_limit"]:
+            raise OutputLimit(f"{len(text)} characters")
+        names: dict[str, int] = {}
+        places = [packed(node, names) for node in elements(document.documentElement)]
+        return {
+            "xml": text,
+            "names": list(names),
+            "places": places,
+            "files": list(dict.fromkeys(self._files)),
+            "warnings": self._warnings,
+            "unprefixed": self._unprefixed(document.documentElement),
+        }
+
+    def _unprefixed(self, root: Any) -> list[list[Any]]:
+        """Elements that look like a macro call or a directive without its prefix."""
+        macros = {name for kind, name in self._definitions if kind == "macro"}
+        words = macros | _XACRO_WORDS
+        found: list[list[Any]] = []
+        for node in elements(root):
+            if node.tagName in words and node.parentNode is root:
+                found.append([node.tagName, node.tagName in macros, *node.sambot_place])
+        return found
+
+    def failure(self, error: BaseException) -> dict[str, Any]:
+        """Describe an exception for `XacroFailure`."""
+        node, calls, files = self._failed_at or (self._node, self._places.calls, [])
+        cause, expressions = _unwrapped(error)
+        place = getattr(node, "sambot_place", None)
+        stack = [
+            self._shown(f) for f in reversed(files or self._xacro.filestack or []) if f
+        ]
+        macros = [
+            [m.body.getAttribute("name"), self._shown(m.history[-1][-1] or "")]
+            for m in reversed(self._xacro.macrostack or [])
+        ]
+        return {
+            "kind": type(cause).__name__,
+            "text": str(cause).strip() or repr(cause),
+            "file": place[0] if place else (stack[0] if stack else self._job["file"]),
+            "line": place[1] if place else None,
+            "column": place[2] if place else None,
+            "expressions": expressions,
+            "element": getattr(node, "tagName", None),
+            "macros": macros,
+            "calls": [list(call) for call in reversed(calls)],
+            "includes": stack,
+            "lazy": self._lazy,
+            "missing_package": getattr(cause, "missing_package", None),
+            "known_packages": getattr(cause, "known_packages", ()),
+            "definitions": list(self._definitions.values()),
+        }
+
+    def _patch(self) -> None:
+        x, job = self._xacro, self._job
+        x.parse = self._parse
+        x.eval_text = skipping_plain_text(x.eval_text)
+        x.eval_all = self._following(x.eval_all)
+        x.handle_macro_call = self._macro_call(x.handle_macro_call)
+        x.grab_property = self._defining("property", x.grab_property)
+        x.grab_macro = self._defining("macro", x.grab_macro)
+        x.process_include = self._touching(x.process_include)
+        x.check_attrs = self._touching(x.check_attrs)
+        x.reqd_attrs = self._touching(x.reqd_attrs)
+        x.Table._resolve_ = self._resolving(x.Table._resolve_)
+        x.warning = x.error = self._warn
+        x.message = x.print_location = _say_nothing
+        for name, function in (
+            ("warning", self._warn),
+            ("error", self._warn),
+            ("message", _say_nothing),
+            ("print_location", _say_nothing),
+        ):
+            x._global_symbols["xacro"][name] = function
+        folder = Path(job["folder"]) if job["folder"] else None
+        index = PackageIndex(folder, job["package_path"], job["environment"])
+        XacroFiles(index, self._guard, self._warn).install(x)
+        if self._guard is not None:
+            self._guard.install(x)
+
+    def _parse(self, source: Any, filename: str | None = None) -> Any:
+        if source is None:
+            source = self._read(filename or "")
+        elif not isinstance(source, str):
+            return source
+        file = self._shown(filename) if filename else self._job["file"]
+        self.reading = file
+        return parse_placed(source, file)
+
+    def _read(self, filename: str) -> str:
+        try:
+            if self._guard is not None:
+                self._guard.check_path(filename)
+            data = Path(filename).read_bytes()
+        except OSError as error:
+            self._xacro.filestack.pop()
+            raise self._xacro.XacroException(
+                f"{error.strerror}: {filename}", exc=error
+            ) from error
+        self._files.append(os.path.abspath(filename))
+        self.reading = self._shown(filename)
+        return repaired_prolog(decode(data))
+
+    def _shown(self, filename: str) -> str:
+        """A file name as the user would write it: relative where the model is."""
+        path = os.path.normpath(filename)
+        if os.path.isabs(path) and not os.path.isabs(self._job["file"]):
+            relative = os.path.relpath(path)
+            return path if relative.startswith(os.pardir) else relative
+        return path
+
+    def _following(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(original)
+        def wrapper(node: Any, macros: Any, symbols: Any) -> Any:
+            self._node = node
+            try:
+                outcome = original(node, macros, symbols)
+            except Exception:
+                self._note_failure()
+                raise
+            self._node = node
+            return outcome
+
+        return wrapper
+
+    def _note_failure(self) -> None:
+        if self._failed_at is None:
+            files: list[Any] = list(filter(None, self._xacro.filestack or []))
+            self._failed_at = (self._node, list(self._places.calls), files)
+
+    def _touching(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(original)
+        def wrapper(node: Any, *rest: Any, **named: Any) -> Any:
+            self._node = node
+            outcome = original(node, *rest, **named)
+            if getattr(node, "tagName", "") == "xacro:arg":
+                self._define("arg", node)
+            return outcome
+
+        return wrapper
+
+    def _defining(self, kind: str, original: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(original)
+        def wrapper(node: Any, table: Any) -> Any:
+            self._node = node
+            self._define(kind, node)
+            return original(node, table)
+
+        return wrapper
+
+    def _define(self, kind: str, node: Any) -> None:
+        name = node.getAttribute("name")
+        file, line, _ = node.sambot_place
+        params = node.getAttribute("params")
+        self._definitions[kind, name] = [kind, name, file, line, params]
+
+    def _macro_call(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(original)
+        def wrapper(node: Any, macros: Any, symbols: Any) -> Any:
+            tag: str = node.tagName
+            if not tag.startswith("xacro:") or tag == "xacro:call":
+                return original(node, macros, symbols)
+            self._node = node
+            file, line, _ = node.sambot_place
+            self._places.calls.append((tag[6:], file, line))
+            try:
+                outcome = original(node, macros, symbols)
+            except Exception:
+                self._note_failure()
+                raise
+            self._places.calls.pop()
+            return outcome
+
+        return wrapper
+
+    def _resolving(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        expansion = self
+
+        @functools.wraps(original)
+        def wrapper(table: Any, key: str) -> Any:
+            try:
+                return original(table, key)
+            except Exception:
+                expansion._lazy.append(key)
+                raise
+
+        return wrapper
+
+    def _warn(self, *words: Any, **_options: Any) -> str:
+        place = getattr(self._node, "sambot_place", (self._job["file"], None, None))
+        self._warnings.append([" ".join(map(str, words)), *place])
+        return ""
+
+
+def _say_nothing(*_words: Any, **_options: Any) -> str:
+    return ""
+
+
+def _unwrapped(error: BaseException) -> tuple[BaseException, list[str]]:
+    """The exception below xacro's wrappers, and the expressions it came through."""
+    expressions: list[str] = []
+    while True:
+        suffix = getattr(error, "suffix", None) or ""
+        match = re.search(r"when evaluating expression '(.*)'", suffix, re.DOTALL)
+        if match:
+            expressions.insert(0, match[1])
+        inner = getattr(error, "exc", None)
+        if not isinstance(inner, BaseException):
+            return error, expressions
+        error = inner

@@ -1,0 +1,1 @@
+"""Why an expansion failed: the line, the cause and the fix."""

@@ -1,0 +1,87 @@
+"""Recognising a file that is only a part: macros and properties for other files."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from pathlib import Path
+
+from sambot_viz.errors import Problem
+from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.xml.parse import Element
+
+_MOST_FILES = 400
+_LARGEST = 1_000_000
+
+
+def report_library(
+    problems: Iterable[Problem], document: Element, path: Path | None
+) -> list[Problem]:
+    """Say of a robot without links what the file is, and which file includes it.
+
+    Args:
+        problems: what was found; only "robot-without-links" is made clearer.
+        document: the root element as written, before xacro.
+        path: the file, or None for a text.
+    """
+    found = list(problems)
+    cause = next((p for p in found if p.code == "xacro-prefix-missing"), None)
+    clear: list[Problem] = []
+    for problem in found:
+        if problem.code != "robot-without-links":
+            clear.append(problem)
+        elif cause is not None:
+            clear.append(_for_want_of_prefix(cause))
+        else:
+            clear.append(_clearer(problem, document, path))
+    return [problem for problem in clear if problem is not cause]
+
+
+def _for_want_of_prefix(cause: Problem) -> Problem:
+    message = f"{cause.message}, so the robot has no links"
+    return dataclasses.replace(cause, severity="error", message=message)
+
+
+def _clearer(problem: Problem, document: Element, path: Path | None) -> Problem:
+    macros = [
+        element.get("name") or "?"
+        for element in document.iter()
+        if element.tag == "xacro:macro"
+    ]
+    message = "the robot has no links"
+    if macros:
+        shown = ", ".join(macros[:5]) + (", …" if len(macros) > 5 else "")
+        message += f": this file only defines the macro {shown} for other files"
+    elif any(element.tag.startswith("xacro:") for element in document.iter()):
+        message += ": this is a file for xacro:include"
+    users = list(islice(_includers(path), 3)) if path is not None else []
+    if users:
+        hint = f"open a file that includes it: {', '.join(users)}"
+    elif macros:
+        hint = f"open the file that includes it, or call it: <xacro:{macros[0]} …/>"
+    else:
+        hint = problem.hint
+    return dataclasses.replace(problem, message=message, hint=hint)
+
+
+def _includers(path: Path) -> Iterator[str]:
+    """Files of the same package that include this one."""
+    pattern = re.compile(
+        r"<xacro:include\b[^>]*[/\"']" + re.escape(path.name) + r"[\"']"
+    )
+    root = PackageIndex(path.absolute().parent).own_roots()[-1]
+    files = (file for file in root.rglob("*") if file.suffix in (".xacro", ".urdf"))
+    for file in islice(files, _MOST_FILES):
+        if file.name != path.name and pattern.search(_text(file)):
+            yield str(file.relative_to(root))
+
+
+def _text(file: Path) -> str:
+    try:
+        if file.stat().st_size > _LARGEST:
+            return ""
+        return file.read_text("utf-8", "replace")
+    except OSError:
+        return ""

@@ -1,0 +1,96 @@
+"""What is said of an expansion that failed, and of its way there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sambot_viz.robot.xml.decode import XmlFault
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """A macro, property or argument that xacro had met before it failed.
+
+    Attributes:
+        kind: "macro", "property" or "arg".
+        name: its name without the prefix ``xacro:``.
+        file: the file that defines it, as the user would write it.
+        line: line of the defining element, from 1.
+        params: the parameter text of a macro, else empty.
+    """
+
+    kind: str
+    name: str
+    file: str
+    line: int
+    params: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class XacroCall:
+    """One macro call on the way to an element: what was called, and from where."""
+
+    macro: str
+    file: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class XacroFailure:
+    """Why an expansion ended, as far as xacro and the child can say.
+
+    Attributes:
+        kind: class name of the underlying exception ("NameError", "SyntaxError",
+            "ZeroDivisionError", "XacroException", "ArgException" for an argument
+            without a value, "PackageNotFoundError", "FileNotFoundError",
+            "RecursionError", "MemoryError", …), or one of our own: "Timeout",
+            "OutputLimit", "Refused" (the untrusted mode forbids it), "Crash".
+        text: the underlying exception's own text, without location lines.
+        file: the file being processed when it failed.
+        line: line of the element being processed in `file`, from 1, or None. Inside
+            a macro that is the line in the macro's body.
+        column: its column, from 1, or None.
+        expression: the innermost ``${…}`` text that failed, or None.
+        expressions: all nested ``${…}`` texts, innermost first.
+        element: tag of the element being processed ("xacro:wheell"), or None.
+        macros: macros being expanded, innermost first, as (name, file of the macro).
+        calls: the same chain as places of the calls, innermost first.
+        includes: files being read, innermost first; the last is the main file.
+        missing_package: (name, places searched) when ``$(find name)`` failed.
+        known_packages: names of the packages that were found while searching.
+        lazy: properties whose value was being worked out, innermost first.
+        definitions: what was defined so far, for near names.
+    """
+
+    kind: str
+    text: str
+    file: str
+    line: int | None = None
+    column: int | None = None
+    expression: str | None = None
+    expressions: tuple[str, ...] = ()
+    element: str | None = None
+    macros: tuple[tuple[str, str], ...] = ()
+    calls: tuple[XacroCall, ...] = ()
+    includes: tuple[str, ...] = ()
+    missing_package: tuple[str, tuple[str, ...]] | None = None
+    known_packages: tuple[str, ...] = ()
+    lazy: tuple[str, ...] = ()
+    definitions: tuple[Definition, ...] = ()
+
+
+class ExpansionError(Exception):
+    """xacro gave up; `failure` says why."""
+
+    def __init__(self, failure: XacroFailure) -> None:
+        super().__init__(failure.text)
+        self.failure = failure
+
+
+class ExpansionXmlError(Exception):
+    """A file that xacro reads is no XML: `file`, and the `fault` in it."""
+
+    def __init__(self, file: str, fault: XmlFault) -> None:
+        super().__init__(str(fault))
+        self.file = file
+        self.fault = fault

@@ -1,0 +1,1 @@
+"""A strict XML reader that knows the place of every element."""

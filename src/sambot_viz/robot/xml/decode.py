@@ -1,0 +1,91 @@
+"""From the bytes of an XML file to its text, and the error when it is no XML.
+
+Only the standard library is used here: the xacro child reads this module too and
+must start fast.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+
+_DECLARED_ENCODING = re.compile(
+    rb"""\s*<\?xml\b[^>]*?\bencoding\s*=\s*["']([A-Za-z0-9._-]+)["']"""
+)
+_DECLARATION = re.compile(r"\A<\?xml\b([^<>]*?)\?>")
+_GOOD_VERSION = re.compile(r"""\s+version\s*=\s*["']1\.[0-9]+["']""")
+
+
+class XmlFault(Exception):
+    """The text is not well-formed XML.
+
+    Attributes:
+        message: expat's own words, such as "junk after document element".
+        code: expat's error number (`xml.parsers.expat.errors`), 0 for our own.
+        line: line where expat stopped, from 1.
+        column: column where expat stopped, from 1.
+        text: the whole text that was read.
+    """
+
+    def __init__(
+        self, message: str, line: int, column: int, text: str, code: int = 0
+    ) -> None:
+        super().__init__(f"{message}: line {line}, column {column}")
+        self.message = message
+        self.code = code
+        self.line = line
+        self.column = column
+        self.text = text
+
+
+def decode(data: bytes) -> str:
+    """The text of an XML file: BOM, then declared encoding, then UTF-8.
+
+    Raises:
+        XmlFault: the bytes are not in the encoding that the file declares.
+    """
+    for bom, encoding in (
+        (codecs.BOM_UTF8, "utf-8-sig"),
+        (codecs.BOM_UTF16_LE, "utf-16"),
+        (codecs.BOM_UTF16_BE, "utf-16"),
+    ):
+        if data.startswith(bom):
+            return _decoded(data, encoding)
+    declared = _DECLARED_ENCODING.match(data)
+    return _decoded(data, declared[1].decode("ascii") if declared else "utf-8")
+
+
+def _decoded(data: bytes, encoding: str) -> str:
+    try:
+        return data.decode(encoding)
+    except LookupError:
+        text = data.decode("utf-8", "replace")
+        raise XmlFault(f"unknown encoding '{encoding}'", 1, 1, text) from None
+    except UnicodeDecodeError as error:
+        before = data[: error.start]
+        line = before.count(b"\n") + 1
+        column = len(before) - (before.rfind(b"\n") + 1) + 1
+        text = data.decode(encoding, "replace")
+        message = f"bytes that are not {encoding}"
+        raise XmlFault(message, line, column, text) from None
+
+
+def repaired_prolog(text: str) -> str:
+    """The text with a declaration that expat can read, every line in its place.
+
+    Real files say ``<?xml version="0.0" ?>`` or ``<?xml?>``; urdfdom does not mind
+    (spec/real-files.md §2 number 5). Only the declaration's own text is replaced.
+    """
+    match = _DECLARATION.match(text)
+    if match is None or _GOOD_VERSION.match(match[1]):
+        return text
+    return '<?xml version="1.0"' + "\n" * match[1].count("\n") + text[match.end(1) :]
+
+
+def declared_as_utf8(text: str) -> str:
+    """The text with a declaration that fits when it is written as UTF-8."""
+    match = _DECLARATION.match(text)
+    if match is None:
+        return text
+    named = re.sub(r"""(\bencoding\s*=\s*)("[^"]*"|'[^']*')""", r'\1"utf-8"', match[0])
+    return named + text[match.end() :]

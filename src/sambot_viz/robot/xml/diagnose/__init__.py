@@ -1,0 +1,1 @@
+"""Why a text is not XML: the line, the cause and the fix."""

@@ -1,0 +1,342 @@
+"""A tolerant reader of XML text: tokens with places, and every slip it meets.
+
+expat stops at the first slip and names the symptom. This reader never stops: it
+notes the slip, guesses what was meant and goes on, so that the cause can be told
+(`xml_faults`), and lines can be found in files that xacro reads without lines
+(`xacro_faults`, the checks). It decides nothing: whether a text is XML is expat's
+word alone.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Literal
+
+TokenKind = Literal[
+    "open", "close", "empty", "text", "comment", "instruction", "doctype", "cdata"
+]
+SlipKind = Literal[
+    "ampersand",
+    "attribute-twice",
+    "attribute-without-value",
+    "attributes-run-together",
+    "comment-double-hyphen",
+    "comment-malformed",
+    "comment-nested",
+    "comment-not-closed",
+    "entity-undefined",
+    "less-than",
+    "quote-in-value",
+    "quote-not-closed",
+    "quotes-curly",
+    "quotes-missing",
+    "tag-malformed",
+    "tag-not-ended",
+]
+
+NAME = r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?"
+CURLY = "“”„‟″‘’‚‛′«»"
+
+_NAME = re.compile(NAME)
+_ATTRIBUTE = re.compile(rf"\s+({NAME})\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')")
+_GOOD_TAG = re.compile(
+    rf"<({NAME})((?:\s+{NAME}\s*=\s*(?:\"[^\"<]*\"|'[^'<]*'))*)\s*(/?)>"
+)
+_CLOSE_TAG = re.compile(rf"</({NAME})\s*>")
+_LOOSE_CLOSE_TAG = re.compile(rf"(?:</\s*|<\\\s*|<\s+/\s*)({NAME})[^<>]*>?")
+_LOOSE_OPEN_TAG = re.compile(rf"<\s+({NAME})(?=[\s/>])")
+_BARE_AMPERSAND = re.compile(r"&(?!(?:[^\W\d][\w.\-]*|#\d+|#x[0-9A-Fa-f]+);)")
+_ENTITY = re.compile(r"&([^\W\d][\w.\-]*);")
+_NEXT_ATTRIBUTE = re.compile(rf"\s({NAME})\s*=\s*$")
+_CURLY_END = re.compile(f"[{CURLY}\"'<>\\n]")
+_VALUE_END = re.compile(r"/?>|[\n<]")
+_EQUALS = re.compile(r"\s*=\s*")
+_SPACE = re.compile(r"\s*")
+_UNQUOTED = re.compile(r"(?:(?!/>)[^\s<>])+")
+_LOOSE_COMMENT = re.compile(r"<(?:!\s*-\s*-?|--)")
+_KNOWN_ENTITIES = frozenset({"amp", "lt", "gt", "quot", "apos"})
+
+
+def _cut_expression(value: str) -> bool:
+    """Whether a value ends inside ${…}: its quote stands in the expression."""
+    return "${" in value and "}" not in value[value.rfind("${") :]
+
+
+def _ends_oddly(value: str) -> bool:
+    """Whether the quote that ended this value was meant to begin another."""
+    return _cut_expression(value) or bool(_NEXT_ATTRIBUTE.search(value))
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """An attribute as written; `offset` is where its name begins."""
+
+    name: str
+    value: str
+    offset: int
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A piece of the text from `start` to `end` (exclusive).
+
+    Attributes:
+        kind: "open" and "empty" are <a> and <a/>, "close" is </a>.
+        start: offset of the first character.
+        end: offset behind the last character.
+        name: element name; empty for everything that is no tag.
+        attributes: those that could be read, in document order.
+    """
+
+    kind: TokenKind
+    start: int
+    end: int
+    name: str = ""
+    attributes: tuple[Attribute, ...] = ()
+
+    @property
+    def closes(self) -> bool:
+        """Whether this is a closing tag."""
+        return self.kind == "close"
+
+    @property
+    def shown(self) -> str:
+        """The tag in a message: </a>, <a>, or <a name="…"> when it has a name."""
+        if self.closes:
+            return f"</{self.name}>"
+        name = self.get("name")
+        return f'<{self.name} name="{name}">' if name else f"<{self.name}>"
+
+    def get(self, name: str) -> str | None:
+        """The value of an attribute as written, or None."""
+        return next((a.value for a in self.attributes if a.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class LexicalError:
+    """Something that is not XML: where, and the piece of text it is about."""
+
+    kind: SlipKind
+    offset: int
+    text: str = ""
+    tag: str = ""
+
+
+def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
+    """The tokens of a text and the slips in it, both in document order."""
+    reader = _Reader(text)
+    reader.run()
+    return reader.tokens, sorted(reader.slips, key=lambda slip: slip.offset)
+
+
+@dataclass
+class _Reader:
+    text: str
+    tokens: list[Token] = field(default_factory=list["Token"])
+    slips: list[LexicalError] = field(default_factory=list["LexicalError"])
+    has_doctype: bool = False
+
+    def run(self) -> None:
+        position = 0
+        while position < len(self.text):
+            mark = self.text.find("<", position)
+            mark = len(self.text) if mark < 0 else mark
+            if mark > position:
+                self._text(position, mark)
+            position = self._markup(mark) if mark < len(self.text) else mark
+
+    def _slip(self, kind: SlipKind, offset: int, text: str = "", tag: str = "") -> None:
+        self.slips.append(LexicalError(kind, offset, text, tag))
+
+    def _token(self, kind: TokenKind, start: int, end: int) -> int:
+        self.tokens.append(Token(kind, start, end))
+        return end
+
+    def _text(self, start: int, end: int) -> None:
+        self._token("text", start, end)
+        self._references(start, end)
+
+    def _references(self, start: int, end: int) -> None:
+        """Note bare ampersands and unknown entities between two offsets."""
+        if "&" not in self.text[start:end]:
+            return
+        for found in _BARE_AMPERSAND.finditer(self.text, start, end):
+            self._slip("ampersand", found.start())
+        for found in _ENTITY.finditer(self.text, start, end):
+            if found[1] not in _KNOWN_ENTITIES and not self.has_doctype:
+                self._slip("entity-undefined", found.start(), found[1])
+
+    def _markup(self, start: int) -> int:
+        text = self.text
+        good = _GOOD_TAG.match(text, start)
+        if good:
+            return self._good_tag(good)
+        close = _CLOSE_TAG.match(text, start)
+        if close:
+            self.tokens.append(Token("close", start, close.end(), close[1]))
+            return close.end()
+        if text.startswith("<!--", start):
+            return self._comment(start)
+        if text.startswith("<![CDATA[", start):
+            return self._token("cdata", start, self._after("]]>", start))
+        if text.startswith("<?", start):
+            return self._token("instruction", start, self._after("?>", start))
+        if text.startswith("<!DOCTYPE", start):
+            return self._doctype(start)
+        return self._loose_markup(start)
+
+    def _behind_space(self, position: int) -> int:
+        space = _SPACE.match(self.text, position)
+        return space.end() if space else position
+
+    def _after(self, mark: str, start: int) -> int:
+        found = self.text.find(mark, start)
+        return len(self.text) if found < 0 else found + len(mark)
+
+    def _doctype(self, start: int) -> int:
+        self.has_doctype = True
+        bracket = self.text.find("[", start)
+        angle = self.text.find(">", start)
+        if 0 <= bracket < angle:
+            start_of_end = self._after("]", bracket)
+            return self._token("doctype", start, self._after(">", start_of_end))
+        return self._token("doctype", start, self._after(">", start))
+
+    def _comment(self, start: int) -> int:
+        close = self.text.find("-->", start + 4)
+        if close < 0:
+            self._slip("comment-not-closed", start)
+            return self._token("comment", start, len(self.text))
+        inner = self.text[start + 4 : close]
+        nested = inner.find("<!--")
+        hyphens = inner.find("--")
+        if nested >= 0:
+            self._slip("comment-nested", start + 4 + nested)
+        elif hyphens >= 0 or inner.endswith("-"):
+            at = hyphens if hyphens >= 0 else len(inner) - 1
+            self._slip("comment-double-hyphen", start + 4 + at, inner.strip())
+        return self._token("comment", start, close + 3)
+
+    def _loose_markup(self, start: int) -> int:
+        """Markup that is not XML: guess the tag that was meant."""
+        text = self.text
+        name = _NAME.match(text, start + 1)
+        if name:
+            return self._loose_tag(start, name[0], name.end())
+        close = _LOOSE_CLOSE_TAG.match(text, start)
+        if close:
+            self._slip("tag-malformed", start, close[0].strip(), close[1])
+            self.tokens.append(Token("close", start, close.end(), close[1]))
+            return close.end()
+        if _LOOSE_COMMENT.match(text, start):
+            end = text.find(">", start)
+            self._slip("comment-malformed", start)
+            return self._token("comment", start, len(text) if end < 0 else end + 1)
+        spaced = _LOOSE_OPEN_TAG.match(text, start)
+        if spaced:
+            self._slip("tag-malformed", start, spaced[0], spaced[1])
+            return self._loose_tag(start, spaced[1], spaced.end())
+        self._slip("less-than", start)
+        return self._token("text", start, start + 1)
+
+    def _good_tag(self, found: re.Match[str]) -> int:
+        attributes: list[Attribute] = []
+        pieces = list(_ATTRIBUTE.finditer(self.text, found.start(2), found.end(2)))
+        if any(_ends_oddly(piece[2] or piece[3] or "") for piece in pieces):
+            return self._loose_tag(found.start(), found[1], found.end(1))
+        for piece in pieces:
+            value = piece[2] if piece[2] is not None else piece[3]
+            self._add(attributes, Attribute(piece[1], value, piece.start(1)), found[1])
+        self._references(found.start(2), found.end(2))
+        kind: TokenKind = "empty" if found[3] else "open"
+        self.tokens.append(
+            Token(kind, found.start(), found.end(), found[1], tuple(attributes))
+        )
+        return found.end()
+
+    def _add(self, known: list[Attribute], new: Attribute, tag: str) -> None:
+        if any(new.name == old.name for old in known):
+            self._slip("attribute-twice", new.offset, new.name, tag)
+        known.append(new)
+
+    def _loose_tag(self, start: int, tag: str, position: int) -> int:
+        """A start tag with slips in it, read attribute by attribute."""
+        attributes: list[Attribute] = []
+        text = self.text
+        while True:
+            before = position
+            position = self._behind_space(position)
+            if position >= len(text) or text[position] == "<":
+                self._slip("tag-not-ended", start, text[start:before].strip(), tag)
+                kind, end = "open", position
+                break
+            if text.startswith("/>", position):
+                kind, end = "empty", position + 2
+                break
+            if text[position] == ">":
+                kind, end = "open", position + 1
+                break
+            attribute = _NAME.match(text, position)
+            if attribute:
+                if position == before:
+                    self._slip("attributes-run-together", position, attribute[0], tag)
+                position = self._loose_attribute(attribute, attributes, tag)
+            else:
+                self._slip("tag-malformed", position, text[position], tag)
+                position += 1
+        self.tokens.append(Token(kind, start, end, tag, tuple(attributes)))
+        return end
+
+    def _loose_attribute(
+        self, name: re.Match[str], attributes: list[Attribute], tag: str
+    ) -> int:
+        text = self.text
+        equals = _EQUALS.match(text, name.end())
+        if not equals:
+            self._slip("attribute-without-value", name.start(), name[0], tag)
+            return name.end()
+        start = equals.end()
+        first = text[start : start + 1]
+        if first and first in "\"'":
+            value, end = self._quoted(start, name, tag)
+        elif first and first in CURLY:
+            value, end = self._curly(start, name, tag)
+        else:
+            unquoted = _UNQUOTED.match(text, start)
+            value, end = (unquoted[0], unquoted.end()) if unquoted else ("", start)
+            self._slip("quotes-missing", name.start(), f"{name[0]}={value}", tag)
+        self._add(attributes, Attribute(name[0], value, name.start()), tag)
+        return end
+
+    def _curly(self, start: int, name: re.Match[str], tag: str) -> tuple[str, int]:
+        closing = _CURLY_END.search(self.text, start + 1)
+        end = closing.start() if closing else len(self.text)
+        value = self.text[start + 1 : end]
+        self._slip("quotes-curly", start, f"{name[0]}={value}", tag)
+        ends_here = closing is not None and closing[0] not in "<>\n"
+        return value, end + 1 if ends_here else end
+
+    def _quoted(self, start: int, name: re.Match[str], tag: str) -> tuple[str, int]:
+        """The value behind an opening quote, and where to read on."""
+        text, quote = self.text, self.text[start]
+        close = text.find(quote, start + 1)
+        value = text[start + 1 : close] if close >= 0 else text[start + 1 :]
+        if close >= 0 and _cut_expression(value):
+            brace = text.find("}", close)
+            again = text.find(quote, brace) if brace >= 0 else -1
+            if again >= 0 and not re.search(r"[<>\n]", text[close:again]):
+                self._slip("quote-in-value", close, text[start + 1 : again], tag)
+                return text[start + 1 : again], again + 1
+        swallowed = _NEXT_ATTRIBUTE.search(value)
+        if close < 0 or swallowed or ("<" in value and "\n" in value):
+            self._slip("quote-not-closed", start, f"{name[0]}={quote}", tag)
+            if swallowed and not re.search(r"[<\n]", value):
+                return value[: swallowed.start()], start + 1 + swallowed.start()
+            stop = _VALUE_END.search(text, start + 1)
+            end = stop.start() if stop else len(text)
+            return text[start + 1 : end], end
+        self._references(start, close)
+        for found in re.finditer("<", value):
+            self._slip("less-than", start + 1 + found.start(), value, tag)
+        return value, close + 1

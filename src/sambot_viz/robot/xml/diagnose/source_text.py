@@ -1,0 +1,66 @@
+"""A source text with its lines: from an offset to a line and a column."""
+
+from __future__ import annotations
+
+import bisect
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from sambot_viz.errors import Problem
+from sambot_viz.robot.xml.diagnose.lexer import LexicalError, Token, tokenize
+
+
+@dataclass(frozen=True)
+class SourceText:
+    """A text with its lines, so that an offset can be told as line and column."""
+
+    text: str
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *(m.end() for m in re.finditer(r"\n", self.text))]
+
+    def line(self, offset: int) -> int:
+        """Line of an offset, counted from 1."""
+        return bisect.bisect_right(self._starts, offset)
+
+    def column(self, offset: int) -> int:
+        """Column of an offset in its line, counted from 1."""
+        return offset - self._starts[self.line(offset) - 1] + 1
+
+    def line_text(self, line: int) -> str:
+        """The text of a line, counted from 1, without its line break."""
+        start = self._starts[line - 1]
+        end = self.text.find("\n", start)
+        return self.text[start : len(self.text) if end < 0 else end].rstrip("\r")
+
+    def error(
+        self, file: str, code: str, offset: int, message: str, hint: str
+    ) -> Problem:
+        """A problem of severity "error" at an offset."""
+        line, column = self.line(offset), self.column(offset)
+        return Problem("error", code, message, hint, file, line, column)
+
+    @cached_property
+    def _read(self) -> tuple[list[Token], list[LexicalError]]:
+        return tokenize(self.text)
+
+    @property
+    def tokens(self) -> list[Token]:
+        """All tokens in document order."""
+        return self._read[0]
+
+    @property
+    def slips(self) -> list[LexicalError]:
+        """Everything that is not XML, in document order."""
+        return self._read[1]
+
+    @cached_property
+    def tags(self) -> list[Token]:
+        """The tags alone: open, close and empty tokens."""
+        return [t for t in self.tokens if t.name]
+
+    def first(self, *names: str) -> Token | None:
+        """The first opening tag with one of these names."""
+        return next((t for t in self.tags if t.name in names and not t.closes), None)

@@ -1,0 +1,158 @@
+"""Displays, views and tools: items of the document that have a class."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from sambot_viz.rviz.class_name import NO_CLASS, is_ros1, kind_of
+from sambot_viz.rviz.declared import ConfigFindings
+from sambot_viz.rviz.item import ConfigItem
+from sambot_viz.rviz.properties.base import Property
+from sambot_viz.rviz.properties.kinds import checked_text, read_bool
+from sambot_viz.rviz.yaml.nodes import Entry, Map, Scalar
+
+
+class ClassItem(ConfigItem):
+    """An item with a class.
+
+    Attributes:
+        supported: its class is declared; otherwise it is kept as it is.
+    """
+
+    _own_keys = frozenset({"Class", "Name", "Value"})
+
+    def __init__(
+        self,
+        node: Map,
+        declared: Sequence[Property] | None,
+        findings: ConfigFindings,
+        attach: Callable[[Map], None] | None = None,
+    ):
+        """Read one item.
+
+        Args:
+            node: its map.
+            declared: the properties of its class, or None when nobody knows the class.
+            findings: takes what is doubtful.
+            attach: puts the map into the document when something is set.
+        """
+        self.supported = declared is not None
+        ros1 = is_ros1(node.text("Class") or "")
+        super().__init__(node, declared or (), findings, ros1=ros1, attach=attach)
+
+    @property
+    def class_id(self) -> str:
+        """The class as the file writes it."""
+        return self._node.text("Class") or NO_CLASS
+
+    @property
+    def kind(self) -> str:
+        """The ROS 2 id of the class."""
+        return kind_of(self.class_id)
+
+    @property
+    def name(self) -> str:
+        """Its label; need not be unique."""
+        return self._node.text("Name") or ""
+
+    @property
+    def label(self) -> str:
+        """What it is called in messages."""
+        return f"'{self.name}' ({self.kind})"
+
+    @property
+    def node(self) -> Map:
+        """Its map in the document."""
+        return self._node
+
+    def rename(self, name: str) -> None:
+        """Give it another label.
+
+        Raises:
+            PropertyError: the name is no text.
+        """
+        self._map_at(()).put_text("Name", checked_text("Name", name))
+
+
+class DisplayConfig(ClassItem):
+    """One display of the document, or a group of them.
+
+    Attributes:
+        parent: the group it is in; None at the top.
+        members: the displays of a group; `RvizConfig` changes the list.
+    """
+
+    _own_keys = frozenset({"Class", "Name", "Enabled", "Value", "Displays"})
+
+    def __init__(
+        self,
+        node: Map,
+        declared: Sequence[Property] | None,
+        findings: ConfigFindings,
+        parent: DisplayConfig | None = None,
+    ):
+        """See `ClassItem`."""
+        super().__init__(node, declared, findings)
+        self.parent = parent
+        self.members: list[DisplayConfig] = []
+        self._enabled = self._read_enabled()
+
+    def _read_enabled(self) -> bool:
+        """Off, then "Value", then "Enabled" (spec/rviz-core.md §1.6)."""
+        enabled = False
+        for key in ("Value", "Enabled"):
+            node = self._node.get(key)
+            if isinstance(node, Scalar):
+                enabled = read_bool(node, self._report, key)
+        return enabled
+
+    @property
+    def displays(self) -> tuple[DisplayConfig, ...]:
+        """The members of a group, in order."""
+        return tuple(self.members)
+
+    @property
+    def enabled(self) -> bool:
+        """Its own box."""
+        return self._enabled
+
+    @property
+    def active(self) -> bool:
+        """Whether its own box and those of all its groups are ticked (§1.6)."""
+        return self._enabled and (self.parent is None or self.parent.active)
+
+    def set_enabled(self, enabled: bool) -> None:
+        """Tick or untick its box."""
+        if enabled == self._enabled:
+            return
+        self._enabled = enabled
+        text = "true" if enabled else "false"
+        if self._node.text("Enabled") is not None or self._node.get("Value") is None:
+            self._node.put_text("Enabled", text)
+        if self._node.text("Value") is not None:
+            self._node.put_text("Value", text)
+
+
+class GlobalOptions(ConfigItem):
+    """Fixed Frame, Background Color, Frame Rate."""
+
+    @property
+    def label(self) -> str:
+        """What it is called in messages."""
+        return "Global Options"
+
+
+class ViewConfig(ClassItem):
+    """The current view, or a saved one."""
+
+
+class ToolConfig(ClassItem):
+    """One tool of the toolbar."""
+
+
+def new_map(class_id: str, name: str, enabled: bool | None = None) -> Map:
+    """The map of a new item, with its keys in RViz's order."""
+    texts = {"Class": class_id, "Name": name}
+    if enabled is not None:
+        texts["Enabled"] = texts["Value"] = "true" if enabled else "false"
+    return Map([Entry(key, Scalar(texts[key])) for key in sorted(texts)])

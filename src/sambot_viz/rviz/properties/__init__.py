@@ -1,0 +1,1 @@
+"""The property types of RViz: declared once, then read, checked and written."""

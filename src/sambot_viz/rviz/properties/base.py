@@ -1,0 +1,174 @@
+"""What a typed property is: declared once, then read, checked, shown and written.
+
+A display, a view and a tool list their properties as objects of the classes in
+`properties`; from that list come reading by RViz's rules, saving, the row in the panel
+and the compatibility table (DESIGN §4.1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from sambot_viz.errors import UsageError
+from sambot_viz.rviz.yaml.nodes import List, Map, Node, Scalar
+
+Support: TypeAlias = Literal["full", "approximate", "none"]
+"""How far we show what a property says."""
+
+Report: TypeAlias = Callable[[Node, str, str], None]
+"""Takes a node, what is doubtful about it, and what to write instead."""
+
+
+class PropertyError(UsageError):
+    """A value that a property cannot have.
+
+    Attributes:
+        property: the property's name.
+        value: what was given.
+    """
+
+    def __init__(self, name: str, value: object, expected: str):
+        self.property, self.value = name, value
+        shown = repr(value)
+        shown = shown if len(shown) <= 60 else shown[:59] + "…"
+        super().__init__(f"'{name}' must be {expected}, not {shown}")
+
+
+def silent(node: Node, message: str, hint: str) -> None:
+    """A report that goes nowhere."""
+    del node, message, hint
+
+
+@dataclass(frozen=True)
+class Property:
+    """A property of a display, view or tool; the subclasses say of which type.
+
+    Attributes:
+        name: the label, and the key in the file.
+        default: the value while the file gives none.
+        help: one sentence for the panel.
+        unit: "m", "rad", "s", "Hz" or "".
+        children: properties saved below this one.
+        hidden_unless: (path, value): the row is shown only while the property at that
+            path of the same display has that value (or one of a tuple of values). A
+            hidden property is saved all the same.
+        minimum: least value; smaller ones are raised to it.
+        maximum: greatest value; greater ones are lowered to it.
+        options: what can be chosen.
+        read_only: shown, but never read from a file, set or saved.
+        support: how far we show what it says.
+        note: a word about that, for the compatibility table.
+        ros1_default: the default in a file of ROS 1, when that is another one.
+        ros1_only: it stands in files of ROS 1 only.
+        aliases: other keys under which older files have it.
+        open_keys: keys below it that are not declared belong to the robot (links,
+            frames) and are no unknown keys.
+    """
+
+    name: str
+    default: Any = None
+    help: str = ""
+    unit: str = ""
+    children: tuple[Property, ...] = ()
+    hidden_unless: tuple[str, object] | None = None
+    minimum: Any = None
+    maximum: Any = None
+    options: tuple[str, ...] = ()
+    read_only: bool = False
+    support: Support = "full"
+    note: str = ""
+    ros1_default: Any = None
+    ros1_only: bool = False
+    aliases: tuple[str, ...] = ()
+    open_keys: bool = False
+
+    @property
+    def has_value(self) -> bool:
+        """Whether it has a value of its own; a mere container has none."""
+        return True
+
+    def default_in(self, ros1: bool) -> Any:
+        """The default, in a file of ROS 1 or of ROS 2."""
+        return (
+            self.ros1_default
+            if ros1 and self.ros1_default is not None
+            else self.default
+        )
+
+    def read(self, node: Node | None, report: Report = silent) -> Any:
+        """Read the property's own value by RViz's rules (spec/rviz-core.md §1.3–1.4).
+
+        Args:
+            node: what stands under its name in the file: a scalar, or a map whose
+                "Value" is the value; None when there is nothing.
+            report: told of everything doubtful.
+
+        Returns:
+            The value, or None when the file gives no usable one and the default holds.
+        """
+        if isinstance(node, Map):
+            node = node.get("Value")
+        if node is None or isinstance(node, Map):
+            return None
+        if isinstance(node, List):
+            report(
+                node,
+                f"'{self.name}' has a list where {self._expected} belongs; "
+                f"{self._default_text()} is used",
+                f"write {self._expected}",
+            )
+            return None
+        return None if node.null else self._parse(node, report)
+
+    def coerce(self, value: object) -> Any:
+        """Check a value that a program or a browser gives.
+
+        Args:
+            value: anything.
+
+        Returns:
+            The value the property takes: of its own type, finite, within its limits.
+
+        Raises:
+            PropertyError: it cannot be meant.
+        """
+        raise PropertyError(self.name, value, self._expected)
+
+    def write(self, value: Any) -> str:
+        """The text of a value, exactly as RViz saves it (§1.12)."""
+        return str(value)
+
+    def show(self, value: Any) -> str:
+        """The text of a value for people, with few digits (§9.1)."""
+        return self.write(value)
+
+    def components(self, value: Any) -> dict[str, str] | None:
+        """The keys a value is saved under, if it is saved as a map without "Value"."""
+        del value
+        return None
+
+    def agrees(self, first: Any, second: Any) -> bool:
+        """Whether RViz keeps two values apart."""
+        return bool(first == second)
+
+    def _parse(self, node: Scalar, report: Report) -> Any:
+        del report
+        return node.text
+
+    @property
+    def _expected(self) -> str:
+        return "a value"
+
+    def _default_stays(self, node: Scalar, report: Report) -> None:
+        report(
+            node,
+            f"'{self.name}' is {node.text!r}, which is not {self._expected}; "
+            f"{self._default_text()} is used",
+            f"write {self._expected}",
+        )
+
+    def _default_text(self) -> str:
+        text = self.write(self.default)
+        return f"the default {text}" if text else "the default"

@@ -1,0 +1,207 @@
+"""Booleans, integers and floats (spec/rviz-core.md §1.3)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, SupportsFloat, cast
+
+from sambot_viz.rviz.properties.base import Property, PropertyError, Report
+from sambot_viz.rviz.properties.number_text import (
+    INT_LIMIT,
+    float32,
+    float_text,
+    parse_float,
+    parse_german,
+    parse_int,
+)
+from sambot_viz.rviz.yaml.nodes import Scalar
+
+_FALSE = frozenset({"", "0", "false"})
+_MEANT_FALSE = frozenset({"no", "off", "n"})
+_MEANT_TRUE = frozenset({"1", "true", "yes", "on", "y"})
+
+
+@dataclass(frozen=True)
+class BoolProperty(Property):
+    """True or false.
+
+    RViz takes "", "0" and "false" for false and all else for true; "no" and "off" are
+    taken here as they are meant, with a warning (§12, 13).
+    """
+
+    default: bool = False
+
+    def coerce(self, value: object) -> bool:
+        """See `Property.coerce`."""
+        # numpy's booleans are no bool, but they look like one.
+        if isinstance(value, bool) or str(value) in ("True", "False"):
+            return bool(value)
+        raise PropertyError(self.name, value, self._expected)
+
+    def write(self, value: Any) -> str:
+        """See `Property.write`."""
+        return "true" if value else "false"
+
+    def _parse(self, node: Scalar, report: Report) -> bool:
+        return read_bool(node, report, self.name)
+
+    @property
+    def _expected(self) -> str:
+        return "true or false"
+
+
+def read_bool(node: Scalar, report: Report, name: str) -> bool:
+    """A boolean by RViz's rule, with a report of what RViz reads otherwise."""
+    text = node.text.lower()
+    if text in _FALSE:
+        return False
+    if text in _MEANT_FALSE:
+        report(
+            node,
+            f"'{name}' is {node.text!r}, which RViz reads as true; here it is false",
+            "write false",
+        )
+        return False
+    if text not in _MEANT_TRUE:
+        report(
+            node,
+            f"'{name}' is {node.text!r}, which RViz reads as true",
+            "write true or false",
+        )
+    return True
+
+
+@dataclass(frozen=True)
+class _NumberProperty(Property):
+    """What integers and floats share: limits."""
+
+    @property
+    def _range(self) -> str:
+        low, high = self.minimum, self.maximum
+        if low is not None and high is not None:
+            return f" from {self.write(low)} to {self.write(high)}"
+        if low is not None:
+            return f" of at least {self.write(low)}"
+        return "" if high is None else f" of at most {self.write(high)}"
+
+    def _clamped(self, value: Any) -> Any:
+        if self.minimum is not None and value < self.minimum:
+            return self.minimum
+        if self.maximum is not None and value > self.maximum:
+            return self.maximum
+        return value
+
+    def _within(self, value: Any, node: Scalar, report: Report) -> Any:
+        clamped = self._clamped(value)
+        if clamped != value:
+            report(
+                node,
+                f"'{self.name}' is {node.text}, but must be {self._expected}; "
+                f"{self.write(clamped)} is used, as in RViz",
+                f"write {self._expected}",
+            )
+        return clamped
+
+
+@dataclass(frozen=True)
+class IntProperty(_NumberProperty):
+    """An integer of 32 bits, clamped to its limits.
+
+    A whole number written as a float ("10.0") is taken as such; RViz reads it as 0 and
+    clamps that (§12, 14).
+    """
+
+    default: int = 0
+    minimum: int | None = None
+    maximum: int | None = None
+
+    def coerce(self, value: object) -> int:
+        """See `Property.coerce`."""
+        number = finite_number(value)
+        if number is not None and number.is_integer() and abs(number) < INT_LIMIT:
+            return int(self._clamped(int(number)))
+        raise PropertyError(self.name, value, self._expected)
+
+    def _parse(self, node: Scalar, report: Report) -> int | None:
+        value = parse_int(node.text)
+        if value is None:
+            number = parse_float(node.text)
+            if number is None or not number.is_integer() or abs(number) >= INT_LIMIT:
+                return self._default_stays(node, report)
+            value = int(number)
+            seen = self._clamped(0)
+            report(
+                node,
+                f"'{self.name}' is {node.text}, which RViz reads as {seen}; here it is "
+                f"{value}",
+                f"write {value}",
+            )
+        return int(self._within(value, node, report))
+
+    @property
+    def _expected(self) -> str:
+        return f"a whole number{self._range}"
+
+
+@dataclass(frozen=True)
+class FloatProperty(_NumberProperty):
+    """A finite number, clamped to its limits.
+
+    Infinite ones are clamped too; where there is no limit the default holds, because
+    nothing can be drawn with them.
+    """
+
+    default: float = 0.0
+    minimum: float | None = None
+    maximum: float | None = None
+
+    def coerce(self, value: object) -> float:
+        """See `Property.coerce`."""
+        number = finite_number(value)
+        if number is not None:
+            return float(self._clamped(number))
+        raise PropertyError(self.name, value, self._expected)
+
+    def write(self, value: Any) -> str:
+        """See `Property.write`."""
+        return float_text(value)
+
+    def show(self, value: Any) -> str:
+        """See `Property.show`."""
+        return f"{value:.6g}"
+
+    def agrees(self, first: Any, second: Any) -> bool:
+        """See `Property.agrees`; RViz keeps 32 bits."""
+        return float32(first) == float32(second)
+
+    def _parse(self, node: Scalar, report: Report) -> float | None:
+        value = parse_float(node.text)
+        if value is None:
+            value = parse_german(node.text)
+            if value is not None:
+                report(
+                    node,
+                    f"'{self.name}' is {node.text}, which RViz reads as "
+                    f"{self.write(self._clamped(0.0))}; here it is {value:g}",
+                    "write the number with a point",
+                )
+        if value is None or math.isnan(value) or math.isinf(self._clamped(value)):
+            return self._default_stays(node, report)
+        return float(self._within(value, node, report))
+
+    @property
+    def _expected(self) -> str:
+        return f"a number{self._range}"
+
+
+def finite_number(value: object) -> float | None:
+    """A finite number; booleans are none, numpy's numbers are."""
+    if isinstance(value, (bool, str, bytes)) or not hasattr(value, "__float__"):
+        return None
+    try:
+        number = float(cast(SupportsFloat, value))
+    except (TypeError, ValueError, OverflowError):
+        # Arrays look like numbers and are none.
+        return None
+    return number if math.isfinite(float32(number)) else None

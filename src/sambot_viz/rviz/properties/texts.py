@@ -1,0 +1,183 @@
+"""Texts, options, frames and topics (spec/rviz-core.md §1.3, §1.7)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from sambot_viz.rviz.properties.base import Property, PropertyError, Report
+from sambot_viz.rviz.properties.numbers import IntProperty
+from sambot_viz.rviz.yaml.nodes import Scalar
+
+FIXED_FRAME = "<Fixed Frame>"
+"""What a frame property says when it means the fixed frame, whatever that is."""
+
+
+@dataclass(frozen=True)
+class StringProperty(Property):
+    """Any text."""
+
+    default: str = ""
+
+    def coerce(self, value: object) -> str:
+        """See `Property.coerce`."""
+        return checked_text(self.name, value)
+
+    @property
+    def _expected(self) -> str:
+        return "a text"
+
+
+def checked_text(name: str, value: object) -> str:
+    """A text that can be saved.
+
+    Raises:
+        PropertyError: it is no text, or has half a surrogate pair, which no file holds.
+    """
+    if not isinstance(value, str):
+        raise PropertyError(name, value, "a text")
+    if any("\ud800" <= character <= "\udfff" for character in value):
+        raise PropertyError(name, value, "a text without half characters")
+    return str(value)
+
+
+@dataclass(frozen=True)
+class FileProperty(StringProperty):
+    """The path of a file, as it was written."""
+
+
+@dataclass(frozen=True)
+class RegexProperty(StringProperty):
+    """A regular expression, searched anywhere; empty or broken it filters nothing."""
+
+    @staticmethod
+    def compiled(value: str) -> re.Pattern[str] | None:
+        """The expression; None when it filters nothing."""
+        try:
+            return re.compile(value) if value else None
+        except re.error:
+            return None
+
+    def _parse(self, node: Scalar, report: Report) -> str:
+        if node.text and self.compiled(node.text) is None:
+            report(
+                node,
+                f"'{self.name}' is no regular expression: {node.text}; it filters "
+                "nothing, as in RViz",
+                "mend the expression or leave it empty",
+            )
+        return node.text
+
+
+@dataclass(frozen=True)
+class EnumProperty(Property):
+    """One of some texts; an unknown text is kept and means the first one."""
+
+    default: str = ""
+
+    def meaning(self, value: object) -> str:
+        """The option a value acts as: itself, or the first option."""
+        if value in self.options or not self.options:
+            return str(value)
+        return self.options[0]
+
+    def number(self, value: object) -> int:
+        """The option number; 0 for an unknown text, as in RViz."""
+        return self.options.index(str(value)) if value in self.options else 0
+
+    def coerce(self, value: object) -> str:
+        """See `Property.coerce`."""
+        if isinstance(value, str) and value in self.options:
+            return str(value)
+        raise PropertyError(self.name, value, self._expected)
+
+    def _parse(self, node: Scalar, report: Report) -> str:
+        if self.options and node.text not in (*self.options, self.default):
+            report(
+                node,
+                f"'{self.name}' is {node.text!r}, which is not {self._expected}; it "
+                f"acts as {self.options[0]!r}, as in RViz",
+                f"write {self._expected}",
+            )
+        return node.text
+
+    @property
+    def _expected(self) -> str:
+        return "one of " + ", ".join(repr(option) for option in self.options)
+
+
+@dataclass(frozen=True)
+class EditableEnumProperty(StringProperty):
+    """One of some texts, or any other that is typed."""
+
+
+@dataclass(frozen=True)
+class TfFrameProperty(Property):
+    """The name of a frame, without the leading "/" of ROS 1; or "<Fixed Frame>"."""
+
+    default: str = FIXED_FRAME
+
+    @property
+    def offers_fixed_frame(self) -> bool:
+        """Whether "<Fixed Frame>" is a choice."""
+        return self.default == FIXED_FRAME
+
+    def coerce(self, value: object) -> str:
+        """See `Property.coerce`."""
+        return checked_text(self.name, value).removeprefix("/")
+
+    def _parse(self, node: Scalar, report: Report) -> str:
+        return node.text.removeprefix("/")
+
+    @property
+    def _expected(self) -> str:
+        return "the name of a frame"
+
+
+QOS_PROPERTIES: tuple[Property, ...] = (
+    IntProperty(
+        "Depth",
+        default=5,
+        minimum=1,
+        help="How many messages wait in the queue.",
+        support="none",
+    ),
+    EditableEnumProperty(
+        "History Policy",
+        default="Keep Last",
+        options=("System Default", "Keep Last", "Keep All"),
+        help="Whether old messages are dropped from the queue.",
+        support="none",
+    ),
+    EditableEnumProperty(
+        "Reliability Policy",
+        default="Reliable",
+        options=("System Default", "Reliable", "Best Effort"),
+        help="Whether lost messages are sent again.",
+        support="none",
+    ),
+    EditableEnumProperty(
+        "Durability Policy",
+        default="Volatile",
+        options=("System Default", "Transient Local", "Volatile"),
+        help="Whether messages sent before the start arrive.",
+        support="none",
+    ),
+)
+"""The quality of service below a topic, in RViz's order (§1.7); kept for RViz."""
+
+FILTER_SIZE = IntProperty(
+    "Filter size",
+    default=10,
+    minimum=1,
+    help="How many messages wait for their transform.",
+    support="none",
+)
+"""One more child of the topics of displays that wait for transforms (§1.7)."""
+
+
+@dataclass(frozen=True)
+class TopicProperty(StringProperty):
+    """The name of a topic, with its quality of service below it."""
+
+    children: tuple[Property, ...] = QOS_PROPERTIES

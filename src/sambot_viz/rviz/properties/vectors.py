@@ -1,0 +1,128 @@
+"""Colours, vectors and quaternions (spec/rviz-core.md §1.3)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+from sambot_viz.rviz.properties.base import Property, PropertyError, Report, silent
+from sambot_viz.rviz.properties.color import Rgb, color_text, parse_color
+from sambot_viz.rviz.properties.number_text import (
+    float32,
+    float_text,
+    parse_float,
+    parse_german,
+)
+from sambot_viz.rviz.properties.numbers import finite_number
+from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
+
+
+@dataclass(frozen=True)
+class ColorProperty(Property):
+    """A colour, (r, g, b) with integers from 0 to 255."""
+
+    default: Rgb = (0, 0, 0)
+
+    def coerce(self, value: object) -> Rgb:
+        """See `Property.coerce`; a text such as "1; 2; 3" or "white" will do."""
+        parsed = parse_color(value) if isinstance(value, str) else None
+        if parsed is not None:
+            return parsed
+        parts = _numbers(value, 3)
+        if parts is None:
+            raise PropertyError(self.name, value, self._expected)
+        r, g, b = (min(255, max(0, round(part))) for part in parts)
+        return (r, g, b)
+
+    def write(self, value: Any) -> str:
+        """See `Property.write`."""
+        return color_text(value)
+
+    def _parse(self, node: Scalar, report: Report) -> Rgb | None:
+        color = parse_color(node.text)
+        return self._default_stays(node, report) if color is None else color
+
+    @property
+    def _expected(self) -> str:
+        return "a colour such as '160; 160; 164'"
+
+
+@dataclass(frozen=True)
+class VectorProperty(Property):
+    """Three finite numbers, saved under X, Y and Z."""
+
+    default: tuple[float, ...] = (0.0, 0.0, 0.0)
+    keys: tuple[str, ...] = ("X", "Y", "Z")
+
+    def read(self, node: Node | None, report: Report = silent) -> Any:
+        """See `Property.read`; all components must be there (§1.3)."""
+        if node is None or (isinstance(node, Scalar) and node.null):
+            return None
+        texts = [_component(node, key) for key in self.keys]
+        parts = [None if t is None else _vector_part(t) for t in texts]
+        known = [part for part in parts if part is not None]
+        if len(known) == len(self.keys):
+            return tuple(known)
+        report(
+            node,
+            f"'{self.name}' is not {self._expected}; RViz ignores it, and so do we",
+            f"write {{{', '.join(f'{key}: 0' for key in self.keys)}}} with numbers",
+        )
+        return None
+
+    def coerce(self, value: object) -> tuple[float, ...]:
+        """See `Property.coerce`; a text such as "1; 2; 3" will do."""
+        if isinstance(value, str):
+            texts = value.split(";")
+            value = [parse_float(text) for text in texts]
+        parts = _numbers(value, len(self.keys))
+        if parts is None:
+            raise PropertyError(self.name, value, self._expected)
+        return parts
+
+    def write(self, value: Any) -> str:
+        """The text RViz shows, such as "0.1; 0.0001; 1000"."""
+        return "; ".join(f"{part:.6g}" for part in value)
+
+    def components(self, value: Any) -> dict[str, str]:
+        """See `Property.components`."""
+        return {
+            key: float_text(part) for key, part in zip(self.keys, value, strict=True)
+        }
+
+    def agrees(self, first: Any, second: Any) -> bool:
+        """See `Property.agrees`."""
+        return [float32(part) for part in first] == [float32(part) for part in second]
+
+    @property
+    def _expected(self) -> str:
+        return f"a map of {len(self.keys)} numbers ({', '.join(self.keys)})"
+
+
+@dataclass(frozen=True)
+class QuaternionProperty(VectorProperty):
+    """Four finite numbers, xyzw, saved under X, Y, Z and W."""
+
+    default: tuple[float, ...] = (0.0, 0.0, 0.0, 1.0)
+    keys: tuple[str, ...] = ("X", "Y", "Z", "W")
+
+
+def _component(node: Node, key: str) -> str | None:
+    return node.text(key) if isinstance(node, Map) else None
+
+
+def _vector_part(text: str) -> float | None:
+    value = parse_float(text)
+    value = parse_german(text) if value is None else value
+    return value if value is not None and math.isfinite(float32(value)) else None
+
+
+def _numbers(value: object, count: int) -> tuple[float, ...] | None:
+    """The finite numbers of a sequence or array of that length."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__len__"):
+        return None
+    found = [finite_number(part) for part in cast("Sequence[object]", value)]
+    known = tuple(part for part in found if part is not None)
+    return known if len(known) == len(found) == count else None

@@ -1,0 +1,141 @@
+"""The .rviz document with meaning: displays, options, views, tools."""
+
+from __future__ import annotations
+
+import os
+
+from sambot_viz.errors import Problem
+from sambot_viz.rviz.class_items import GlobalOptions, ToolConfig
+from sambot_viz.rviz.class_name import kind_of
+from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.declared import ConfigFindings
+from sambot_viz.rviz.default import DEFAULT_TEXT
+from sambot_viz.rviz.display_list import DisplayList
+from sambot_viz.rviz.view_list import ViewList
+from sambot_viz.rviz.yaml.document import Document
+from sambot_viz.rviz.yaml.nodes import Collection, Map, Plain, items_of, plain
+
+
+class RvizConfig(DisplayList, ViewList):
+    """A config: typed values in front, the untouched document behind.
+
+    What is not understood is kept and saved: unknown classes, keys, panels, window
+    geometry, comments, the order of keys (spec/rviz-core.md §12, 17).
+
+    Attributes:
+        global_options: Fixed Frame, Background Color, Frame Rate.
+        tools: the tools of the toolbar.
+    """
+
+    def __init__(self, document: Document, declarations: Declarations):
+        """Read a document; use `load`, `parse` or `default`."""
+        super().__init__(document, declarations)
+        _report_duplicates(document.root, self._findings)
+        self.global_options = self._read_global_options()
+        self._load_displays()
+        self._load_views()
+        self.tools = tuple(
+            ToolConfig(node, declarations.tools.get(_kind(node)), self._findings)
+            for _, node in items_of(self._manager.get("Tools"))
+        )
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], declarations: Declarations
+    ) -> RvizConfig:
+        """Read a file.
+
+        Raises:
+            ConfigError: the file cannot be read, or is no .rviz document at all.
+        """
+        return cls(Document.load(path), declarations)
+
+    @classmethod
+    def parse(
+        cls, text: str, declarations: Declarations, *, file: str | None = None
+    ) -> RvizConfig:
+        """Read a text.
+
+        Args:
+            text: the content of an .rviz file.
+            declarations: the classes that are known.
+            file: the name for messages.
+
+        Raises:
+            ConfigError: the text is no .rviz document at all.
+        """
+        return cls(Document(text, file), declarations)
+
+    @classmethod
+    def default(cls, declarations: Declarations) -> RvizConfig:
+        """The config RViz starts with: one Grid, an Orbit view."""
+        return cls.parse(DEFAULT_TEXT, declarations)
+
+    def _read_global_options(self) -> GlobalOptions:
+        found = self._manager.get("Global Options")
+        declared = self._declarations.global_options
+        if isinstance(found, Map):
+            return GlobalOptions(found, declared, self._findings, ros1=self.ros1)
+        return GlobalOptions(
+            Map(),
+            declared,
+            self._findings,
+            ros1=self.ros1,
+            attach=lambda node: self._attached_manager().put("Global Options", node),
+        )
+
+    @property
+    def file(self) -> str | None:
+        """The path it was read from or last saved to."""
+        return self._document.file
+
+    @property
+    def panels(self) -> Plain:
+        """RViz's panels as text; kept, never used."""
+        return plain(self._document.root.get("Panels"))
+
+    @property
+    def raw(self) -> Plain:
+        """The whole document as text: dicts, lists, str, None."""
+        return plain(self._document.root)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What was doubtful in the file: warnings with their lines."""
+        return (*self._document.problems, *self._findings.problems)
+
+    @property
+    def modified(self) -> bool:
+        """Whether a save would change the file."""
+        return self._document.modified
+
+    def to_yaml(self) -> str:
+        """The text that a save writes; the file's own one where nothing changed."""
+        return self._document.to_yaml()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the file, whole or not at all.
+
+        Raises:
+            ConfigError: it cannot be written; an old file is untouched.
+        """
+        self._document.save(path)
+
+
+def _report_duplicates(node: Collection, findings: ConfigFindings) -> None:
+    seen: set[str] = set()
+    for entry in node.entries:
+        if entry.key is not None and entry.key in seen:
+            findings.add(
+                "config-duplicate-key",
+                entry.value,
+                f"'{entry.key}' stands twice in one map; the later one holds",
+                "remove the earlier one",
+            )
+        seen.add(entry.key or "")
+        if isinstance(entry.value, Collection):
+            _report_duplicates(entry.value, findings)
+
+
+def _kind(node: Map) -> str:
+    return kind_of(node.text("Class") or "")

@@ -1,0 +1,1 @@
+"""The text of an .rviz file: read and written without losing anything."""

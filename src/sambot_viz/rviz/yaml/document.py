@@ -1,0 +1,194 @@
+"""The text of an .rviz file with its nodes: reading it, changing it, saving it."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import stat
+from pathlib import Path
+
+import yaml
+
+from sambot_viz.errors import ConfigError, Problem
+from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
+from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
+from sambot_viz.rviz.yaml.parser import ParseFault, parse
+from sambot_viz.rviz.yaml.writer import Writer
+
+_SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")
+
+
+class Document:
+    """One .rviz file.
+
+    Attributes:
+        root: the top-level map; change its nodes to change the file.
+        file: the path as the user wrote it, for messages.
+        problems: what was found on reading.
+    """
+
+    def __init__(self, text: str, file: str | None = None):
+        """Read a text.
+
+        Args:
+            text: the file, with its own line breaks.
+            file: its path as the user wrote it.
+
+        Raises:
+            ConfigError: it is no YAML, or YAML of something else.
+        """
+        self.file = file
+        self.problems: list[Problem] = []
+        self._bom = "\ufeff" if text.startswith("\ufeff") else ""
+        self._text = text.removeprefix("\ufeff")
+        self._newline = "\r\n" if "\r\n" in self._text else "\n"
+        self.root = self._read()
+        self._saved: Node | None = None
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Document:
+        """Read a file.
+
+        Raises:
+            ConfigError: the file cannot be read, or is no .rviz document.
+        """
+        name = os.fspath(path)
+        try:
+            data = Path(path).read_bytes()
+        except OSError as error:
+            why = error.strerror or str(error)
+            hint = "check the path"
+            raise _error(
+                "config-unreadable", f"cannot read it: {why}", hint, name
+            ) from error
+        try:
+            return cls(data.decode("utf-8"), name)
+        except UnicodeDecodeError as error:
+            line = data[: error.start].count(b"\n") + 1
+            raise _error(
+                "config-encoding",
+                "this line is not UTF-8",
+                "save it as UTF-8",
+                name,
+                line,
+            ) from None
+
+    def _read(self) -> Map:
+        strange = other_format(self._text, self.file)
+        if strange is not None:
+            raise ConfigError([strange])
+        try:
+            root = parse(self._text)
+        except (yaml.YAMLError, ParseFault) as error:
+            raise ConfigError([explain_yaml(self._text, error, self.file)]) from error
+        if root is None or (isinstance(root, Scalar) and root.null):
+            self._warn_of_emptiness("the file is empty: it gives no displays")
+            return Map()
+        if not isinstance(root, Map):
+            raise _not_rviz(self.file)
+        if root.entries and not any(root.entry(name) for name in _SECTIONS):
+            raise _not_rviz(self.file)
+        if not isinstance(root.get(_SECTIONS[0]), Map):
+            self._warn_of_emptiness(
+                f"'{_SECTIONS[0]}' is missing: there are no displays"
+            )
+        return root
+
+    def _warn_of_emptiness(self, message: str) -> None:
+        hint = "add displays and save, or give another file"
+        self.problems.append(
+            Problem("warning", "config-empty", message, hint, self.file)
+        )
+
+    def to_yaml(self) -> str:
+        """The text of the file as it would be saved.
+
+        Returns:
+            The text that was read, with only the changes in it. Should that not read
+            back as what is meant, all of it is written anew, as RViz does.
+        """
+        if not self.root.changed and self.root.span is not None:
+            return self._bom + self._text
+        for text in (self._patched(), Writer("", self._newline).document(self.root)):
+            if _reads_as(text, self.root):
+                return self._bom + text
+        raise AssertionError("the plain writer writes what the parser reads")
+
+    def _patched(self) -> str:
+        if self.root.span is None:
+            # The file had comments only, or nothing.
+            kept = self._text if self._text.strip() else ""
+            return kept + Writer("", self._newline).document(self.root)
+        return Writer(self._text, self._newline).document(self.root)
+
+    @property
+    def modified(self) -> bool:
+        """Whether the file says something else than when it was read or saved."""
+        if self._saved is None:
+            return self.root.changed if self.root.span else bool(self.root.entries)
+        return not same(self.root, self._saved)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the file; readers see the old one or the new one, never half of it.
+
+        Args:
+            path: where to; a symbolic link stays one.
+
+        Raises:
+            ConfigError: it cannot be written; the old file is untouched.
+        """
+        text = self.to_yaml()
+        target = Path(os.path.realpath(path))
+        try:
+            _write_atomically(target, text.encode("utf-8"))
+        except OSError as error:
+            why = error.strerror or str(error)
+            raise _error(
+                "config-unwritable",
+                f"cannot write it: {why}",
+                "choose another place",
+                os.fspath(path),
+            ) from error
+        self._saved = copied(self.root)
+        self.file = os.fspath(path)
+
+
+def _write_atomically(target: Path, data: bytes) -> None:
+    temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}")
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    handle = os.open(temporary, flags, 0o666)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        if target.exists():
+            temporary.chmod(stat.S_IMODE(target.stat().st_mode))
+        temporary.replace(target)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def _reads_as(text: str, root: Node) -> bool:
+    try:
+        read = parse(text)
+    except (yaml.YAMLError, ParseFault):
+        return False
+    return same(root, read if read is not None else Map())
+
+
+def _not_rviz(file: str | None) -> ConfigError:
+    return _error(
+        "config-not-rviz",
+        "this YAML is no .rviz document: 'Visualization Manager' is missing",
+        "give a file that RViz has saved, or one with the same structure",
+        file,
+        1,
+    )
+
+
+def _error(
+    code: str, message: str, hint: str, file: str | None, line: int | None = None
+) -> ConfigError:
+    return ConfigError([Problem("error", code, message, hint, file, line)])

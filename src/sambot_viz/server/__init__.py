@@ -1,0 +1,1 @@
+"""The running server: its port, its browsers, and following the files."""

@@ -1,0 +1,91 @@
+"""Opening the port: all that must happen before a page can be opened, and no more.
+
+Nothing but viser is imported here, so that the address is there as soon as viser
+itself can have it; the rest of the program is imported while a browser loads the page.
+"""
+
+from __future__ import annotations
+
+import errno
+import socket
+from collections.abc import Sequence
+
+import viser
+
+from sambot_viz import viser_private
+from sambot_viz.errors import ServerError
+from sambot_viz.server import access
+
+_ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
+"""Addresses that mean all networks, and one of them that a browser can open."""
+
+
+def url_of(server: viser.ViserServer) -> str:
+    """The address to open in a browser: "http://127.0.0.1:8080"."""
+    host = server.get_host()
+    host = _ANYWHERE.get(host, host)
+    return f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
+
+
+def listen(
+    host: str, port: int, allowed_origins: Sequence[str] = ()
+) -> viser.ViserServer:
+    """A viser server on exactly this address.
+
+    viser itself takes the next free port in silence, and tries forever on an address
+    that this machine does not have.
+
+    Args:
+        host: address to listen on.
+        port: 0 takes a free one.
+        allowed_origins: web pages of other origins that may use the server, such as
+            "https://lab.example.org" for one behind a proxy.
+
+    Raises:
+        ServerError: the address cannot be listened on, with what to do about it.
+    """
+    _try_to_bind(host, port)
+    viser_private.quiet_websockets()
+    viser_private.remember_prop_types()
+    with viser_private.without_banner(), access.checked(host, allowed_origins):
+        server = viser.ViserServer(host=host, port=port, verbose=False)
+    if port not in (0, server.get_port()):
+        close(server)
+        raise _taken(host, port)
+    return server
+
+
+def _try_to_bind(host: str, port: int) -> None:
+    if not 0 <= port <= 65535:
+        raise ServerError(f"port {port} does not exist; choose one from 1 to 65535")
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except (OSError, UnicodeError) as error:
+            code = error.errno if isinstance(error, OSError) else None
+            if code == errno.EADDRINUSE:
+                raise _taken(host, port) from error
+            if code == errno.EACCES:
+                raise ServerError(
+                    f"port {port} needs the rights of an administrator; choose one "
+                    "from 1024 on, or --port 0 for any free one"
+                ) from error
+            raise ServerError(
+                f"cannot listen on '{host}': this machine has no such address; use "
+                "127.0.0.1 for this machine only, or 0.0.0.0 for all its networks"
+            ) from error
+
+
+def _taken(host: str, port: int) -> ServerError:
+    return ServerError(
+        f"port {port} on {host} is taken by another program; choose another with "
+        "--port, or --port 0 for any free one"
+    )
+
+
+def close(server: viser.ViserServer) -> None:
+    """Stop a server without a word; a second call does nothing."""
+    with viser_private.without_banner():
+        server.stop()

@@ -1,0 +1,223 @@
+"""The viser server, its browsers, and their sessions: from start to stop."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, cast
+
+import viser
+
+from sambot_viz import viser_private
+from sambot_viz.errors import Problem, ServerError
+from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.panels.layout import Layout
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.bind import close, listen, url_of
+from sambot_viz.server.mesh_thread import AssetReader
+from sambot_viz.session import Audience, Reloaded, Session
+from sambot_viz.session.checks import CheckResults
+from sambot_viz.session.start_state import SessionSetup
+
+SessionMode = Literal["shared", "private"]
+MakeConfig = Callable[[], RvizConfig]
+
+
+@dataclass(frozen=True, slots=True)
+class ServerOptions:
+    """How a server is set up.
+
+    Attributes:
+        host: address to listen on; the default is this machine only.
+        port: 0 takes a free one.
+        session: one robot for all browsers, or one for each.
+        gui: whether there is a Joints panel.
+        panels: whether there are any panels; without them the view fills the page.
+        allowed_origins: web pages of other origins that may use the server.
+        setup: what every session begins with.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = 8080
+    session: SessionMode = "shared"
+    gui: bool = True
+    panels: bool = True
+    allowed_origins: Sequence[str] = ()
+    setup: SessionSetup = field(default_factory=SessionSetup)
+
+
+class Server:
+    """A viser server whose every browser sees a session.
+
+    Args:
+        options: where to listen, and for whom.
+        make_config: a fresh .rviz document; called once per session.
+        load_file: reads another model, for a RobotModel from a file.
+        listening: a viser server that listens already; None makes one.
+
+    Raises:
+        ServerError: the address cannot be listened on.
+    """
+
+    def __init__(
+        self,
+        options: ServerOptions,
+        make_config: MakeConfig,
+        load_file: Callable[[str], Robot] | None = None,
+        listening: viser.ViserServer | None = None,
+    ) -> None:
+        self.options = options
+        self._make_config = make_config
+        self._load_file = load_file
+        self.meshes = MeshStore()
+        self._reader = AssetReader(self.meshes)
+        self._lock = threading.RLock()
+        self._joined = threading.Condition()
+        self._robot: Robot | None = None
+        self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
+        self._advice: dict[Session, CheckResults] = {}
+        self._private: dict[int, tuple[Session, Layout | None]] = {}
+        self._viser = listening or listen(
+            options.host, options.port, options.allowed_origins
+        )
+        self._stopped = threading.Event()
+        viser_private.drop_share_handlers(self._viser)
+        viser_private.guard_gui_updates(self._viser)
+        Layout.prepare_page(self._viser)
+        self.shared: Session | None = None
+        self._layout: Layout | None = None
+        if options.session == "shared":
+            self.shared, self._layout = self._open(self._viser)
+        self._viser.on_client_connect(self._join)
+        self._viser.on_client_disconnect(self._leave)
+
+    @property
+    def url(self) -> str:
+        """The address to open: "http://127.0.0.1:8080"."""
+        return url_of(self._viser)
+
+    @property
+    def robot(self) -> Robot | None:
+        """The robot that is shown."""
+        return self._robot
+
+    @property
+    def viser(self) -> viser.ViserServer:
+        """The viser server, to add nodes and widgets of one's own."""
+        return self._viser
+
+    def sessions(self) -> list[Session]:
+        """All sessions there are at the moment."""
+        with self._lock:
+            private = [session for session, _ in self._private.values()]
+        return [*private] if self.shared is None else [self.shared, *private]
+
+    def show_robot(self, robot: Robot) -> None:
+        """Show a robot in every session, present and to come."""
+        with self._lock:
+            self._robot = robot
+        for session in self.sessions():
+            session.show_robot(robot)
+        for advice in list(self._advice.values()):
+            advice.give()
+
+    def refresh(self) -> None:
+        """Draw anew what comes from mesh files and textures that have changed."""
+        for session in self.sessions():
+            session.refresh()
+
+    def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
+        """Tell every session, present and to come, why a save is not shown."""
+        with self._lock:
+            self._reload_problems[of] = tuple(problems)
+        for session in self.sessions():
+            session.set_reload_problems(of, problems)
+
+    def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
+        """The browser that came last, as soon as there is one.
+
+        Raises:
+            ServerError: none came in time.
+        """
+        with self._joined:
+            if not self._joined.wait_for(self._viser.get_clients, timeout):
+                raise ServerError(f"no browser opened the page within {timeout:g} s")
+            return list(self._viser.get_clients().values())[-1]
+
+    def wait_for_meshes(self, timeout: float) -> None:
+        """Return when every mesh file and texture is read and drawn.
+
+        Args:
+            timeout: for each session [s].
+
+        Raises:
+            ServerError: that took longer.
+        """
+        for session in self.sessions():
+            if not session.context.assets.wait(timeout):
+                raise ServerError(f"the meshes were not read within {timeout:g} s")
+
+    def node_count(self) -> int:
+        """How many nodes the shared scene has."""
+        return viser_private.node_count(self._viser.scene)
+
+    def wait(self) -> None:
+        """Return when the server is stopped."""
+        self._stopped.wait()
+
+    def stop(self) -> None:
+        """Stop the server and free the port; a second call does nothing."""
+        if self._stopped.is_set():
+            return
+        self._stopped.set()
+        for session in self.sessions():
+            session.close()
+        self._reader.close()
+        close(self._viser)
+
+    def _open(self, audience: object) -> tuple[Session, Layout | None]:
+        session = Session(
+            cast(Audience, audience),
+            self._viser.get_event_loop(),
+            self._make_config(),
+            self.meshes,
+            self._load_file,
+            self._reader,
+        )
+        self.options.setup.apply(session)
+        session.show_config()
+        advice = self._advice[session] = CheckResults(session)
+        if self._robot is not None:
+            session.show_robot(self._robot)
+            session.loop.call_soon_threadsafe(advice.give)
+        for of, problems in self._reload_problems.items():
+            session.set_reload_problems(of, problems)
+        if not self.options.panels:
+            return session, None
+        return session, Layout(session, joints=self.options.gui)
+
+    async def _join(self, client: viser.ClientHandle) -> None:
+        if self.shared is None:
+            opened = self._open(client)
+            with self._lock:
+                self._private[client.client_id] = opened
+            session = opened[0]
+        else:
+            session = self.shared
+        session.views.join(client)
+        with self._joined:
+            self._joined.notify_all()
+
+    async def _leave(self, client: viser.ClientHandle) -> None:
+        with self._lock:
+            opened = self._private.pop(client.client_id, None)
+        if self.shared is not None:
+            self.shared.views.leave(client.client_id)
+        if opened is not None:
+            session, layout = opened
+            self._advice.pop(session, None)
+            if layout is not None:
+                layout.close()
+            session.close()

@@ -1,0 +1,1 @@
+"""What is under the cursor, and the marks around what is selected."""

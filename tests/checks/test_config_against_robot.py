@@ -1,0 +1,227 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from sambot_viz.checks.config_against_robot import check_setup
+from sambot_viz.checks.launch_files import (
+    check_launch_file,
+    check_package,
+    check_setup_py,
+)
+from sambot_viz.errors import Problem
+from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import Robot
+
+Checked = Callable[[str], list[Problem]]
+
+GOOD = """\
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Description Topic:
+        Durability Policy: Transient Local
+        Value: /robot_description
+      Enabled: true
+      Name: RobotModel
+  Global Options:
+    Fixed Frame: base_link
+"""
+
+
+@dataclass
+class Display:
+    """A display as `RvizConfig` has them."""
+
+    raw: Mapping[str, Any]
+
+    @property
+    def class_id(self) -> str:
+        return str(self.raw.get("Class"))
+
+    @property
+    def name(self) -> str:
+        return str(self.raw.get("Name"))
+
+    @property
+    def enabled(self) -> bool:
+        return bool(self.raw.get("Enabled", True))
+
+    @property
+    def displays(self) -> Sequence[Display]:
+        return [Display(raw) for raw in self.raw.get("Displays", [])]
+
+
+@dataclass
+class Config:
+    """A config as `RvizConfig` reads it."""
+
+    file: str
+    displays: Sequence[Display] = ()
+    global_options: dict[str, Any] = field(default_factory=dict[str, Any])
+
+    @classmethod
+    def load(cls, path: Path) -> Config:
+        manager = yaml.safe_load(path.read_text("utf-8"))["Visualization Manager"]
+        displays = [Display(raw) for raw in manager["Displays"]]
+        return cls(str(path), displays, manager["Global Options"])
+
+
+@pytest.fixture
+def robot() -> Robot:
+    return load_robot(
+        '<robot name="r"><link name="base_link"/><link name="wheel_link"/>'
+        '<joint name="wheel_joint" type="continuous"><parent link="base_link"/>'
+        '<child link="wheel_link"/></joint></robot>'
+    )
+
+
+@pytest.fixture
+def checked(tmp_path: Path, robot: Robot) -> Checked:
+    def run(text: str) -> list[Problem]:
+        file = tmp_path / "c.rviz"
+        file.write_text(text)
+        return check_setup(robot, Config.load(file))
+
+    return run
+
+
+def test_a_config_that_fits_gives_nothing_to_say(checked: Checked) -> None:
+    assert checked(GOOD) == []
+
+
+def test_a_fixed_frame_that_does_not_exist_is_pointed_at(checked: Checked) -> None:
+    (problem,) = checked(GOOD.replace("Frame: base_link", "Frame: map"))
+
+    assert problem.code == "setup-fixed-frame"
+    assert problem.severity == "warning"
+    assert (problem.line, problem.column) == (10, 5)
+    assert problem.hint == "choose base_link, the root of this robot"
+
+
+def test_a_leading_slash_of_the_fixed_frame_does_not_matter(checked: Checked) -> None:
+    assert checked(GOOD.replace("Frame: base_link", "Frame: /base_link")) == []
+
+
+def test_a_volatile_description_is_pointed_at(checked: Checked) -> None:
+    (problem,) = checked(GOOD.replace("Transient Local", "Volatile"))
+
+    assert problem.code == "setup-description-volatile"
+    assert problem.line == 5
+
+
+def test_a_description_from_another_topic_is_pointed_at(checked: Checked) -> None:
+    (problem,) = checked(GOOD.replace("/robot_description", "/robot"))
+
+    assert problem.code == "setup-description-topic"
+    assert problem.line == 6
+
+
+def test_a_display_in_a_group_is_found(checked: Checked) -> None:
+    listed = GOOD.replace("Transient Local", "Volatile").splitlines(keepends=True)
+    inner = [f"    {line}" for line in listed[2:8]]
+    group = "    - Class: rviz_common/Group\n      Name: G\n      Displays:\n"
+
+    (problem,) = checked("".join([*listed[:2], group, *inner, *listed[8:]]))
+
+    assert problem.line == 8
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (GOOD.replace("Enabled: true", "Enabled: false"), "switched off"),
+        (GOOD.replace("/RobotModel", "/Grid"), "missing"),
+    ],
+)
+def test_a_config_without_a_robot_model_is_told(
+    checked: Checked, text: str, said: str
+) -> None:
+    (problem,) = checked(text)
+
+    assert problem.severity == "info"
+    assert said in problem.message
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "word"),
+    [
+        ("fixed-frame-map.rviz", 11, "map"),
+        ("description-topic-volatile.rviz", 6, "Volatile"),
+    ],
+)
+def test_the_bad_configs_of_the_collection_are_explained(
+    shared: Path, robot: Robot, name: str, line: int, word: str
+) -> None:
+    config = Config.load(shared / "data" / "bad-models" / "launch" / name)
+
+    (problem,) = check_setup(robot, config)
+
+    assert problem.severity == "warning"
+    assert problem.line is not None
+    assert abs(problem.line - line) <= 1
+    assert word in problem.message
+
+
+def test_a_launch_file_in_which_nobody_publishes_joints_is_explained(
+    shared: Path, robot: Robot
+) -> None:
+    folder = shared / "data" / "bad-models" / "launch"
+
+    (problem,) = check_launch_file(
+        folder / "gui-true-but-no-gui-node.launch.py", "mini_bot", robot
+    )
+
+    assert problem.severity == "warning"
+    assert problem.line == 20
+    assert "wheel_joint stays without a transform" in problem.message
+
+
+def test_a_launch_file_with_the_gui_node_is_fine(shared: Path, tmp_path: Path) -> None:
+    bad = (
+        shared / "data" / "bad-models" / "launch" / "gui-true-but-no-gui-node.launch.py"
+    )
+    good = tmp_path / "good.launch.py"
+    added = (
+        "Node(executable='joint_state_publisher_gui'),\n        Node(package='rviz2'"
+    )
+    good.write_text(bad.read_text().replace("Node(package='rviz2'", added))
+
+    assert check_launch_file(good) == []
+
+
+def test_a_launch_file_that_asks_for_a_nearly_right_package_is_explained(
+    shared: Path,
+) -> None:
+    file = shared / "data" / "bad-models" / "launch" / "package-not-found.launch.py"
+
+    (problem,) = check_launch_file(file, "mbot_pkg")
+
+    assert problem.severity == "error"
+    assert problem.line == 8
+    assert problem.hint == "write mbot_pkg"
+    assert check_launch_file(file, "turtlebot3_gazebo") == []
+
+
+def test_setup_py_and_package_xml_have_to_agree(shared: Path) -> None:
+    folder = shared / "data" / "bad-models" / "launch" / "setup-py-name-mismatch"
+
+    (problem,) = check_setup_py(folder / "setup.py")
+
+    assert problem.severity == "error"
+    assert problem.line == 3
+    assert "mbot_code" in problem.message
+    assert check_package(folder) == [problem]
+
+
+def test_a_launch_file_that_is_no_python_gives_nothing(tmp_path: Path) -> None:
+    file = tmp_path / "x.launch.py"
+    file.write_text("def (")
+
+    assert check_launch_file(file, "x") == []
+    assert check_setup_py(tmp_path / "setup.py") == []

@@ -1,0 +1,266 @@
+"""RobotModel: what a file says about single links and joints, and a second robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import viser
+
+from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
+from sambot_viz.frames import Transform
+from sambot_viz.robot.model import Robot
+from sambot_viz.session import Session
+
+Show = Callable[..., Session]
+Nodes = Callable[[Session], dict[str, viser.SceneNodeHandle]]
+
+
+def model_of(session: Session) -> RobotModelDisplay:
+    display = session.displays[0]
+    assert isinstance(display, RobotModelDisplay)
+    return display
+
+
+def at(session: Session, link: str, nodes: Nodes) -> dict[str, viser.SceneNodeHandle]:
+    """The nodes of the display at a link's frame, by the part after its key."""
+    above = f"{session.context.nodes.path(link)}/{model_of(session).key}"
+    found = nodes(session).items()
+    return {n[len(above) :]: h for n, h in found if n.startswith(above)}
+
+
+LINKS = """
+      Links:
+        All Links Enabled: true
+        Link Tree Style: Links in Alphabetic Order
+        base: {Alpha: 0.4, Show Axes: true, Show Trail: false, Value: true}
+        upper: {Alpha: 1, Show Axes: false, Show Trail: false, Value: false}
+"""
+LINK_TREE = """
+      Link Tree:
+        Link Tree Style: Tree of links
+        base:
+          Details: {Alpha: 0.4, Show Axes: true, Show Trail: false}
+          Value: true
+          upper:
+            Details: {Alpha: 1, Show Axes: false, Show Trail: false}
+            Value: false
+            tool: {Details: {Show Axes: false}}
+"""
+BOTH_TREE = """
+      Link/Joint Tree:
+        Link Tree Style: Tree of links and joints
+        base:
+          Details: {Alpha: 0.4, Show Axes: true, Show Trail: false}
+          Value: true
+          shoulder:
+            Details: {Show Axes: true, Show Joint Axis: true}
+            Value: false
+            upper: {Details: {Alpha: 1}, Value: false}
+"""
+
+
+@pytest.mark.parametrize("body", [LINKS, LINK_TREE, BOTH_TREE])
+def test_links_look_as_the_file_says_whatever_the_style(
+    body: str, show: Show, nodes: Nodes
+) -> None:
+    session = show(body)
+    base, upper = at(session, "base", nodes), at(session, "upper", nodes)
+    box: Any = base["v0"]
+    assert box.opacity == pytest.approx(0.5 * 0.4)
+    assert "a" in base
+    assert "v0" not in upper
+
+
+def test_the_list_of_joints_switches_their_child_links(
+    show: Show, nodes: Nodes
+) -> None:
+    session = show("      Joints: {shoulder: {Value: false, Show Axes: true}}")
+    assert "v0" not in at(session, "upper", nodes)
+    assert any(name.startswith("j") for name in at(session, "base", nodes))
+
+
+def test_joint_axes_and_arrows_stand_at_the_joints_origin(
+    show: Show, nodes: Nodes
+) -> None:
+    session = show(BOTH_TREE)
+    marks = at(session, "base", nodes)
+    axes = next(handle for name, handle in marks.items() if name.startswith("j"))
+    assert tuple(axes.position) == pytest.approx((0, 0, 1))
+    arrow: Any = next(handle for name, handle in marks.items() if name.startswith("x"))
+    # The joint turns about its y, which its origin's roll has made the parent's z.
+    assert arrow.batched_positions[0] == pytest.approx((0, 0, 1.075), abs=1e-5)
+
+
+def test_links_the_file_does_not_name_follow_all_links_enabled(
+    show: Show, nodes: Nodes
+) -> None:
+    session = show("      Links: {All Links Enabled: false, upper: {Value: true}}")
+    assert "v0" not in at(session, "base", nodes)
+    assert "v0" in at(session, "upper", nodes)
+
+
+def test_all_links_enabled_ticks_the_links_of_the_file_too(
+    show: Show, nodes: Nodes
+) -> None:
+    session = show(LINKS)
+    display = model_of(session)
+    session.set_property(display, "Links/All Links Enabled", False)
+    assert not any(
+        h.visible
+        for link in ("base", "upper")
+        for h in at(session, link, nodes).values()
+    )
+    session.set_property(display, "Links/All Links Enabled", True)
+    assert at(session, "upper", nodes)["v0"].visible
+    assert display.config.dynamic(("Links", "upper"))["Value"] == "true"
+
+
+@pytest.mark.parametrize(
+    ("body", "place"),
+    [
+        ("", ("Links", "upper")),
+        (LINKS, ("Links", "upper")),
+        (LINK_TREE, ("Link Tree", "base", "upper", "Details")),
+        (BOTH_TREE, ("Link/Joint Tree", "base", "shoulder", "upper", "Details")),
+    ],
+)
+def test_a_change_is_written_where_the_style_has_the_link(
+    body: str, place: tuple[str, ...], show: Show
+) -> None:
+    display = model_of(show(body))
+    links = display.entries()[0]
+    links.set("upper", "Alpha", 0.25)
+    assert display.config.dynamic(place)["Alpha"] == "0.25"
+    assert links.get("upper")["Alpha"] == 0.25
+
+
+def test_a_new_link_of_a_tree_is_written_below_those_above_it(show: Show) -> None:
+    display = model_of(show(BOTH_TREE))
+    display.entries()[0].set("tool", "Show Axes", True)
+    place = ("Link/Joint Tree", "base", "shoulder", "upper", "wrist", "tool", "Details")
+    assert display.config.dynamic(place)["Show Axes"] == "true"
+
+
+def test_the_box_of_a_joint_in_a_tree_switches_all_links_below(show: Show) -> None:
+    display = model_of(show(BOTH_TREE))
+    links, joints = display.entries()
+    joints.set("shoulder", "Value", True)
+    assert links.get("upper")["Value"] and links.get("tool")["Value"]
+    joints.set("shoulder", "Value", False)
+    assert not links.get("upper")["Value"] and not links.get("tool")["Value"]
+
+
+def test_links_and_joints_have_the_rows_and_facts_of_rviz(show: Show) -> None:
+    links, joints = model_of(show()).entries()
+    assert links.rows and joints.rows
+    assert list(links.names) == ["base", "tool", "upper"]
+    assert list(links.rows("upper")) == ["Value", "Alpha", "Show Trail", "Show Axes"]
+    assert list(links.rows("tool")) == ["Show Trail", "Show Axes"]
+    assert "Show Joint Axis" in joints.rows("shoulder")
+    assert "Show Joint Axis" not in joints.rows("wrist")
+    facts = joints.facts("shoulder")
+    assert facts["Position"] == "0; 0; 1" and facts["Type"] == "revolute"
+    assert facts["Lower Limit"] == "-1"
+    assert links.facts("tool")["Position"] == "1; 0; 1"
+
+
+def test_mass_and_inertia_follow_their_boxes(show: Show, nodes: Nodes) -> None:
+    session = show("      Mass Properties: {Mass: true, Inertia: true}")
+    base = at(session, "base", nodes)
+    ball: Any = base["m"]
+    assert ball.scale == pytest.approx(0.0552, abs=1e-4)
+    assert tuple(ball.position) == (0, 0, 0.5)
+    box: Any = base["i"]
+    assert tuple(box.dimensions) == pytest.approx((6**0.5,) * 3)
+    session.set_property(model_of(session), "Mass Properties/Mass", False)
+    assert "m" not in at(session, "base", nodes)
+    session.set_property(model_of(session), "Links/All Links Enabled", False)
+    assert "i" not in at(session, "base", nodes)
+
+
+def test_a_trail_grows_behind_a_link_that_moves(show: Show, nodes: Nodes) -> None:
+    session = show("      Links: {tool: {Show Trail: true}}")
+    for step in range(1, 6):
+        session.set_joint_positions({"shoulder": step / 10})
+        session._draw_moved()
+    name = f"/{model_of(session).key}t0"
+    trail: Any = nodes(session)[name]
+    assert trail.points.shape[1:] == (2, 3)
+    end = session.tree.lookup("base", "tool").translation
+    assert trail.points[-1, 1] == pytest.approx(end, abs=1e-6)
+
+
+def test_a_robot_without_transforms_is_white_at_the_origin(
+    show: Show, nodes: Nodes
+) -> None:
+    session = show(LINKS, fixed="nowhere")
+    white: Any = next(h for n, h in nodes(session).items() if n.endswith("v0"))
+    assert tuple(white.color) == (255, 255, 255) and white.opacity is None
+    rows = model_of(session).status.rows
+    assert rows["base"].level == "Error"
+    assert rows["base"].text == "No transform from [base] to [nowhere]"
+
+
+def test_a_tf_prefix_names_the_frames(show: Show) -> None:
+    session = show("      TF Prefix: left", fixed="base")
+    rows = model_of(session).status.rows
+    assert rows["left/base"].text == "No transform from [left/base] to [base]"
+
+
+SECOND = """
+      Description Source: File
+      Description File: {file}
+      TF Prefix: b
+"""
+
+
+@pytest.fixture
+def second(tmp_path: Path) -> str:
+    """The properties of a RobotModel with a file of its own."""
+    file = tmp_path / "other.urdf"
+    file.write_text("the robot comes from the loader of the test")
+    return SECOND.format(file=file)
+
+
+def test_a_robot_from_a_file_brings_its_own_frames(
+    show: Show, arm: Robot, second: str
+) -> None:
+    session = show(second, files={"other.urdf": arm})
+    assert {"base", "upper", "b/base", "b/upper", "b/tool"} <= set(session.tree.frames)
+    assert model_of(session).status.rows["b/upper"].level == "Error"
+    session.set_static_transform("base", "b/base", Transform.from_xyz_rpy((2, 0, 0)))
+    rows = model_of(session).status.rows
+    assert rows["b/upper"].text == "Transform OK"
+    at_two = session.tree.lookup("base", "b/upper").translation
+    assert at_two == pytest.approx((2, 0, 1))
+
+
+def test_frames_of_a_second_robot_outlive_a_reload_of_the_first(
+    show: Show, arm: Robot, second: str
+) -> None:
+    session = show(second, files={"other.urdf": arm})
+    session.show_robot(arm)
+    assert "b/tool" in session.tree.frames
+    assert session.context.nodes.path("b/tool") is not None
+
+
+def test_a_file_that_is_not_there_is_said_in_the_status(show: Show) -> None:
+    session = show(SECOND.format(file="/nowhere/at/all.urdf"))
+    status = model_of(session).status.rows["URDF"]
+    assert status.level == "Error"
+    assert status.text == "URDF is empty: no file '/nowhere/at/all.urdf'"
+
+
+def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_later(
+    show: Show, arm: Robot, tmp_path: Path
+) -> None:
+    (tmp_path / "other.urdf").touch()
+    body = SECOND.format(file="/home/ann/pkg/other.urdf")
+    session = show(body, files={"other.urdf": arm}, robot=None)
+    assert model_of(session).status.rows["URDF"].level == "Error"
+    session.show_robot(replace(arm, files=(tmp_path / "opened.urdf",)))
+    assert "b/tool" in session.tree.frames

@@ -1,0 +1,35 @@
+"""The colours of batches reach the page in the space in which viser takes them."""
+
+from __future__ import annotations
+
+import pytest
+import viser
+
+from sambot_viz.displays.scene.solids import Arrow, add_arrows, linear
+from sambot_viz.server.bind import close, listen
+
+
+def encoded(value: float) -> float:
+    """Linear, 0 to 1, to an 8-bit sRGB channel."""
+    if value <= 0.0031308:
+        return 255 * 12.92 * value
+    return 255 * (1.055 * value ** (1 / 2.4) - 0.055)
+
+
+def test_linear_undoes_the_encoding_of_the_page() -> None:
+    for channel in (0, 5, 25, 76, 153, 204, 255):
+        assert encoded(linear(channel)) == pytest.approx(channel, abs=0.01)
+
+
+def test_arrows_are_shown_in_their_colours_to_four_steps() -> None:
+    server: viser.ViserServer = listen("127.0.0.1", 0)
+    try:
+        arrow = Arrow((0, 0, 0), (1, 0, 0), (0.4, 0.01), (0.1, 0.04))
+        shafts, heads = add_arrows(
+            server.scene, "/a", [arrow], (204, 204, 76), (255, 25, 153)
+        )
+        for node, color in ((shafts, (204, 204, 76)), (heads, (255, 25, 153))):
+            shown = [encoded(c / 255) for c in node.batched_colors[0]]
+            assert shown == pytest.approx(color, abs=4)
+    finally:
+        close(server)

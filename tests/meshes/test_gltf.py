@@ -1,0 +1,263 @@
+"""glTF and GLB as RViz shows them: spec/rviz-core.md §5.5, §5.6."""
+
+from __future__ import annotations
+
+import base64
+import json
+import struct
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sambot_viz.meshes.mesh import Mesh, MeshError
+from sambot_viz.meshes.read_mesh import read_mesh
+
+Write = Callable[..., Path]
+
+POSITIONS = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], dtype="<f4")
+NORMALS = np.array([[0, 0, 1]] * 4, dtype="<f4")
+UV = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], dtype="<f4")
+INDICES = np.array([0, 1, 2, 0, 2, 3], dtype="<u2")
+BUFFER = POSITIONS.tobytes() + NORMALS.tobytes() + UV.tobytes() + INDICES.tobytes()
+
+
+def document(**changes: Any) -> dict[str, Any]:
+    base: dict[str, Any] = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [
+            {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 3}]}
+        ],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+            {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+            {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": 48},
+            {"buffer": 0, "byteOffset": 48, "byteLength": 48},
+            {"buffer": 0, "byteOffset": 96, "byteLength": 32},
+            {"buffer": 0, "byteOffset": 128, "byteLength": 12},
+        ],
+        "buffers": [{"byteLength": len(BUFFER)}],
+    }
+    return {**base, **changes}
+
+
+def glb(content: dict[str, Any], binary: bytes = BUFFER) -> bytes:
+    text = json.dumps(content).encode()
+    text += b" " * (-len(text) % 4)
+    binary += b"\0" * (-len(binary) % 4)
+    total = 28 + len(text) + len(binary)
+    head = struct.pack("<4sII", b"glTF", 2, total)
+    chunk = struct.pack("<I4s", len(text), b"JSON") + text
+    return head + chunk + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+
+
+def textured(image: dict[str, Any], **material: Any) -> dict[str, Any]:
+    primitive = {
+        "attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
+        "indices": 3,
+        "material": 0,
+    }
+    pbr = {"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 0.5, 0.25, 0.5]}
+    return document(
+        meshes=[{"primitives": [primitive]}],
+        materials=[{"pbrMetallicRoughness": pbr, **material}],
+        textures=[{"source": 0}],
+        images=[image],
+    )
+
+
+def data_uri(data: bytes, kind: str = "application/octet-stream") -> str:
+    return f"data:{kind};base64," + base64.b64encode(data).decode()
+
+
+def codes(mesh: Mesh) -> list[str]:
+    return [problem.code for problem in mesh.problems]
+
+
+def test_a_glb_is_white_smooth_and_stands_as_it_is_written(write: Write) -> None:
+    mesh = read_mesh(write("a.glb", glb(document())))
+    (part,) = mesh.parts
+    assert mesh.triangles == 2 and part.rgba == (1, 1, 1, 1)
+    assert part.normals is not None and np.allclose(part.normals, [0, 0, 1])
+    assert np.array_equal(mesh.bounds, [[0, 0, 0], [2, 1, 0]])
+
+
+def test_buffers_may_be_files_or_data_uris(write: Write) -> None:
+    path = write("a.gltf", json.dumps(document(buffers=[{"uri": "the%20data.bin"}])))
+    data = write("the data.bin", BUFFER)
+    assert read_mesh(path).files == (path, data)
+    inline = document(buffers=[{"uri": data_uri(BUFFER)}])
+    assert read_mesh(write("b.gltf", json.dumps(inline))).triangles == 2
+
+
+@pytest.mark.parametrize("mode", [5, 6])
+def test_strips_and_fans_face_the_same_way(write: Write, mode: int) -> None:
+    order = [0, 1, 3, 2] if mode == 5 else [0, 1, 2, 3]
+    content = document()
+    content["meshes"][0]["primitives"][0]["mode"] = mode
+    content["accessors"][3]["count"] = 4
+    binary = BUFFER[:128] + np.array(order, dtype="<u2").tobytes() + b"\0" * 4
+    part = read_mesh(write("a.glb", glb(content, binary))).parts[0]
+    a, b, c = part.vertices[part.faces].transpose(1, 0, 2)
+    assert np.allclose(np.cross(b - a, c - a).sum(axis=0), [0, 0, 4])
+
+
+def test_lines_and_points_are_no_triangles(write: Write) -> None:
+    content = document()
+    content["meshes"][0]["primitives"][0]["mode"] = 1
+    with pytest.raises(MeshError, match="no triangles"):
+        read_mesh(write("a.glb", glb(content)))
+
+
+def test_nodes_are_baked_in(write: Write) -> None:
+    half = 0.5**0.5
+    nodes = [
+        {"children": [1], "rotation": [0, 0, half, half], "translation": [1, 0, 0]},
+        {"mesh": 0, "scale": [2, 1, 1]},
+    ]
+    mesh = read_mesh(write("a.glb", glb(document(nodes=nodes))))
+    assert np.allclose(mesh.bounds, [[0, 0, 0], [1, 4, 0]], atol=1e-6)
+    columns = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1]
+    nodes = [{"mesh": 0, "matrix": columns}]
+    mesh = read_mesh(write("b.glb", glb(document(nodes=nodes))))
+    assert np.allclose(mesh.bounds, [[6, 0, 0], [7, 2, 0]])
+
+
+def test_every_root_is_drawn_when_there_is_no_scene(write: Write) -> None:
+    nodes = [{"mesh": 0}, {"children": [0], "translation": [0, 0, 3]}, {"mesh": 0}]
+    mesh = read_mesh(write("a.glb", glb(document(scenes=[], nodes=nodes))))
+    assert mesh.triangles == 4 and mesh.bounds[1][2] == 3
+
+
+@pytest.mark.parametrize(("mode", "alpha"), [("OPAQUE", 1.0), ("BLEND", 0.5)])
+def test_the_look_is_factor_times_texture(
+    write: Write, png: Callable[..., bytes], mode: str, alpha: float
+) -> None:
+    content = textured({"uri": data_uri(png(), "image/png")}, alphaMode=mode)
+    (part,) = read_mesh(write("a.glb", glb(content))).parts
+    assert part.rgba == (1, 0.5, 0.25, alpha)
+    assert part.texture is not None and part.texture.data == png()
+    corner = np.all(part.vertices == (0, 0, 0), axis=1)
+    assert part.uv is not None and np.array_equal(part.uv[corner], [[0, 0]])
+
+
+def test_images_may_lie_in_the_file_or_beside_it(
+    write: Write, png: Callable[..., bytes]
+) -> None:
+    image = png()
+    views = [*document()["bufferViews"]]
+    views.append({"buffer": 0, "byteOffset": 140, "byteLength": len(image)})
+    inside = {
+        **textured({"bufferView": 4, "mimeType": "image/png"}),
+        "bufferViews": views,
+    }
+    part = read_mesh(write("a.glb", glb(inside, BUFFER + image))).parts[0]
+    assert part.texture is not None and part.texture.data == image
+    write("skin.png", image)
+    part = read_mesh(write("b.glb", glb(textured({"uri": "skin.png"})))).parts[0]
+    assert part.texture is not None and part.texture.data == image
+
+
+def test_a_texture_that_cannot_be_had_leaves_the_colour(write: Write) -> None:
+    mesh = read_mesh(write("a.glb", glb(textured({"uri": "gone.png"}))))
+    assert mesh.parts[0].texture is None and mesh.parts[0].rgba == (1, 0.5, 0.25, 1)
+    assert codes(mesh) == ["mesh-texture-broken"]
+    assert "'gone.png' is not there" in mesh.problems[0].message
+
+
+@pytest.mark.parametrize(
+    ("name", "method"),
+    [
+        ("KHR_draco_mesh_compression", "Draco"),
+        ("EXT_meshopt_compression", "meshopt"),
+    ],
+)
+def test_compressed_meshes_are_refused(write: Write, name: str, method: str) -> None:
+    content = document(extensionsRequired=[name], extensionsUsed=[name])
+    with pytest.raises(MeshError, match=f"compressed with {method}") as caught:
+        read_mesh(write("a.glb", glb(content)))
+    assert caught.value.problem.code == "mesh-compressed"
+    assert "without mesh compression" in caught.value.problem.hint
+
+
+def test_quantized_positions_and_sparse_changes_are_read(write: Write) -> None:
+    short = np.array([[0, 0, 0], [32767, 0, 0], [0, 32767, 0]], dtype="<i2")
+    binary = (
+        short.tobytes()
+        + b"\0\0"
+        + struct.pack("<H2x", 2)
+        + np.array([[0, 0, 32767]], dtype="<i2").tobytes()
+    )
+    content = document(
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        accessors=[
+            {
+                "bufferView": 0,
+                "componentType": 5122,
+                "normalized": True,
+                "count": 3,
+                "type": "VEC3",
+                "sparse": {
+                    "count": 1,
+                    "indices": {"bufferView": 1, "componentType": 5123},
+                    "values": {"bufferView": 2},
+                },
+            }
+        ],
+        bufferViews=[
+            {"buffer": 0, "byteLength": 18},
+            {"buffer": 0, "byteOffset": 20, "byteLength": 2},
+            {"buffer": 0, "byteOffset": 24, "byteLength": 6},
+        ],
+    )
+    mesh = read_mesh(write("a.glb", glb(content, binary)))
+    assert np.allclose(mesh.bounds, [[0, 0, 0], [1, 0, 1]])
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"buffers": [{"uri": "gone.bin"}]}, "'gone.bin' with its numbers is not"),
+        ({"nodes": []}, "no entry 0 in its list of nodes"),
+        ({"nodes": [{"mesh": 7}]}, "no entry 7 in its list of meshes"),
+        ({"nodes": [{"mesh": 0, "children": [0]}]}, "contain themselves"),
+        ({"nodes": [{"mesh": 0, "scale": ["x", 1, 1]}]}, "not made of numbers"),
+        ({"bufferViews": [{"buffer": 0, "byteLength": 999}]}, "byte 999 of 140"),
+        ({"accessors": [{"componentType": 1, "count": 1, "type": "VEC3"}]}, "unknown"),
+    ],
+)
+def test_a_file_that_contradicts_itself_is_refused(
+    write: Write, changes: dict[str, Any], sentence: str
+) -> None:
+    with pytest.raises(MeshError, match=f"the glTF file is broken: .*{sentence}"):
+        read_mesh(write("a.glb", glb(document(**changes))))
+
+
+def test_old_and_cut_off_files_are_refused(write: Write) -> None:
+    whole = glb(document())
+    with pytest.raises(MeshError, match="it is of version 1"):
+        read_mesh(write("a.glb", whole[:4] + struct.pack("<I", 1) + whole[8:]))
+    with pytest.raises(MeshError, match=rf"{len(whole)} bytes but has"):
+        read_mesh(write("b.glb", whole[:-20]))
+
+
+def test_vertices_that_no_file_shares_are_shared(write: Write) -> None:
+    soup = POSITIONS[INDICES]
+    content = document(
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}]}]
+    )
+    content["accessors"][0]["count"] = content["accessors"][1]["count"] = 6
+    content["bufferViews"][0]["byteLength"] = 72
+    content["bufferViews"][1].update(byteOffset=72, byteLength=72)
+    binary = soup.tobytes() + NORMALS[[0] * 6].tobytes()
+    (part,) = read_mesh(write("a.glb", glb(content, binary))).parts
+    assert len(part.faces) == 2 and len(part.vertices) == 4

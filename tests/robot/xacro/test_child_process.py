@@ -1,0 +1,137 @@
+"""The child that runs xacro always ends: by its limits, with its parent, by itself."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from sambot_viz.robot.xacro.expand import Limits, expand_model
+from sambot_viz.robot.xacro.result import ExpansionError
+
+HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+ENDLESS = f"""{HEAD}
+  <xacro:macro name="m" params="n">
+    <xacro:if value="${{n > 0}}">
+      <xacro:m n="${{n - 1}}"/><xacro:m n="${{n - 1}}"/>
+    </xacro:if>
+  </xacro:macro>
+  <xacro:m n="60"/>
+  <link name="a"/>
+</robot>
+"""
+TELLING = """
+import subprocess, sys
+
+class Telling(subprocess.Popen):
+    def __init__(self, *args, **options):
+        super().__init__(*args, **options)
+        print(self.pid, flush=True)
+
+subprocess.Popen = Telling
+from sambot_viz.robot import load_robot
+load_robot(sys.argv[1])
+"""
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> list[subprocess.Popen[bytes]]:
+    """The children that were started so far."""
+    children: list[subprocess.Popen[bytes]] = []
+    popen: Any = subprocess.Popen
+
+    def start(*args: Any, **options: Any) -> subprocess.Popen[bytes]:
+        children.append(popen(*args, **options))
+        return children[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", start)
+    return children
+
+
+LIMITS = Limits()
+
+
+def expand(text: str, limits: Limits = LIMITS, trusted: bool = True) -> str:
+    return expand_model(
+        "<text>", text, arguments={}, package_path=(), trusted=trusted, limits=limits
+    ).text
+
+
+def failure(text: str, limits: Limits, trusted: bool) -> str:
+    with pytest.raises(ExpansionError) as caught:
+        expand(text, limits, trusted)
+    return caught.value.failure.kind
+
+
+@pytest.mark.parametrize("trusted", [True, False])
+@pytest.mark.parametrize(
+    ("text", "limits", "kind"),
+    [
+        (ENDLESS, Limits(seconds=0.5), "Timeout"),
+        (HEAD + "${[0] * 10**9}</robot>", Limits(megabytes=200), "MemoryError"),
+        (HEAD + "<link name='a'/>" * 200 + "</robot>", Limits(characters=9), "Output"),
+    ],
+)
+def test_every_limit_ends_the_child_and_collects_it(
+    text: str,
+    limits: Limits,
+    kind: str,
+    trusted: bool,
+    started: list[subprocess.Popen[bytes]],
+) -> None:
+    files = len(os.listdir("/proc/self/fd")) if sys.platform == "linux" else 0
+    found = failure(text, limits, trusted)
+    # What cannot end well is refused beforehand in an untrusted model.
+    assert found.startswith(kind) or (found == "Refused" and not trusted)
+    assert [child.returncode is not None for child in started] == [True]
+    if files:
+        assert len(os.listdir("/proc/self/fd")) == files
+
+
+def test_two_loads_at_once_do_not_wait_for_each_others_children(
+    started: list[subprocess.Popen[bytes]],
+) -> None:
+    good = HEAD + "<link name='${1 + 1}'/></robot>"
+    with ThreadPoolExecutor(4) as pool:
+        endless = pool.submit(failure, ENDLESS, Limits(seconds=3.0), True)
+        texts = list(pool.map(expand, [good] * 6))
+        assert not endless.done()
+        assert endless.result() == "Timeout"
+    assert all('name="2"' in text for text in texts)
+    assert all(child.returncode is not None for child in started)
+
+
+def test_a_large_text_is_handed_over_whole() -> None:
+    comment = f"<!-- {'x' * 3_000_000} -->"
+    assert comment in expand(f"{HEAD}{comment}<link name='a'/></robot>")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_the_child_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
+    model = tmp_path / "endless.urdf.xacro"
+    model.write_text(ENDLESS)
+    with subprocess.Popen(
+        [sys.executable, "-c", TELLING, str(model)], stdout=subprocess.PIPE, text=True
+    ) as parent:
+        assert parent.stdout is not None
+        child = int(parent.stdout.readline())
+        parent.kill()
+    deadline = time.monotonic() + 10
+    while is_running(child):
+        assert time.monotonic() < deadline, "the child goes on without its parent"
+        time.sleep(0.02)
+
+
+def is_running(process: int) -> bool:
+    """Whether it exists and is no zombie that waits for a parent to collect it."""
+    try:
+        stat = Path(f"/proc/{process}/stat").read_text()
+    except OSError:
+        return False
+    return stat.rpartition(")")[2].split()[0] != "Z"

@@ -1,0 +1,193 @@
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from sambot_viz.errors import Problem
+from sambot_viz.robot.xml.decode import XmlFault, decode
+from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+from sambot_viz.robot.xml.parse import parse_xml
+
+
+def explained(text: str | bytes) -> list[Problem]:
+    try:
+        data = text.encode() if isinstance(text, str) else text
+        parse_xml(decode(data), "r.urdf")
+    except XmlFault as fault:
+        return explain_xml(fault.text, "r.urdf", fault)
+    return []
+
+
+def only(text: str | bytes) -> Problem:
+    problems = explained(text)
+    assert len(problems) == 1, problems
+    return problems[0]
+
+
+ROBOT = '<?xml version="1.0"?>\n<robot name="r">\n{}</robot>\n'
+
+CASES = [
+    ("", "model-empty", 1, "empty"),
+    ("  \n\n", "model-empty", 1, "empty"),
+    ("version https://git-lfs.github.com/spec/v1\n", "model-lfs-pointer", 1, "LFS"),
+    ("<!doctype html>\n<html></html>", "model-html-page", 1, "web page"),
+    ('{"a": 1}', "model-not-xml", 1, "JSON"),
+    (b"PK\x03\x04\x00\x00\xff\xfe", "model-not-xml", 1, "zip"),
+    ("solid cube\nfacet\n", "model-not-xml", 1, "STL"),
+    ("Panels:\n  - Class: x\n", "model-not-xml", 1, "YAML"),
+    ("#!/usr/bin/env python3\nprint()\n", "model-not-xml", 1, "Python"),
+    ('<robot name="로봇"/>'.encode("cp949"), "xml-encoding", 1, "UTF-8"),
+    ('<?xml version="1.0" encoding="klingon"?><robot/>', "xml-encoding", 1, "klingon"),
+    (ROBOT.format("<link name='\x01'/>\n"), "xml-control-character", 3, "U+0001"),
+    ("hello\n<robot/>", "xml-text-before-root", 1, "hello"),
+    ("\n\n<?xml version='1.0'?>\n<robot/>", "xml-declaration-not-first", 3, "empty"),
+    (" <?xml version='1.0'?>\n<robot/>", "xml-declaration-not-first", 1, "blank"),
+    ("<?xml version=1.0?>\n<robot/>", "xml-declaration-wrong", 1, "order"),
+    (ROBOT.format("") + "<robot/>\n", "xml-two-robots", 4, "second"),
+    (ROBOT.format("") + "end\n", "xml-text-after-root", 4, "end"),
+    (ROBOT.format("") + "</robot>\n", "xml-closing-tag-surplus", 4, "nothing"),
+    ("<robot/>\n<link/>\n</robot>", "xml-root-closed-early", 1, "slash"),
+    ("<robot>\n<link/>\n", "xml-root-not-closed", 2, "never closed"),
+    ("<robot>\n <link>\n  <visual>\n", "xml-root-not-closed", 3, "inside <visual>"),
+    ("<robot>\n<link name='a'>\n<link name='b'/>", "xml-tag-not-closed", 2, "link"),
+    (
+        ROBOT.format("<link name='a'>\n<visual>\n</link>\n"),
+        "xml-tag-not-closed",
+        4,
+        "visual",
+    ),
+    (ROBOT.format("<origin xyz='0'>\n"), "xml-tag-not-closed", 3, "origin"),
+    (ROBOT.format("<a>\n<b>\n</a>\n</b>\n"), "xml-tags-crossed", 5, "opened last"),
+    (ROBOT.format("<link/>\n</link>\n"), "xml-closing-tag-surplus", 4, "slash"),
+    (ROBOT.format("</visual>\n"), "xml-closing-tag-surplus", 3, "closes nothing"),
+    (ROBOT.format("<visual></visaul>\n"), "xml-closing-tag-misspelt", 3, "visaul"),
+    (ROBOT.format("<link></Link>\n"), "xml-tag-case", 3, "capital"),
+    (ROBOT.format("<a b=1 c=2/>\n"), "xml-quotes-missing", 3, "quotes"),
+    (ROBOT.format("<a b=”1”/>\n"), "xml-quotes-curly", 3, "curly"),
+    (ROBOT.format('<a b="1/>\n<c d="2"/>\n'), "xml-quote-not-closed", 3, "b="),
+    (ROBOT.format('<a b="1 c="2"/>\n'), "xml-quote-not-closed", 3, "b="),
+    (ROBOT.format('<a b="${x == "1"}"/>\n'), "xml-quote-in-value", 3, "expression"),
+    (ROBOT.format("<a b='1' b='2'/>\n"), "xml-attribute-twice", 3, "twice"),
+    (ROBOT.format("<a b/>\n"), "xml-attribute-without-value", 3, "no value"),
+    (ROBOT.format("<a b='1'c='2'/>\n"), "xml-attributes-run-together", 3, "directly"),
+    (ROBOT.format("<a b='1' / >\n"), "xml-tag-malformed", 3, "slash"),
+    (ROBOT.format("< a/>\n"), "xml-tag-malformed", 3, "name"),
+    (ROBOT.format("<a><\\a>\n"), "xml-tag-malformed", 3, "name"),
+    (ROBOT.format("<a b='1'\n<c/>\n</a>"), "xml-tag-not-ended", 3, "missing"),
+    (ROBOT.format("a & b\n"), "xml-ampersand", 3, "&"),
+    (ROBOT.format("<a b='1 < 2'/>\n"), "xml-less-than", 3, "<"),
+    (ROBOT.format("&nbsp;\n"), "xml-entity-undefined", 3, "nbsp"),
+    (ROBOT.format("<!-- a -- b -->\n"), "xml-comment-double-hyphen", 3, "--"),
+    (ROBOT.format("<!-- a <!-- b --> -->\n"), "xml-comment-nested", 3, "inside"),
+    (ROBOT.format("<!-- a\n"), "xml-comment-not-closed", 3, "swallows"),
+    (ROBOT.format("<!- a ->\n"), "xml-comment-malformed", 3, "begins"),
+    (ROBOT.format("]]>\n"), "xml-not-well-formed", 3, "no XML"),
+    (
+        '<!DOCTYPE robot [<!ENTITY a SYSTEM "a.xml">]>\n<robot/>',
+        "xml-external-entity",
+        1,
+        "other files",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "code", "line", "word"), CASES)
+def test_a_slip_is_named_with_its_line(
+    text: str | bytes, code: str, line: int, word: str
+) -> None:
+    problem = explained(text)[0]
+
+    assert problem.code == code
+    assert problem.severity == "error"
+    assert problem.line == line
+    assert word in problem.message
+    assert problem.hint
+    assert problem.file == "r.urdf"
+
+
+def test_an_early_end_names_the_line_of_the_end_and_the_mend() -> None:
+    problem = only('<robot name="r">\n</robot>\n<!-- c -->\n<link name="a"/>\n')
+
+    assert problem.code == "xml-root-closed-early"
+    assert problem.line == 2
+    assert problem.message.startswith("line 2 closes </robot> too early")
+    assert problem.hint == "move </robot> from line 2 to the last line of the file"
+
+
+def test_an_early_end_with_a_second_end_is_to_be_deleted() -> None:
+    problem = only("<robot>\n</robot>\n<link/>\n</robot>\n")
+
+    assert problem.hint.startswith("delete </robot> on line 2")
+
+
+def test_an_unclosed_tag_is_told_where_it_was_opened_and_where_to_close_it() -> None:
+    problem = only(
+        '<robot name="r">\n  <link name="a">\n    <visual/>\n  <joint name="j"/>\n'
+        "</robot>\n"
+    )
+
+    assert problem.line == 3
+    assert '<link name="a"> opened on line 2' in problem.message
+    assert problem.hint == "add </link> after <visual …> on line 3"
+
+
+def test_an_opening_tag_that_is_missing_is_wanted_before_its_content() -> None:
+    problem = only(
+        '<robot name="r">\n  <material/>\n    <visual/>\n  </link>\n</robot>\n'
+    )
+
+    assert problem.code == "xml-opening-tag-missing"
+    assert problem.line == 3
+
+
+def test_a_robot_that_was_never_opened_is_one_problem() -> None:
+    problem = only('<link name="a"/>\n<link name="b"/>\n</robot>\n')
+
+    assert problem.code == "xml-opening-tag-missing"
+    assert problem.line == 1
+
+
+def test_every_slip_is_told_at_once() -> None:
+    problems = explained("<robot name=r>\n<a b='1' b='2'/>\n<!-- - -- -->\n</robot>")
+
+    assert [p.code for p in problems] == [
+        "xml-quotes-missing",
+        "xml-attribute-twice",
+        "xml-comment-double-hyphen",
+    ]
+
+
+def test_windows_line_ends_do_not_shift_lines() -> None:
+    assert only("<robot>\r\n\r\n<a b=1/>\r\n</robot>\r\n").line == 3
+
+
+def test_good_xml_has_nothing_to_explain() -> None:
+    assert explained(ROBOT.format("<link name='a'/>\n")) == []
+
+
+def test_torn_and_shuffled_text_always_gets_an_explanation_with_a_line() -> None:
+    chance = random.Random(7)
+    good = ROBOT.format(
+        '<link name="a">\n<!-- c -->\n<visual><origin xyz="0 0 1"/></visual>\n</link>\n'
+    )
+    for _ in range(400):
+        text = list(good)
+        for _ in range(chance.randint(1, 4)):
+            at = chance.randrange(len(text))
+            text[at : at + chance.randint(0, 3)] = chance.choice("<>/\"'=&! -x\0é“")
+        joined = "".join(text)
+        try:
+            parse_xml(joined, "r.urdf")
+        except XmlFault as fault:
+            problems = explain_xml(joined, "r.urdf", fault)
+            assert problems
+            assert all(p.line and p.line <= joined.count("\n") + 1 for p in problems)
+
+
+def test_a_long_broken_file_is_explained_in_good_time() -> None:
+    text = "<robot>\n" + "<link name='a'><visual>\n" * 5000
+    try:
+        parse_xml(text, "r.urdf")
+    except XmlFault as fault:
+        assert len(explain_xml(text, "r.urdf", fault)) <= 12

@@ -1,0 +1,192 @@
+"""Meshes are read while the page is open already, and drawn as they come."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.robot.shape_files import Asset
+from sambot_viz.server import server as server_module
+from sambot_viz.server.mesh_thread import AssetReader
+from sambot_viz.session import Session
+
+TRIANGLE = """solid t
+facet normal 0 0 1
+outer loop
+vertex 0 0 {z}
+vertex 1 0 {z}
+vertex 0 1 {z}
+endloop
+endfacet
+endsolid t
+"""
+LINK = (
+    '<link name="l{i}"><visual><geometry><mesh filename="{i}.stl"/></geometry>'
+    "</visual></link>"
+)
+JOINT = (
+    '<joint name="j{i}" type="revolute"><parent link="l0"/><child link="l{i}"/>'
+    '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+)
+COUNT = 4
+
+
+class Gated(MeshStore):
+    """Reads in the background only so many files as a test lets through."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.passes = threading.Semaphore(0)
+        self.times: list[Path] = []
+
+    def read(self, asset: Asset) -> None:
+        assert self.passes.acquire(timeout=20)
+        self.times.append(asset.path)
+        super().read(asset)
+
+    def let(self, files: int) -> None:
+        for _ in range(files):
+            self.passes.release()
+
+
+class Opened:
+    """A robot of meshes, opened while none of them is read."""
+
+    def __init__(self, folder: Path, store: Gated, connect: Callable[..., object]):
+        self.folder = folder
+        for i in range(COUNT):
+            (folder / f"{i}.stl").write_text(TRIANGLE.format(z=i), "utf-8")
+        links = "".join(LINK.format(i=i) for i in range(COUNT))
+        joints = "".join(JOINT.format(i=i) for i in range(1, COUNT))
+        model = folder / "robot.urdf"
+        model.write_text(f'<robot name="r">{links}{joints}</robot>', "utf-8")
+        self.store = store
+        self.viz = Visualizer(model, watch=True)
+        client = connect(int(self.viz.url.rsplit(":", 1)[1]))
+        assert isinstance(client, ProtocolClient)
+        self.client = client
+
+    @property
+    def session(self) -> Session:
+        return self.viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+
+    @property
+    def meshes(self) -> int:
+        """How many meshes the browser has been sent."""
+        bodies = [m for m in self.client.messages if m.type == "MeshMessage"]
+        return sum(len(m.fields["props"]["vertices"]) == 36 for m in bodies)
+
+    @property
+    def statuses(self) -> set[str]:
+        return {d.status.level for d in self.session.displays}
+
+    def wait(self) -> None:
+        self.viz._server.wait_for_meshes(20)  # pyright: ignore[reportPrivateUsage]
+        self.client.settle(self.viz.viser)
+
+
+@pytest.fixture
+def opened(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, protocol: Callable[..., object]
+) -> Iterator[Opened]:
+    store = Gated()
+    monkeypatch.setattr(server_module, "MeshStore", lambda: store)
+    opened = Opened(tmp_path, store, protocol)
+    yield opened
+    store.let(1000)
+    opened.viz.stop()
+
+
+def test_the_page_has_frames_sliders_and_progress_before_the_first_mesh(
+    opened: Opened,
+) -> None:
+    opened.client.settle(opened.viz.viser)
+    assert opened.meshes == 0
+    assert set(opened.viz.frames.frames) == {f"l{i}" for i in range(COUNT)}
+    assert "j1" in opened.client.widgets
+    assert any(
+        f"textures: 0 of {COUNT}" in str(m.fields) for m in opened.client.messages
+    )
+    assert "Warn" in opened.statuses
+    opened.viz.set_joint_positions({"j1": 0.5})
+    opened.client.wait_until(
+        lambda: opened.client.types()["SetOrientationMessage"] >= 1
+    )
+
+
+def test_meshes_are_drawn_as_they_come_and_the_status_is_right_at_the_end(
+    opened: Opened,
+) -> None:
+    opened.store.let(1)
+    opened.client.wait_until(lambda: opened.meshes == 1)
+    opened.store.let(COUNT - 1)
+    opened.wait()
+    assert opened.meshes == COUNT
+    assert opened.statuses == {"Ok"}
+    assert opened.session.context.assets.progress is None
+
+
+def test_a_broken_mesh_has_a_stand_in_a_status_and_a_problem(opened: Opened) -> None:
+    (opened.folder / "2.stl").write_text("this is no mesh", "utf-8")
+    opened.store.let(COUNT)
+    opened.wait()
+    assert opened.meshes == COUNT - 1
+    assert "Error" in opened.statuses
+    problems = [p for d in opened.session.displays for p in d.problems]
+    assert [Path(p.file or "").name for p in problems] == ["2.stl"]
+    assert any("2.stl" in str(m.fields) for m in opened.client.messages)
+
+
+def test_only_a_mesh_that_was_saved_is_read_and_sent_again(opened: Opened) -> None:
+    opened.store.let(COUNT)
+    opened.wait()
+    mark = opened.client.mark()
+    opened.store.times.clear()
+    opened.store.let(COUNT)
+    (opened.folder / "1.stl").write_text(TRIANGLE.format(z=7), "utf-8")
+    opened.client.wait_until(lambda: opened.client.types(mark)["MeshMessage"] == 1)
+    opened.wait()
+    assert opened.client.types(mark)["MeshMessage"] == 1
+    assert opened.store.times == [opened.folder / "1.stl"]
+    assert opened.statuses == {"Ok"}
+
+
+def test_an_edit_of_the_model_sends_no_mesh_again(opened: Opened) -> None:
+    opened.store.let(COUNT)
+    opened.wait()
+    mark = opened.client.mark()
+    model = opened.folder / "robot.urdf"
+    content = model.read_text("utf-8")
+    model.write_text(content.replace("</robot>", '<link name="new"/></robot>'), "utf-8")
+    opened.client.wait_until(lambda: opened.client.types(mark)["GuiUpdateMessage"] > 0)
+    joint = JOINT.format(i=9).replace("l9", "new")
+    model.write_text(
+        content.replace("</robot>", f'<link name="new"/>{joint}</robot>'), "utf-8"
+    )
+    opened.client.wait_until(lambda: "new" in opened.viz.frames.frames)
+    opened.client.settle(opened.viz.viser)
+    assert opened.client.types(mark)["MeshMessage"] == 0
+
+
+def test_a_reader_tells_everybody_who_asked_and_nobody_after_its_end(
+    tmp_path: Path,
+) -> None:
+    store, told = Gated(), threading.Event()
+    reader = AssetReader(store)
+    heard: list[frozenset[Asset]] = []
+    asset = Asset("texture", tmp_path / "missing.png")
+    reader.request(asset, lambda assets: heard.append(assets))
+    reader.request(asset, lambda assets: (heard.append(assets), told.set())[1])
+    store.let(1)
+    assert told.wait(20)
+    assert heard == [{asset}, {asset}]
+    reader.close()
+    store.let(1)
+    reader.request(asset, lambda assets: heard.append(assets))
+    assert len(heard) == 2

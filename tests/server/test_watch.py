@@ -1,0 +1,367 @@
+"""Following files: what counts as a save, and what a save does to the page."""
+
+from __future__ import annotations
+
+import os
+import queue
+import shutil
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer, bundled
+from sambot_viz.errors import Problem
+from sambot_viz.server import watch
+from sambot_viz.server.watch import FileWatcher
+from sambot_viz.session import Session
+
+Changes = queue.Queue[frozenset[Path]]
+LEFT = "drivewhl_l_joint"
+
+
+@pytest.fixture
+def follow() -> Iterator[Callable[..., Changes]]:
+    """``follow(*files)``: a queue of the sets of files that were saved."""
+    watchers: list[FileWatcher] = []
+
+    def start(*files: Path, troubles: list[str] | None = None) -> Changes:
+        changes: Changes = queue.Queue()
+
+        def changed(files: frozenset[Path], reported: frozenset[Path]) -> None:
+            del reported
+            if files:
+                changes.put(files)
+
+        reasons = [] if troubles is None else troubles
+        watchers.append(FileWatcher(lambda: files, tuple, changed, reasons.append))
+        watchers[-1].start()
+        return changes
+
+    yield start
+    for watcher in watchers:
+        watcher.close()
+
+
+def replace(path: Path, content: str) -> None:
+    """Save as careful editors do: a new file takes the old one's name."""
+    other = path.with_name(f".{path.name}.new")
+    other.write_text(content, "utf-8")
+    other.replace(path)
+
+
+def in_two_steps(path: Path, content: str) -> None:
+    """Save as careless editors do: the file is empty for a moment."""
+    path.write_text("", "utf-8")
+    threading.Timer(0.1, path.write_text, (content, "utf-8")).start()
+
+
+def vanishing(path: Path, content: str) -> None:
+    path.unlink()
+    threading.Timer(0.1, path.write_text, (content, "utf-8")).start()
+
+
+@pytest.mark.parametrize("save", [Path.write_text, replace, in_two_steps, vanishing])
+def test_a_save_is_told_once_whichever_way_the_editor_saves(
+    tmp_path: Path,
+    follow: Callable[..., Changes],
+    save: Callable[[Path, str], None],
+) -> None:
+    path = tmp_path / "model.urdf"
+    path.write_text("old", "utf-8")
+    changes = follow(path)
+    save(path, "new")
+    assert changes.get(timeout=10) == {path}
+    assert path.read_text("utf-8") == "new"
+
+
+def test_folders_with_blanks_and_korean_letters_are_watched(
+    tmp_path: Path, follow: Callable[..., Changes]
+) -> None:
+    folder = tmp_path / "내 로봇 model"
+    folder.mkdir()
+    path = folder / "샘봇.urdf"
+    path.write_text("old", "utf-8")
+    changes = follow(path)
+    path.write_text("newer", "utf-8")
+    assert changes.get(timeout=10) == {path}
+
+
+def test_a_link_tells_of_a_save_of_its_target_and_of_another_target(
+    tmp_path: Path, follow: Callable[..., Changes]
+) -> None:
+    (tmp_path / "here").mkdir()
+    (tmp_path / "there").mkdir()
+    link = tmp_path / "here" / "model.urdf"
+    for name in ("one", "two"):
+        (tmp_path / "there" / name).write_text(name, "utf-8")
+    link.symlink_to(tmp_path / "there" / "one")
+    changes = follow(link)
+    (tmp_path / "there" / "one").write_text("changed", "utf-8")
+    assert changes.get(timeout=10) == {link}
+    new = tmp_path / "here" / "new"
+    new.symlink_to(tmp_path / "there" / "two")
+    new.replace(link)
+    assert changes.get(timeout=10) == {link}
+
+
+def test_a_folder_made_anew_is_watched_again(
+    tmp_path: Path, follow: Callable[..., Changes]
+) -> None:
+    path = tmp_path / "urdf" / "model.urdf"
+    path.parent.mkdir()
+    path.write_text("one", "utf-8")
+    changes = follow(path)
+    shutil.rmtree(path.parent)
+    assert changes.get(timeout=10) == {path}
+    path.parent.mkdir()
+    path.write_text("two", "utf-8")
+    assert changes.get(timeout=10) == {path}
+    path.write_text("three", "utf-8")
+    assert changes.get(timeout=10) == {path}
+
+
+def test_without_the_systems_help_files_are_looked_at_and_that_is_said_once(
+    tmp_path: Path, follow: Callable[..., Changes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*paths: Path, **options: object) -> Iterator[object]:
+        del paths, options
+        raise OSError("OS file watch limit reached.")
+        yield
+
+    monkeypatch.setattr(watch, "watch", refuse)
+    monkeypatch.setattr(watch, "LOOK_PERIOD", 0.05)
+    path, troubles = tmp_path / "model.urdf", list[str]()
+    path.write_text("old", "utf-8")
+    changes = follow(path, troubles=troubles)
+    path.write_text("newer", "utf-8")
+    assert changes.get(timeout=10) == {path}
+    assert troubles == ["OS file watch limit reached."]
+
+
+class Followed:
+    """A Visualizer that follows a copy of sam_bot, and waiting for what it does."""
+
+    def __init__(self, folder: Path) -> None:
+        self.model = folder / "sam_bot.urdf.xacro"
+        shutil.copytree(bundled.assets_folder(), folder, dirs_exist_ok=True)
+        self.config = folder / "own.rviz"
+        shutil.copy(bundled.config_path(), self.config)
+        self.reports: queue.Queue[tuple[Problem, ...]] = queue.Queue()
+        self.viz = Visualizer(
+            self.model,
+            self.config,
+            watch=True,
+            on_reload=lambda problems: self.reports.put(tuple(problems)),
+        )
+        self._told = threading.Condition()
+        self.session.listeners.append(self._hear)
+
+    @property
+    def session(self) -> Session:
+        return self.viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+
+    def _hear(self, event: str) -> None:
+        del event
+        with self._told:
+            self._told.notify_all()
+
+    def wait_for(self, condition: Callable[[], object]) -> None:
+        with self._told:
+            assert self._told.wait_for(condition, 10)
+
+    def save(self, old: str, new: str, path: Path | None = None) -> None:
+        path = path or self.model
+        content = path.read_text("utf-8")
+        assert old in content
+        replace(path, content.replace(old, new))
+
+    @property
+    def failed(self) -> list[str]:
+        problems = self.session.reload_problems
+        return [p.code for found in problems.values() for p in found]
+
+
+@pytest.fixture
+def sam_bot(tmp_path: Path) -> Iterator[Followed]:
+    followed = Followed(tmp_path)
+    yield followed
+    followed.viz.stop()
+
+
+def test_a_saved_model_is_shown_and_joints_keep_their_values(
+    sam_bot: Followed,
+) -> None:
+    sam_bot.viz.set_joint_positions({LEFT: 1.25})
+    sam_bot.save("front_caster", "rear_caster")
+    sam_bot.wait_for(lambda: "rear_caster" in sam_bot.viz.frames.frames)
+    assert "front_caster" not in sam_bot.viz.frames.frames
+    assert sam_bot.viz.joint_positions[LEFT] == 1.25
+
+
+def test_a_mistake_keeps_the_robot_and_is_told_until_it_is_mended(
+    sam_bot: Followed,
+) -> None:
+    sam_bot.save("</robot>", "</rob>")
+    sam_bot.wait_for(lambda: sam_bot.failed)
+    assert sam_bot.reports.get(timeout=10)[0].severity == "error"
+    assert "front_caster" in sam_bot.viz.frames.frames
+    sam_bot.save("</rob>", "</robot>")
+    sam_bot.wait_for(lambda: not sam_bot.failed)
+    assert sam_bot.reports.get(timeout=10) == ()
+
+
+def test_what_a_save_includes_newly_is_followed_from_then_on(
+    sam_bot: Followed,
+) -> None:
+    extra = sam_bot.model.parent / "parts" / "mast.xacro"
+    include = '<xacro:include filename="parts/mast.xacro"/></robot>'
+    sam_bot.save("</robot>", include)
+    sam_bot.wait_for(lambda: sam_bot.failed)
+    extra.parent.mkdir()
+    text = (
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="mast"/>'
+        '<joint name="mast_joint" type="fixed"><parent link="base_link"/>'
+        '<child link="mast"/></joint></robot>'
+    )
+    extra.write_text(text, "utf-8")
+    os.utime(sam_bot.model)
+    sam_bot.wait_for(lambda: "mast" in sam_bot.viz.frames.frames)
+    extra.write_text(text.replace('"mast"', '"tall_mast"'), "utf-8")
+    sam_bot.wait_for(lambda: "tall_mast" in sam_bot.viz.frames.frames)
+    assert sam_bot.failed == []
+
+
+def test_a_saved_config_is_shown(sam_bot: Followed) -> None:
+    sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
+    sam_bot.wait_for(lambda: sam_bot.session.context.fixed_frame == "front_caster")
+    assert sam_bot.failed == []
+
+
+def test_a_broken_config_keeps_the_old_one_until_it_is_mended(
+    sam_bot: Followed,
+) -> None:
+    content = sam_bot.config.read_text("utf-8")
+    sam_bot.config.write_text("{", "utf-8")
+    sam_bot.wait_for(lambda: sam_bot.failed)
+    assert len(sam_bot.session.displays) > 1
+    sam_bot.config.write_text(content, "utf-8")
+    sam_bot.wait_for(lambda: not sam_bot.failed)
+
+
+def test_changes_made_in_the_page_are_not_thrown_away(sam_bot: Followed) -> None:
+    sam_bot.session.set_global("Frame Rate", 12)
+    sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
+    sam_bot.wait_for(lambda: sam_bot.failed)
+    assert sam_bot.failed == ["config-changes-kept"]
+    assert sam_bot.session.config.global_options.get("Frame Rate") == 12
+    assert sam_bot.session.context.fixed_frame == "base_link"
+    sam_bot.session.config.save(sam_bot.config)
+    sam_bot.wait_for(lambda: not sam_bot.failed)
+    assert sam_bot.session.context.fixed_frame == "base_link"
+
+
+def test_a_camera_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown(
+    sam_bot: Followed,
+) -> None:
+    sam_bot.session.views.set("Distance", 7.5)
+    sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
+    sam_bot.wait_for(lambda: sam_bot.session.context.fixed_frame == "front_caster")
+    assert sam_bot.failed == []
+    assert sam_bot.session.config.view.get("Distance") == 7.5
+
+
+def test_another_view_in_the_file_moves_the_cameras(
+    sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    client = protocol(int(sam_bot.viz.url.rsplit(":", 1)[1]))
+    client.settle(sam_bot.viz.viser)
+    mark = client.mark()
+    sam_bot.save("Value: Orbit (rviz)", "Yaw: 1.5", sam_bot.config)
+    client.wait_until(lambda: client.types(mark)["SetCameraPositionMessage"] > 0)
+    assert sam_bot.session.config.view.get("Yaw") == pytest.approx(1.5, abs=0.01)
+
+
+def test_a_saved_link_is_the_only_one_that_is_sent_again(
+    sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    client = protocol(int(sam_bot.viz.url.rsplit(":", 1)[1]))
+    client.settle(sam_bot.viz.viser)
+    mark = client.mark()
+    sam_bot.save('name="base_length" value="0.42"', 'name="base_length" value="0.5"')
+    client.wait_until(lambda: client.types(mark)["BoxMessage"] == 1)
+    client.settle(sam_bot.viz.viser)
+    assert client.types(mark)["BoxMessage"] == 1
+    assert client.types(mark)["CylinderMessage"] == 0
+
+
+def test_a_mesh_that_was_missing_is_found_as_soon_as_it_is_there(
+    tmp_path: Path, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    model = tmp_path / "one.urdf"
+    mesh = '<geometry><mesh filename="part.stl"/></geometry>'
+    model.write_text(
+        f'<robot name="r"><link name="l"><visual>{mesh}</visual></link></robot>'
+    )
+    with Visualizer(model, watch=True) as viz:
+        client = protocol(int(viz.url.rsplit(":", 1)[1]))
+        assert client.types()["LineSegmentsMessage"] > 0
+        corners = ("0 0 0", "1 0 0", "0 1 0")
+        lines = "".join(f"vertex {corner}\n" for corner in corners)
+        (tmp_path / "part.stl").write_text(
+            f"solid s\nfacet normal 0 0 1\nouter loop\n{lines}endloop\nendfacet\n"
+            "endsolid s\n"
+        )
+        client.wait_until(lambda: client.types()["MeshMessage"] > 0)
+
+
+def test_each_private_session_follows_and_a_later_one_hears_of_the_mistake(
+    tmp_path: Path, protocol: Callable[[int], ProtocolClient]
+) -> None:
+    shutil.copytree(bundled.assets_folder(), tmp_path, dirs_exist_ok=True)
+    model = tmp_path / "sam_bot.urdf.xacro"
+    content = model.read_text("utf-8")
+
+    def told(client: ProtocolClient) -> bool:
+        return any("last good version" in str(m.fields) for m in client.messages)
+
+    with Visualizer(model, watch=True, session="private") as viz:
+        port = int(viz.url.rsplit(":", 1)[1])
+        clients = [protocol(port), protocol(port)]
+        for client in clients:
+            client.wait_until(lambda c=client: c.types()["BoxMessage"] > 0)
+        marks = [client.mark() for client in clients]
+        replace(model, content.replace('value="0.42"', 'value="0.5"'))
+        for client, mark in zip(clients, marks, strict=True):
+            client.wait_until(lambda c=client, m=mark: c.types(m)["BoxMessage"] == 1)
+        replace(model, content.replace("</robot>", ""))
+        for client in clients:
+            client.wait_until(lambda c=client: told(c))
+        late = protocol(port)
+        late.wait_until(lambda: told(late))
+        assert late.types()["BoxMessage"] == 1
+
+
+def test_without_watch_nothing_is_followed(tmp_path: Path) -> None:
+    shutil.copytree(bundled.assets_folder(), tmp_path, dirs_exist_ok=True)
+    before = {thread.name for thread in threading.enumerate()}
+    with Visualizer(tmp_path / "sam_bot.urdf.xacro"):
+        now = {thread.name for thread in threading.enumerate()}
+    assert "sambot-viz-watch" not in now - before
+
+
+def test_a_fault_of_ours_is_told_and_ends_nothing(
+    sam_bot: Followed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(robot: object) -> None:
+        raise ZeroDivisionError("it happens")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(sam_bot.session, "show_robot", fail)
+        sam_bot.save("front_caster", "rear_caster")
+        sam_bot.wait_for(lambda: sam_bot.failed == ["reload-failed"])
+    sam_bot.save("rear_caster", "last_caster")
+    sam_bot.wait_for(lambda: "last_caster" in sam_bot.viz.frames.frames)
+    sam_bot.wait_for(lambda: sam_bot.failed == [])

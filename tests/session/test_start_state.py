@@ -1,0 +1,83 @@
+"""What a robot begins with: joint values, frames, wheels, named poses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz import JointError, Visualizer, bundled
+from sambot_viz.session.drive_control import WheelOptions
+from sambot_viz.session.start_state import poses_beside
+
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+
+
+def test_zeros_recorded_and_single_positions_count_in_this_order(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "state.yaml"
+    file.write_text(f"name: [{LEFT}, {RIGHT}, foreign]\nposition: [0.1, 0.2, 0.3]\n")
+    with Visualizer(
+        port=0, zeros={LEFT: 1.0}, joint_state=file, joint_positions={RIGHT: 0.5}
+    ) as viz:
+        assert viz.joint_positions == {LEFT: 0.1, RIGHT: 0.5}
+        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        session.center_joints()
+        assert viz.joint_positions == {LEFT: 1.0, RIGHT: 0.0}
+
+
+def test_a_joint_that_is_not_there_is_refused_with_the_nearest_name() -> None:
+    with pytest.raises(JointError, match="did you mean 'drivewhl_l_joint'"):
+        Visualizer(port=0, joint_positions={"drivewhl_l_jont": 1.0})
+
+
+def test_static_transforms_are_there_and_outlive_a_reload() -> None:
+    text = "0.1 0 0.2 0 0 0 base_link base_laser"
+    with Visualizer(port=0, static_transforms=[text]) as viz:
+        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        assert session.robot is not None
+        session.show_robot(session.robot)
+        T = viz.frames.lookup("base_link", "base_laser")
+        assert T.translation.tolist() == [0.1, 0.0, 0.2]
+        session.remove_frame("base_laser")
+        assert "base_laser" not in viz.frames
+
+
+def test_a_frame_taken_from_a_joint_goes_back_to_it() -> None:
+    with Visualizer(port=0) as viz:
+        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        before = viz.frames.lookup("base_link", "front_caster")
+        viz.set_static_transform("map", "front_caster", (1.0, 0.0, 0.0))
+        assert viz.frames.parent("front_caster") == "map"
+        session.remove_frame("front_caster")
+        assert viz.frames.lookup("base_link", "front_caster") == before
+        assert "map" not in viz.frames
+
+
+def test_poses_are_kept_beside_the_model_but_not_in_the_package() -> None:
+    folder = Path("robots")
+    assert poses_beside(folder / "arm.urdf.xacro") == folder / "arm.poses.yaml"
+    assert poses_beside(folder / "arm.urdf") == folder / "arm.poses.yaml"
+    assert poses_beside(bundled.model_path()) is None
+
+
+def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
+    model = tmp_path / "floating.urdf"
+    model.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/>'
+        '<joint name="j" type="floating"><parent link="a"/><child link="b"/></joint>'
+        "</robot>"
+    )
+    with Visualizer(model, port=0) as viz:
+        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        problem = next(p for p in session.problems if p.code == "floating-joint")
+        assert "ROS publishes no transform" in problem.message
+        assert viz.frames.can_lookup("a", "b")
+
+
+def test_wheels_that_do_not_exist_are_told_in_the_problems() -> None:
+    with Visualizer(port=0, wheels=WheelOptions(left="lft", right=RIGHT)) as viz:
+        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        problem = next(p for p in session.problems if p.code == "drive-wheels")
+        assert "no continuous joint 'lft'" in problem.message

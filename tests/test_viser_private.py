@@ -1,0 +1,81 @@
+"""The private names of viser that we use are where we use them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+import viser
+from viser import _messages
+
+from sambot_viz import viser_private
+from sambot_viz.server.bind import close, listen
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = listen("127.0.0.1", 0)
+    yield server
+    close(server)
+
+
+def handlers(server: viser.ViserServer) -> dict[type, list[object]]:
+    return server._websock_server._incoming_handlers  # type: ignore[return-value]
+
+
+def test_the_share_handlers_are_there_and_are_taken_away(
+    server: viser.ViserServer,
+) -> None:
+    assert _messages.ShareUrlRequest in handlers(server)
+    assert _messages.ShareUrlDisconnect in handlers(server)
+    viser_private.drop_share_handlers(server)
+    assert _messages.ShareUrlRequest not in handlers(server)
+    assert _messages.ShareUrlDisconnect not in handlers(server)
+
+
+def test_the_gui_handler_is_there_and_is_wrapped(server: viser.ViserServer) -> None:
+    before = handlers(server)[_messages.GuiUpdateMessage]
+    assert before
+    viser_private.guard_gui_updates(server)
+    assert handlers(server)[_messages.GuiUpdateMessage] != before
+
+
+def test_nodes_are_counted(server: viser.ViserServer) -> None:
+    before = viser_private.node_count(server.scene)
+    server.scene.add_frame("/a")
+    assert viser_private.node_count(server.scene) == before + 1
+
+
+def test_starting_and_stopping_prints_nothing(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    server = listen("127.0.0.1", 0)
+    close(server)
+    out, err = capfd.readouterr()
+    assert (out, err) == ("", "")
+
+
+def test_a_node_that_went_with_its_parent_is_known_to_be_removed(
+    server: viser.ViserServer,
+) -> None:
+    parent = server.scene.add_frame("/a", show_axes=False)
+    child = server.scene.add_frame("/a/b", show_axes=False)
+    assert not viser_private.is_removed(child)
+    parent.remove()
+    assert viser_private.is_removed(child)
+
+
+def test_what_stands_on_a_tab_can_be_changed(server: viser.ViserServer) -> None:
+    panel = server.gui.add_panel()
+    tab = panel.add_tab("before")
+    viser_private.set_tab_label(tab, "after")
+    assert panel._tab_labels == ("after",)  # pyright: ignore[reportPrivateUsage]
+
+
+def test_the_types_of_a_kind_of_node_are_found_out_once(
+    server: viser.ViserServer,
+) -> None:
+    first, second = server.scene.add_frame("/a"), server.scene.add_frame("/b")
+    assert "axes_length" in first._prop_hints
+    assert first._prop_hints is second._prop_hints
+    assert first._prop_hints is not server.scene.add_label("/c", "c")._prop_hints
