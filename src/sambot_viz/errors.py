@@ -25,6 +25,21 @@ Severity = Literal["error", "warning", "info"]
 
 
 @dataclass(frozen=True, slots=True)
+class Place:
+    """A place in a file that the user wrote.
+
+    Attributes:
+        file: path of the file as the user wrote it.
+        line: line, counted from 1.
+        column: column in that line, counted from 1, or None.
+    """
+
+    file: str
+    line: int
+    column: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """One finding: what is wrong, where, and how to mend it.
 
@@ -46,6 +61,22 @@ class Problem:
     file: str | None = None
     line: int | None = None
     column: int | None = None
+
+    @classmethod
+    def at(
+        cls,
+        where: Place | str | None,
+        severity: Severity,
+        code: str,
+        message: str,
+        hint: str = "",
+    ) -> Problem:
+        """A problem at a place, in a file as a whole, or without a file."""
+        if isinstance(where, Place):
+            file, line, column = where.file, where.line, where.column
+        else:
+            file, line, column = where, None, None
+        return cls(severity, code, message, hint, file, line, column)
 
     @property
     def place(self) -> str:
@@ -69,6 +100,42 @@ class Problem:
             "line": self.line,
             "column": self.column,
         }
+
+
+_LONGEST_SENTENCE = 2000
+
+
+class Findings:
+    """Collects problems while a file is read to the end.
+
+    Attributes:
+        problems: in the order found, each once.
+    """
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+
+    def add(
+        self,
+        severity: Severity,
+        code: str,
+        message: str,
+        hint: str = "",
+        at: Place | str | None = None,
+    ) -> None:
+        """Note a problem, unless the same one is there already.
+
+        Sentences are cut at 2000 characters: a file may make up names of any length.
+        """
+        message, hint = _cut(message), _cut(hint)
+        problem = Problem.at(at, severity, code, message, hint)
+        if problem not in self.problems:
+            self.problems.append(problem)
+
+
+def _cut(text: str) -> str:
+    cut = len(text) > _LONGEST_SENTENCE
+    return text[:_LONGEST_SENTENCE] + "…" if cut else text
 
 
 class SambotVizError(Exception):

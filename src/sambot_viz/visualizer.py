@@ -17,9 +17,10 @@ from sambot_viz.errors import Problem, ServerError
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.static_transform import StaticTransform
+from sambot_viz.geometry import Vector3
 from sambot_viz.open_config import declarations, load_config
 from sambot_viz.robot.load import load_robot
-from sambot_viz.robot.model import Robot, Vector3
+from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.reload import Documents, Reloader
 from sambot_viz.server.server import Server, ServerOptions, SessionMode

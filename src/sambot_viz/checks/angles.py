@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 
 from sambot_viz.checks.rule import Finding, Rule, Subject, number
-from sambot_viz.robot.model import Place, Vector3
+from sambot_viz.errors import Place
+from sambot_viz.geometry import Vector3
 
 _FULL_TURN = 2 * math.pi + 1e-3
 _LARGEST_LIMIT = 720.0

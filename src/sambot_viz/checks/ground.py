@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from sambot_viz.checks.rule import Finding, Rule, Subject
-from sambot_viz.robot.model import Cylinder, Joint, Link, Matrix, Sphere
+from sambot_viz.geometry import Matrix
+from sambot_viz.robot.model import Cylinder, Joint, Link, Sphere
 
 _SMALLEST = 0.003
 _SHARE_OF_RADIUS = 0.05

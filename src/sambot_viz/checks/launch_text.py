@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from sambot_viz.checks.rule import Finding, Rule, Subject
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from sambot_viz.errors import Problem, Severity
-from sambot_viz.robot.model import Place, Robot
+from sambot_viz.errors import Place, Problem, Severity
+from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
 from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import os
+import io
 import re
-import secrets
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from sambot_viz.bundled import find
 from sambot_viz.commands.options import Parser, add_model_options, parse
 from sambot_viz.commands.pose_options import add_pose_options, read_setup
 from sambot_viz.errors import UsageError
+from sambot_viz.files import write_atomically
 
 if TYPE_CHECKING:
     from sambot_viz.export.view_picture import Picture
@@ -114,10 +114,9 @@ def _write(path: Path, picture: Picture) -> None:
     """Write the file, whole or not at all."""
     from PIL import Image
 
-    part = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
+    encoded = io.BytesIO()
+    Image.fromarray(picture).save(encoded, format="PNG")
     try:
-        Image.fromarray(picture).save(part, format="PNG")
-        os.replace(part, path)
+        write_atomically(path, encoded.getvalue())
     except OSError as error:
-        part.unlink(missing_ok=True)
         raise UsageError(f"cannot write '{path}': {error.strerror}") from error

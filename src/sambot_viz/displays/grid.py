@@ -8,8 +8,8 @@ import viser
 
 from sambot_viz.displays.display import Display, Handle, remove_all
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
-from sambot_viz.displays.scene.poses import Position, Wxyz
 from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import (
     FIXED_FRAME,
     ColorProperty,
@@ -149,7 +149,7 @@ class GridDisplay(Display):
         color: Rgb = get("Color")
         alpha = float(get("Alpha"))
         wxyz = _PLANES.get(str(get("Plane")), _PLANES["XY"])
-        offset: Position = get("Offset")
+        offset: Vector3 = get("Offset")
         if get("Line Style") == "Billboards":
             return scene.add_line_segments(
                 name,

@@ -7,13 +7,14 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.frames.rotation import (
-    Quaternion,
-    quaternion_from_matrix,
-    quaternion_product,
+from sambot_viz.frames.transform import Transform
+from sambot_viz.geometry import (
+    Matrix,
+    Xyzw,
+    inverse_matrix,
+    xyzw_from_matrix,
+    xyzw_product,
 )
-from sambot_viz.frames.transform import Transform, inverse_matrix
-from sambot_viz.robot.model import Matrix
 
 
 class _Seen(Transform):
@@ -27,21 +28,21 @@ class _Seen(Transform):
         # tf2 multiplies quaternions along the chain; only the sign of that product
         # is taken from there, the matrix has the better digits.
         product = _rotation(self._above)
-        x, y, z, w = quaternion_product(
+        x, y, z, w = xyzw_product(
             (-product[0], -product[1], -product[2], product[3]), _rotation(self._below)
         )
-        xyzw = np.array(quaternion_from_matrix(self.matrix))
+        xyzw = np.array(xyzw_from_matrix(self.matrix))
         if np.dot(xyzw, (x, y, z, w)) < 0:
             xyzw = -xyzw
         xyzw.flags.writeable = False
         return xyzw
 
 
-def _rotation(transforms: tuple[Transform, ...]) -> Quaternion:
-    product: Quaternion = (0.0, 0.0, 0.0, 1.0)
+def _rotation(transforms: tuple[Transform, ...]) -> Xyzw:
+    product: Xyzw = (0.0, 0.0, 0.0, 1.0)
     for transform in transforms:
         x, y, z, w = transform.rotation_xyzw.tolist()
-        product = quaternion_product((x, y, z, w), product)
+        product = xyzw_product((x, y, z, w), product)
     return product
 
 

@@ -16,7 +16,7 @@ from sambot_viz.frames.compose import compose
 from sambot_viz.frames.hierarchy import Edge, FrameHierarchy, plain_name
 from sambot_viz.frames.refusals import LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
-from sambot_viz.robot.model import Matrix
+from sambot_viz.geometry import Matrix
 
 FrameListener = Callable[[tuple[str, ...]], None]
 """Is called with the child frames whose transform was set or removed."""

@@ -13,13 +13,16 @@ import numpy.typing as npt
 
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.refusals import TransformRefused
-from sambot_viz.frames.rotation import (
-    Quaternion,
-    quaternion_from_matrix,
-    quaternion_from_rpy,
-    rotation_matrix,
+from sambot_viz.geometry import (
+    Matrix,
+    Vector3,
+    Xyzw,
+    inverse_matrix,
+    rotation_from_xyzw,
+    xyzw_from_matrix,
+    xyzw_from_rpy,
 )
-from sambot_viz.robot.model import Matrix, Origin, Vector3
+from sambot_viz.robot.model import Origin
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -64,7 +67,7 @@ class Transform:
         object.__setattr__(self, "matrix", matrix)
 
     @classmethod
-    def trusted(cls, matrix: Matrix, xyzw: Quaternion | None = None) -> Self:
+    def trusted(cls, matrix: Matrix, xyzw: Xyzw | None = None) -> Self:
         """Wrap a matrix that is known to be good, without copying or checking.
 
         Args:
@@ -109,7 +112,7 @@ class Transform:
         x, y, z = _finite(xyz, 3, "xyz")
         roll, pitch, yaw = _finite(rpy, 3, "rpy")
         matrix = Origin((x, y, z), (roll, pitch, yaw)).matrix
-        return cls.trusted(matrix, quaternion_from_rpy(roll, pitch, yaw))
+        return cls.trusted(matrix, xyzw_from_rpy(roll, pitch, yaw))
 
     @classmethod
     def from_xyz_xyzw(
@@ -131,7 +134,7 @@ class Transform:
                 f"{math.sqrt(squared):.4g}, and a rotation needs length 1",
             )
         matrix = np.eye(4)
-        matrix[:3, :3] = rotation_matrix((x, y, z, w))
+        matrix[:3, :3] = rotation_from_xyzw((x, y, z, w))
         matrix[:3, 3] = position
         matrix.flags.writeable = False
         n = math.sqrt(squared)
@@ -150,7 +153,7 @@ class Transform:
         angles when made from rpy, or KDL's when made from a matrix (w positive when
         the trace is above 0, else the largest of x, y, z positive).
         """
-        return _read_only(quaternion_from_matrix(self.matrix))
+        return _read_only(xyzw_from_matrix(self.matrix))
 
     @cached_property
     def rpy(self) -> Vector3:
@@ -202,22 +205,6 @@ class Transform:
         return f"Transform(xyz=({xyz}), rpy=({rpy}))"
 
 
-def inverse_matrix(matrix: Matrix) -> Matrix:
-    """The inverse of a rigid (4, 4) transform, read-only."""
-    # Twelve products of Python floats take half the time of slicing with numpy.
-    (a, b, c, x), (d, e, f, y), (g, h, i, z), _ = matrix.tolist()
-    inverse = np.array(
-        (
-            (a, d, g, -(a * x + d * y + g * z)),
-            (b, e, h, -(b * x + e * y + h * z)),
-            (c, f, i, -(c * x + f * y + i * z)),
-            (0.0, 0.0, 0.0, 1.0),
-        )
-    )
-    inverse.flags.writeable = False
-    return inverse
-
-
 def _finite(values: Sequence[float], size: int, name: str) -> list[float]:
     numbers = [float(v) for v in values]
     if len(numbers) != size:
@@ -228,7 +215,7 @@ def _finite(values: Sequence[float], size: int, name: str) -> list[float]:
     return numbers
 
 
-def _read_only(xyzw: Quaternion) -> npt.NDArray[np.float64]:
+def _read_only(xyzw: Xyzw) -> npt.NDArray[np.float64]:
     array = np.array(xyzw, dtype=np.float64)
     array.flags.writeable = False
     return array

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
-import os
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import cast
@@ -13,6 +10,7 @@ from typing import cast
 import yaml
 
 from sambot_viz.errors import JointError, did_you_mean
+from sambot_viz.files import write_atomically
 
 Pose = dict[str, float]
 """Joint → position [rad or m]."""
@@ -114,17 +112,6 @@ def _write(path: Path, poses: dict[str, Pose]) -> None:
     """Write beside the file and swap, so that a crash leaves the old or the new one."""
     text = yaml.safe_dump(poses, sort_keys=False, allow_unicode=True)
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        write_atomically(path, text.encode("utf-8"))
     except OSError as error:
-        raise JointError(f"cannot save the poses in {path}: {error}") from error
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        # mkstemp makes files that nobody else may read; poses are no secret.
-        mode = path.stat().st_mode & 0o777 if path.exists() else 0o644
-        os.chmod(name, mode)
-        os.replace(name, path)
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            os.unlink(name)
         raise JointError(f"cannot save the poses in {path}: {error}") from error

@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.robot.model import Rgba, Vector3
+from sambot_viz.geometry import Vector3
+from sambot_viz.robot.model import Rgba
 
 FloatArray = npt.NDArray[np.float32]
 IndexArray = npt.NDArray[np.uint32]

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from sambot_viz.files import is_lfs_pointer
 from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh, assemble
 from sambot_viz.meshes.mesh import Mesh, mesh_error
-from sambot_viz.meshes.textures import TextureStore, is_lfs_pointer
+from sambot_viz.meshes.textures import TextureStore
 
 LARGEST = 500 * 1024 * 1024
 """Files above this size [bytes] are refused unless somebody asks for more."""

@@ -13,6 +13,7 @@ from pathlib import Path, PureWindowsPath
 from typing import TYPE_CHECKING, Literal
 from urllib.parse import unquote
 
+from sambot_viz.files import is_lfs_pointer
 from sambot_viz.meshes.mesh import Texture
 
 if TYPE_CHECKING:
@@ -162,11 +163,6 @@ def _encode(image: Image, longest_side: int) -> Texture:
     else:
         image.save(out, "PNG", compress_level=4)
     return Texture(out.getvalue(), mime, *image.size)
-
-
-def is_lfs_pointer(data: bytes) -> bool:
-    """Whether this only stands for a file that git-LFS keeps elsewhere."""
-    return data.startswith(b"version https://git-lfs")
 
 
 def find_beside(mesh: Path, name: str) -> Path | None:

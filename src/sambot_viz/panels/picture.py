@@ -10,7 +10,7 @@ import numpy as np
 import viser
 from PIL import Image
 
-from sambot_viz.displays.scene.poses import wxyz_of
+from sambot_viz.geometry import wxyz_from_matrix
 from sambot_viz.panels.widgets import watch
 from sambot_viz.session import Session
 
@@ -84,7 +84,7 @@ async def send_picture(
         client.get_render,
         height,
         width,
-        wxyz=wxyz_of(R),
+        wxyz=wxyz_from_matrix(R),
         position=camera.position,
         fov=camera.fov,
         transport_format="png",

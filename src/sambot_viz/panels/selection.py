@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import viser
 
+from sambot_viz.errors import Place
 from sambot_viz.frames import LookupRefused
 from sambot_viz.panels.widgets import add_property, frame_choices
-from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Place, Sphere
+from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
 from sambot_viz.session import Event, Session
 from sambot_viz.session.throttle import Throttle

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import JointError, did_you_mean
-from sambot_viz.robot.model import Joint, Matrix, Robot
+from sambot_viz.geometry import Matrix, rotation_from_axis
+from sambot_viz.robot.model import Joint, Robot
 
 _Ints = npt.NDArray[np.int64]
 _Floats = npt.NDArray[np.float64]
@@ -145,15 +146,7 @@ class Kinematics:
         if this.type == "prismatic":
             T[:3, 3] += T[:3, :3] @ np.array([x * q, y * q, z * q])
         elif this.type in _SPINNING and (x or y or z):
-            c, s = math.cos(q), math.sin(q)
-            k = 1.0 - c
-            T[:3, :3] = T[:3, :3] @ np.array(
-                [
-                    [c + k * x * x, k * x * y - s * z, k * x * z + s * y],
-                    [k * x * y + s * z, c + k * y * y, k * y * z - s * x],
-                    [k * x * z - s * y, k * y * z + s * x, c + k * z * z],
-                ]
-            )
+            T[:3, :3] = T[:3, :3] @ np.array(rotation_from_axis(this.axis, q))
         return T
 
     def moved_by(self, joint: str) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import ModelSource, first_xacro, read_source
 from sambot_viz.robot.packages.file_finder import FileFinder
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
 from sambot_viz.robot.xacro.diagnose.library import report_library
@@ -175,7 +175,7 @@ def _robot(
     package_path: Sequence[Path | str],
     trusted: bool,
 ) -> Robot:
-    findings = Findings()
+    findings = UrdfFindings()
     folder = source.path.absolute().parent if source.path is not None else None
     files = FileFinder(folder, package_path, findings, trusted)
     urdf = read_urdf(

@@ -16,30 +16,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Place, Problem
+from sambot_viz.geometry import Matrix, Vector3, rotation_from_rpy
 
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
-Matrix = npt.NDArray[np.float64]
-Vector3 = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
 JointType = Literal[
     "revolute", "continuous", "prismatic", "fixed", "floating", "planar"
 ]
 MOVABLE_TYPES: frozenset[str] = frozenset({"revolute", "continuous", "prismatic"})
 """The joint types that joint_state_publisher drives (spec/ros-nodes.md §1.3)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where an element stands in the file that the user wrote (lines from 1)."""
-
-    file: str
-    line: int
-    column: int | None = None
 
 
 @dataclass(frozen=True)
@@ -52,18 +41,9 @@ class Origin:
     @cached_property
     def matrix(self) -> Matrix:
         """The read-only (4, 4) transform, R = Rz(yaw) @ Ry(pitch) @ Rx(roll)."""
-        roll, pitch, yaw = self.rpy
-        cr, sr = math.cos(roll), math.sin(roll)
-        cp, sp = math.cos(pitch), math.sin(pitch)
-        cy, sy = math.cos(yaw), math.sin(yaw)
-        T = np.array(
-            [
-                [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, self.xyz[0]],
-                [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr, self.xyz[1]],
-                [-sp, cp * sr, cp * cr, self.xyz[2]],
-                [0.0, 0.0, 0.0, 1.0],
-            ]
-        )
+        T = np.eye(4)
+        T[:3, :3] = rotation_from_rpy(*self.rpy)
+        T[:3, 3] = self.xyz
         T.flags.writeable = False
         return T
 

@@ -16,6 +16,8 @@ from pathlib import Path
 
 from watchfiles import Change, watch
 
+from sambot_viz.files import Stamp, stamp
+
 QUIET = 30
 """Changes are looked at when nothing more has come for so long [ms] …"""
 LONGEST_WAIT = 200
@@ -30,21 +32,8 @@ _LONGEST_CLOSE = 5.0
 _CLOCK_STEP = 10_000_000
 """Times of files may be so much [ns] behind the clock."""
 
-Stamp = tuple[int, int, int]
 _Changes = set[tuple[Change, str]]
 OnChange = Callable[[frozenset[Path], frozenset[Path]], None]
-
-
-def stamp(path: Path) -> Stamp | None:
-    """What differs after a save: time of change [ns], size [B], number of the file.
-
-    Links are followed; None when there is no such file.
-    """
-    try:
-        found = path.stat()
-    except (OSError, ValueError):
-        return None
-    return (found.st_mtime_ns, found.st_size, found.st_ino)
 
 
 class FileWatcher:

@@ -16,8 +16,9 @@ from sambot_viz.drive.wheels import find_wheel_pair
 from sambot_viz.errors import FrameError, JointError, Problem
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
-from sambot_viz.robot.model import Matrix, Robot
+from sambot_viz.robot.model import Robot
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session

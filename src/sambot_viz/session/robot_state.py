@@ -7,10 +7,11 @@ from collections.abc import Iterable, Mapping
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.start import StartPose
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.model import Matrix, Robot
+from sambot_viz.robot.model import Robot
 from sambot_viz.session.user_frames import UserFrames
 
 

@@ -25,11 +25,12 @@ from sambot_viz.displays.status import Status
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.robot_frames import floating_problems
+from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.start import StartPose
 from sambot_viz.meshes.cache import MeshStore
-from sambot_viz.robot.model import Matrix, Robot
+from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.session.motion import Motion
 from sambot_viz.session.robot_state import RobotState

@@ -7,7 +7,8 @@ import random
 import numpy as np
 import pytest
 
-from sambot_viz.displays.scene.poses import inverse, position_of, wxyz_from_z, wxyz_of
+from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.geometry import inverse_matrix, wxyz_from_matrix, wxyz_from_z
 from sambot_viz.robot.model import Origin
 
 
@@ -27,13 +28,13 @@ def test_every_rotation_survives_the_way_there_and_back() -> None:
     for _ in range(200):
         rpy = tuple(source.uniform(-4, 4) for _ in range(3))
         T = Origin(rpy=(rpy[0], rpy[1], rpy[2])).matrix
-        assert np.allclose(rotation(wxyz_of(T)), T[:3, :3], atol=1e-12)
+        assert np.allclose(rotation(wxyz_from_matrix(T)), T[:3, :3], atol=1e-12)
 
 
 @pytest.mark.parametrize("half_turn", [(np.pi, 0, 0), (0, np.pi, 0), (0, 0, np.pi)])
 def test_half_turns_lose_no_digits(half_turn: tuple[float, float, float]) -> None:
     T = Origin(rpy=half_turn).matrix
-    assert np.allclose(rotation(wxyz_of(T)), T[:3, :3], atol=1e-12)
+    assert np.allclose(rotation(wxyz_from_matrix(T)), T[:3, :3], atol=1e-12)
 
 
 @pytest.mark.parametrize("direction", [(0, 0, 2), (0, 0, -3), (1, 2, -3), (-1, 0, 0)])
@@ -44,7 +45,7 @@ def test_z_is_turned_into_any_direction(direction: tuple[float, float, float]) -
 
 def test_the_inverse_undoes_a_pose() -> None:
     T = Origin((1.0, 2.0, 3.0), (0.3, -0.2, 1.1)).matrix
-    assert np.allclose(inverse(T) @ T, np.eye(4))
+    assert np.allclose(inverse_matrix(T) @ T, np.eye(4))
 
 
 @pytest.mark.parametrize(

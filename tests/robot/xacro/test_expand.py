@@ -5,9 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from sambot_viz.errors import Problem, RobotError
+from sambot_viz.errors import Place, Problem, RobotError
 from sambot_viz.robot import expand, load_robot
-from sambot_viz.robot.model import Place
 from sambot_viz.robot.xacro.expand import Limits, expand_model
 from sambot_viz.robot.xacro.result import ExpansionError
 

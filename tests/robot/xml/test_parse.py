@@ -1,6 +1,6 @@
 import pytest
 
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.parse import parse_xml
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sambot_viz.displays.scene.poses import Position, Wxyz, position_of, wxyz_of
-from sambot_viz.robot.model import Inertial, Matrix
+from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.geometry import Matrix, Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.robot.model import Inertial
 
 LEAD_DENSITY = 11340.0
 """[kg/m³]"""
@@ -28,9 +29,9 @@ class InertiaBox:
         position: its centre in the link [m].
     """
 
-    size: Position
+    size: Vector3
     wxyz: Wxyz
-    position: Position
+    position: Vector3
 
 
 def ball_diameter(mass: float) -> float:
@@ -74,7 +75,7 @@ def inertia_box(inertial: Inertial) -> InertiaBox | None:
         _edge(three + one - two, i.mass),
         _edge(one + two - three, i.mass),
     )
-    return InertiaBox(size, wxyz_of(T), position_of(T))
+    return InertiaBox(size, wxyz_from_matrix(T), position_of(T))
 
 
 def _edge(moments: float, mass: float) -> float:

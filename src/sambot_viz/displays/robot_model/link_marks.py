@@ -13,8 +13,9 @@ from sambot_viz.displays.display import DisplayContext, Handle, any_gone, remove
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.link_settings import RobotSettings
 from sambot_viz.displays.robot_model.trail import Trail
-from sambot_viz.displays.scene.poses import Position, position_of, wxyz_of
+from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes, sphere
+from sambot_viz.geometry import Vector3, wxyz_from_matrix
 from sambot_viz.robot.model import Joint, Link, Robot
 
 AXES_LENGTH, AXES_DIAMETER = 0.1, 0.01
@@ -167,7 +168,7 @@ class RobotMarks:
             ),
         )
 
-    def _ball(self, node: str, diameter: float, at: Position) -> Handle:
+    def _ball(self, node: str, diameter: float, at: Vector3) -> Handle:
         shape = sphere()
         return self._context.scene.add_mesh_simple(
             node,
@@ -184,7 +185,10 @@ class RobotMarks:
         scene, T_link_joint = self._context.scene, joint.origin.matrix
         if what == "j":
             axes = add_axes(scene, node, AXES_LENGTH, AXES_DIAMETER)
-            axes.wxyz, axes.position = wxyz_of(T_link_joint), position_of(T_link_joint)
+            axes.wxyz, axes.position = (
+                wxyz_from_matrix(T_link_joint),
+                position_of(T_link_joint),
+            )
             return (axes,)
         if not any(joint.axis):
             return ()

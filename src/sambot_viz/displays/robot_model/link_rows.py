@@ -13,8 +13,9 @@ from sambot_viz.displays.robot_model.link_settings import (
     LINK_PROPERTIES,
     RobotSettings,
 )
-from sambot_viz.displays.scene.poses import position_of, wxyz_of
-from sambot_viz.robot.model import Joint, Link, Matrix, Robot
+from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.geometry import Matrix, wxyz_from_matrix
+from sambot_viz.robot.model import Joint, Link, Robot
 from sambot_viz.rviz import DisplayConfig
 
 FrameOf = Callable[[str], str]
@@ -100,7 +101,7 @@ def _joint_rows(robot: Robot, joint: Joint) -> Sequence[str]:
 def _pose_facts(T: Matrix | None) -> dict[str, str]:
     if T is None:
         return {"Position": "no transform"}
-    w, x, y, z = wxyz_of(T)
+    w, x, y, z = wxyz_from_matrix(T)
     return {"Position": numbers(position_of(T)), "Orientation": numbers((x, y, z, w))}
 
 

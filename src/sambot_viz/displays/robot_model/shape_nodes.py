@@ -10,10 +10,11 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.display import Handle, any_gone, remove_all
-from sambot_viz.displays.scene.poses import Position, Wxyz, position_of, wxyz_of
+from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import AssetContent, SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
 from sambot_viz.errors import Problem
+from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.glb import to_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
@@ -45,7 +46,7 @@ Painted = (
 
 class _Pose(TypedDict):
     wxyz: Wxyz
-    position: Position
+    position: Vector3
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,7 +199,7 @@ class ShapeNode:
     def _create(self, look: ShapeLook) -> None:
         T_link_shape = self._shape.origin.matrix
         pose: _Pose = {
-            "wxyz": wxyz_of(T_link_shape),
+            "wxyz": wxyz_from_matrix(T_link_shape),
             "position": position_of(T_link_shape),
         }
         geometry, material = self._shape.geometry, self._shape.material

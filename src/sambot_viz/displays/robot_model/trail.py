@@ -9,7 +9,7 @@ import numpy as np
 import viser
 
 from sambot_viz.displays.display import remove_all
-from sambot_viz.displays.scene.poses import Position
+from sambot_viz.geometry import Vector3
 
 COLOR = (0, 128, 128)
 WIDTH = 0.01
@@ -29,12 +29,12 @@ class Trail:
     def __init__(self, scene: viser.SceneApi, name: str) -> None:
         self._scene = scene
         self._name = name
-        self._corners: deque[Position] = deque(maxlen=MOST_ELEMENTS)
-        self._head: Position | None = None
+        self._corners: deque[Vector3] = deque(maxlen=MOST_ELEMENTS)
+        self._head: Vector3 | None = None
         self._node: viser.LineSegmentsHandle | None = None
         self._visible = True
 
-    def follow(self, at: Position) -> None:
+    def follow(self, at: Vector3) -> None:
         """The frame is here now; nothing is sent unless it has moved."""
         if self._head is not None and math.dist(at, self._head) < 1e-6:
             return

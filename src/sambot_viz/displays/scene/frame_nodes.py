@@ -13,9 +13,9 @@ from collections.abc import Iterable
 import numpy as np
 import viser
 
-from sambot_viz.displays.scene.poses import inverse, position_of, wxyz_of
+from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.frames import FrameTree
-from sambot_viz.robot.model import Matrix
+from sambot_viz.geometry import Matrix, inverse_matrix, wxyz_from_matrix
 from sambot_viz.viser_private import is_removed
 
 _DIGITS = string.digits + string.ascii_lowercase
@@ -84,11 +84,11 @@ class FrameNodes:
                 T_root_fixed = np.eye(4)
                 if fixed_frame != root:
                     T_root_fixed = tree.lookup(root, fixed_frame).matrix
-                self._set(root, inverse(T_root_fixed))
+                self._set(root, inverse_matrix(T_root_fixed))
 
     def _set(self, frame: str, T: Matrix) -> None:
         handle = self._handles[frame]
-        handle.wxyz = wxyz_of(T)
+        handle.wxyz = wxyz_from_matrix(T)
         handle.position = position_of(T)
 
     def _wanted_paths(self, tree: FrameTree) -> dict[str, str]:

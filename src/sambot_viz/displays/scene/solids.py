@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.poses import Position, Wxyz, wxyz_from_z
+from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_z
 from sambot_viz.meshes.glb import srgb_to_linear
 from sambot_viz.meshes.primitives import (
     Primitive,
@@ -82,8 +82,8 @@ def add_batch(
     name: str,
     shape: Compact,
     wxyzs: Sequence[Wxyz],
-    positions: Sequence[Position],
-    scales: Sequence[Position],
+    positions: Sequence[Vector3],
+    scales: Sequence[Vector3],
     colors: Sequence[Rgb],
 ) -> viser.BatchedMeshHandle:
     """One node for several copies of a unit shape (see the fields of viser).
@@ -136,12 +136,12 @@ class Arrow:
         head: length and diameter of the head [m].
     """
 
-    start: Position
-    direction: Position
+    start: Vector3
+    direction: Vector3
     shaft: tuple[float, float]
     head: tuple[float, float]
 
-    def parts(self) -> tuple[Wxyz, Position, Position]:
+    def parts(self) -> tuple[Wxyz, Vector3, Vector3]:
         """Rotation of both parts, centre of the shaft, centre of the head."""
         norm = math.sqrt(sum(c * c for c in self.direction))
         unit = tuple(c / norm for c in self.direction)

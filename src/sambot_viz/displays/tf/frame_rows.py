@@ -7,8 +7,8 @@ from typing import Any
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList, is_on, numbers
-from sambot_viz.displays.scene.poses import position_of, wxyz_of
-from sambot_viz.robot.model import Matrix
+from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.rviz import BoolProperty, DisplayConfig, Property
 
 ALL_ENABLED = "Frames/All Enabled"
@@ -76,7 +76,7 @@ def _facts(context: DisplayContext, frame: str) -> Mapping[str, str]:
 
 
 def _pose(what: str, T: Matrix) -> dict[str, str]:
-    w, x, y, z = wxyz_of(T)
+    w, x, y, z = wxyz_from_matrix(T)
     return {
         f"{what}Position": numbers(position_of(T)),
         f"{what}Orientation": numbers((x, y, z, w)),

@@ -16,7 +16,7 @@ from sambot_viz.displays.display import (
     remove_all,
 )
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.scene.poses import Position, position_of
+from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes
 from sambot_viz.displays.status import Status
 from sambot_viz.displays.tf.frame_rows import (
@@ -26,6 +26,7 @@ from sambot_viz.displays.tf.frame_rows import (
     frame_entries,
     set_all_frames,
 )
+from sambot_viz.geometry import Vector3
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
@@ -44,7 +45,7 @@ SHORTEST_ARROW = 0.001
 """Frames nearer than this have no arrow [m]."""
 
 
-def frame_arrow(at: Position, scale: float) -> Arrow | None:
+def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
     """The arrow from a frame to its parent, in the parent's coordinates.
 
     Args:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from sambot_viz.frames.rotation import rotation_matrix
 from sambot_viz.frames.transform import Transform
+from sambot_viz.geometry import rotation_from_xyzw
 
 EchoJson = dict[str, "list[float] | list[list[float]]"]
 
@@ -30,7 +30,7 @@ def format_echo(transform: Transform, time: float = 0.0) -> str:
     roll, pitch, yaw = (angle + 0.0 for angle in transform.rpy)
     # The pitch is minus a number in tf2, which prints as -0.000 when there is none.
     rpy = (roll, pitch or -0.0, yaw)
-    rows = rotation_matrix((x, y, z, w))
+    rows = rotation_from_xyzw((x, y, z, w))
     full = [[*row, c] for row, c in zip(rows, xyz, strict=True)]
     full.append([0.0, 0.0, 0.0, 1.0])
     return "\n".join(

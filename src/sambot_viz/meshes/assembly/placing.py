@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.assemble import Submesh
-from sambot_viz.robot.model import Matrix
 
 
 def placed(piece: Submesh, T: Matrix) -> Submesh:

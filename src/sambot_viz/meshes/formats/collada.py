@@ -14,13 +14,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
 from sambot_viz.meshes.assembly.placing import placed
 from sambot_viz.meshes.formats.collada_geometry import Geometry, read_geometry
 from sambot_viz.meshes.formats.collada_material import Materials
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_document
 from sambot_viz.meshes.textures import TextureStore
-from sambot_viz.robot.model import Matrix
 
 _DEEPEST = 200
 

@@ -14,6 +14,7 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.arrays import triples
 from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
 from sambot_viz.meshes.assembly.placing import placed
@@ -30,7 +31,6 @@ from sambot_viz.meshes.formats.gltf_material import GltfMaterials
 from sambot_viz.meshes.formats.gltf_resource import Resources
 from sambot_viz.meshes.mesh import mesh_error
 from sambot_viz.meshes.textures import TextureStore
-from sambot_viz.robot.model import Matrix
 
 _UNREADABLE = {
     "KHR_draco_mesh_compression": "Draco",

@@ -7,9 +7,10 @@ import binascii
 from typing import Any
 from urllib.parse import unquote, unquote_to_bytes
 
+from sambot_viz.files import is_lfs_pointer
 from sambot_viz.meshes.assembly.assemble import MeshFindings
 from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry
-from sambot_viz.meshes.textures import find_beside, is_lfs_pointer
+from sambot_viz.meshes.textures import find_beside
 
 
 class Resources:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.files import is_lfs_pointer
 from sambot_viz.meshes.assembly.arrays import (
     parse_floats,
     parse_ints,
@@ -21,7 +22,7 @@ from sambot_viz.meshes.assembly.arrays import (
 from sambot_viz.meshes.assembly.assemble import Floats, MeshFindings, Submesh
 from sambot_viz.meshes.assembly.materials import MeshMaterial, load_texture
 from sambot_viz.meshes.mesh import GREY
-from sambot_viz.meshes.textures import TextureStore, find_beside, is_lfs_pointer
+from sambot_viz.meshes.textures import TextureStore, find_beside
 
 _TWO_SLASHES = re.compile(rb"/\d*/")
 _MISSING = np.iinfo(np.int64).min

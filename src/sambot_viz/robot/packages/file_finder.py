@@ -7,7 +7,7 @@ from pathlib import Path
 
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.parse import Element
 
 _DOUBTS = {
@@ -42,7 +42,7 @@ class FileFinder:
         self,
         folder: Path | None,
         package_path: Sequence[Path | str],
-        findings: Findings,
+        findings: UrdfFindings,
         trusted: bool = True,
     ) -> None:
         """Prepare.

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sambot_viz.robot.model import Origin, Vector3
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.geometry import Vector3
+from sambot_viz.robot.model import Origin
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.numbers import (
     BadNumber,
     has_blank_behind,
@@ -16,7 +17,7 @@ from sambot_viz.robot.urdf.numbers import (
 from sambot_viz.robot.xml.parse import Element
 
 Report = Callable[[str, str, str, Element, "str | None"], None]
-"""`Findings.reject`, `.error` or `.warn`: code, message, hint, element, attribute."""
+"""`UrdfFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
 
 LARGEST = 1e18
 """Numbers beyond this leave the range in which pictures and poses can be computed:
@@ -43,7 +44,7 @@ class AttributeReader:
         loss: what ROS does about it, for messages.
     """
 
-    findings: Findings
+    findings: UrdfFindings
     report: Report
     owner: str
     loss: str

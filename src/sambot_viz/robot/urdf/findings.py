@@ -1,24 +1,20 @@
-"""Collecting what is wrong with a model while it is read to the end."""
+"""Problems of a URDF, collected while it is read to the end."""
 
 from __future__ import annotations
 
-from sambot_viz.errors import Problem, Severity
+from sambot_viz.errors import Findings, Place, Severity
 from sambot_viz.robot.xml.parse import Element
 
-_LONGEST = 2000
 
-
-class Findings:
-    """Problems with places, and whether ROS would refuse the model.
+class UrdfFindings(Findings):
+    """Problems at elements, and whether ROS would refuse the model.
 
     Attributes:
-        problems: in the order found.
-        rejected: True when urdfdom refuses the whole model
-            (spec/ros-nodes.md §6.1, level 1).
+        rejected: whether urdfdom refuses the whole model.
     """
 
     def __init__(self) -> None:
-        self.problems: list[Problem] = []
+        super().__init__()
         self.rejected = False
 
     def reject(
@@ -55,10 +51,6 @@ class Findings:
         """Something doubtful that is drawn all the same."""
         self._add("warning", code, message, hint, at, attribute)
 
-    def info(self, code: str, message: str, hint: str, at: Element) -> None:
-        """Something worth knowing."""
-        self._add("info", code, message, hint, at, None)
-
     def _add(
         self,
         severity: Severity,
@@ -74,16 +66,7 @@ class Findings:
             message = f"{message}, from the macro call on {where}"
         line = at.line_of(attribute)
         column = at.place.column if line == at.place.line else None
-        file = at.place.file
-        message, hint = _cut(message), _cut(hint)
-        problem = Problem(severity, code, message, hint, file, line, column)
-        if problem not in self.problems:
-            self.problems.append(problem)
-
-
-def _cut(text: str) -> str:
-    """A sentence that a terminal can hold, whatever names a file makes up."""
-    return text if len(text) <= _LONGEST else text[:_LONGEST] + "…"
+        self.add(severity, code, message, hint, Place(at.place.file, line, column))
 
 
 def tag_text(element: Element) -> str:

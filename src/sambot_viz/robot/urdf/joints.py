@@ -9,15 +9,10 @@ import math
 from typing import get_args
 
 from sambot_viz.errors import did_you_mean
-from sambot_viz.robot.model import (
-    Joint,
-    JointType,
-    Mimic,
-    Origin,
-    Vector3,
-)
+from sambot_viz.geometry import Vector3
+from sambot_viz.robot.model import Joint, JointType, Mimic, Origin
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.limits import LimitReader
 from sambot_viz.robot.xml.parse import Element
 
@@ -25,7 +20,7 @@ JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
 _REFUSED = "ROS refuses the model"
 
 
-def read_joint(element: Element, findings: Findings) -> Joint | None:
+def read_joint(element: Element, findings: UrdfFindings) -> Joint | None:
     """Read one <joint>; every fault in it is reported.
 
     Returns:
@@ -50,7 +45,7 @@ def read_joint(element: Element, findings: Findings) -> Joint | None:
     return _JointReader(element, name, kind, findings).read(parent, child)
 
 
-def _type(element: Element, name: str, findings: Findings) -> JointType | None:
+def _type(element: Element, name: str, findings: UrdfFindings) -> JointType | None:
     text = element.get("type")
     if text is None:
         findings.reject(
@@ -80,7 +75,7 @@ def _type(element: Element, name: str, findings: Findings) -> JointType | None:
     return None
 
 
-def _end(element: Element, tag: str, name: str, findings: Findings) -> str | None:
+def _end(element: Element, tag: str, name: str, findings: UrdfFindings) -> str | None:
     end = element.find(tag)
     if end is None:
         findings.reject(
@@ -106,7 +101,7 @@ def _end(element: Element, tag: str, name: str, findings: Findings) -> str | Non
 
 class _JointReader:
     def __init__(
-        self, element: Element, name: str, kind: JointType, findings: Findings
+        self, element: Element, name: str, kind: JointType, findings: UrdfFindings
     ) -> None:
         self._element = element
         self._name = name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sambot_viz.robot.model import JointType, Limit, SoftLimit
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.parse import Element
 
 _REFUSED = "ROS refuses the model"
@@ -23,7 +23,7 @@ class LimitReader:
         name: str,
         kind: JointType,
         reader: AttributeReader,
-        findings: Findings,
+        findings: UrdfFindings,
     ) -> None:
         self._element = element
         self._name = name

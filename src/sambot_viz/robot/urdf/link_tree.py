@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.model import Joint, Link
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.parse import Element
 
 DEEPEST = 350
@@ -52,7 +52,7 @@ class RobotParts:
     doubled: set[str] = field(default_factory=set[str])
 
 
-def build_tree(parts: RobotParts, findings: Findings) -> Tree | None:
+def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
     """Check the structure and give what ROS would show.
 
     A piece of a robot (an include file) gets the links that are not in it, empty and
@@ -98,7 +98,7 @@ def is_fragment(parts: RobotParts) -> bool:
     return len(missing) == 1 and not loose and children <= parts.links.keys()
 
 
-def _add_missing_links(parts: RobotParts, findings: Findings) -> None:
+def _add_missing_links(parts: RobotParts, findings: UrdfFindings) -> None:
     added: dict[str, Link] = {}
     for joint in parts.joints.values():
         for end, link in (("parent", joint.parent), ("child", joint.child)):
@@ -119,7 +119,7 @@ def _add_missing_links(parts: RobotParts, findings: Findings) -> None:
     parts.links = {**added, **parts.links}
 
 
-def _check_ends(parts: RobotParts, findings: Findings) -> None:
+def _check_ends(parts: RobotParts, findings: UrdfFindings) -> None:
     unknown = [
         (joint, tag, link)
         for joint in parts.joints.values()
@@ -144,7 +144,7 @@ def _check_ends(parts: RobotParts, findings: Findings) -> None:
         parts.excused.update(parts.links)
 
 
-def _check_self_joints(parts: RobotParts, findings: Findings) -> None:
+def _check_self_joints(parts: RobotParts, findings: UrdfFindings) -> None:
     for name, joint in parts.joints.items():
         if joint.parent == joint.child:
             element = parts.joint_elements[name]
@@ -157,7 +157,7 @@ def _check_self_joints(parts: RobotParts, findings: Findings) -> None:
             )
 
 
-def _parent_joints(parts: RobotParts, findings: Findings) -> dict[str, Joint]:
+def _parent_joints(parts: RobotParts, findings: UrdfFindings) -> dict[str, Joint]:
     """Link → the joint that holds it: of several the last in alphabetical order."""
     holders: dict[str, list[Joint]] = {}
     for joint in parts.joints.values():
@@ -172,7 +172,7 @@ def _parent_joints(parts: RobotParts, findings: Findings) -> dict[str, Joint]:
 
 
 def _tell_two_parents(
-    parts: RobotParts, findings: Findings, link: str, joints: list[Joint], kept: str
+    parts: RobotParts, findings: UrdfFindings, link: str, joints: list[Joint], kept: str
 ) -> None:
     listed = " and ".join(
         f"{j.name} (line {parts.joint_elements[j.name].place.line})" for j in joints
@@ -208,7 +208,7 @@ def _rings(parts: RobotParts, holder: Mapping[str, Joint]) -> list[list[Joint]]:
 
 def _tell_rings(
     parts: RobotParts,
-    findings: Findings,
+    findings: UrdfFindings,
     rings: Iterable[list[Joint]],
     root: str | None,
 ) -> None:
@@ -240,7 +240,7 @@ def _tell_rings(
 
 
 def _tell_roots(
-    parts: RobotParts, findings: Findings, roots: list[str], fragment: bool
+    parts: RobotParts, findings: UrdfFindings, roots: list[str], fragment: bool
 ) -> None:
     main = _largest(parts, roots)
     report = findings.warn if fragment else findings.reject
@@ -275,7 +275,7 @@ def _largest(parts: RobotParts, roots: list[str]) -> str:
     return max(roots, key=size)
 
 
-def _tell_depth(parts: RobotParts, findings: Findings, tree: Tree) -> None:
+def _tell_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None:
     """Warn of a chain that a browser cannot draw: it stacks a call per link."""
     children: dict[str, list[str]] = {}
     for joint in tree.joints.values():

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from sambot_viz.errors import did_you_mean
+from sambot_viz.geometry import Vector3
 from sambot_viz.robot.model import (
     Box,
     Capsule,
@@ -22,10 +23,9 @@ from sambot_viz.robot.model import (
     MeshFile,
     Shape,
     Sphere,
-    Vector3,
 )
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.material_table import MaterialTable
 from sambot_viz.robot.xml.parse import Element
 
@@ -39,7 +39,7 @@ class LinkReader:
     """Reads <link> elements one after the other, sharing the material table."""
 
     def __init__(
-        self, findings: Findings, materials: MaterialTable, find_mesh: FindMesh
+        self, findings: UrdfFindings, materials: MaterialTable, find_mesh: FindMesh
     ) -> None:
         self._findings = findings
         self._materials = materials

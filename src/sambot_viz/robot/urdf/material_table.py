@@ -8,7 +8,7 @@ from pathlib import Path
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.model import Material, Rgba
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.numbers import BadNumber, read_numbers
 from sambot_viz.robot.xml.parse import Element
 
@@ -39,7 +39,7 @@ class MaterialTable:
     the first definition of a name wins for the whole robot.
     """
 
-    def __init__(self, findings: Findings, find_texture: FindTexture) -> None:
+    def __init__(self, findings: UrdfFindings, find_texture: FindTexture) -> None:
         self._findings = findings
         self._find_texture = find_texture
         self._known: dict[str, _Known] = {}

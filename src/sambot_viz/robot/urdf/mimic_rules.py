@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.model import Joint
-from sambot_viz.robot.urdf.findings import Findings
+from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.parse import Element
 
 
 def check_mimics(
-    joints: Mapping[str, Joint], elements: Mapping[str, Element], findings: Findings
+    joints: Mapping[str, Joint], elements: Mapping[str, Element], findings: UrdfFindings
 ) -> None:
     """Report unknown, immovable and circular mimic joints; ROS's parser sees none."""
     told: set[str] = set()
@@ -44,7 +44,7 @@ def check_mimics(
 
 
 def _tell_ring(
-    joint: Joint, joints: Mapping[str, Joint], element: Element, findings: Findings
+    joint: Joint, joints: Mapping[str, Joint], element: Element, findings: UrdfFindings
 ) -> set[str]:
     """Report the ring that a joint's mimic chain runs into, if the joint is in it."""
     chain = [joint.name]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sambot_viz.robot.model import Joint, Link
-from sambot_viz.robot.urdf.findings import Findings, tag_text
+from sambot_viz.robot.urdf.findings import UrdfFindings, tag_text
 from sambot_viz.robot.urdf.joints import read_joint
 from sambot_viz.robot.urdf.link_tree import RobotParts, build_tree, is_fragment
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
@@ -42,7 +42,7 @@ class UrdfRobot:
 
 def read_urdf(
     document: Element,
-    findings: Findings,
+    findings: UrdfFindings,
     find_mesh: FindMesh,
     find_texture: FindTexture,
     expanded: bool,
@@ -82,7 +82,7 @@ def read_urdf(
     return UrdfRobot(name, tree.root, tree.links, tree.joints)
 
 
-def _robot_element(document: Element, findings: Findings) -> Element | None:
+def _robot_element(document: Element, findings: UrdfFindings) -> Element | None:
     if document.tag == "robot":
         return document
     inner = document.find("robot")
@@ -110,7 +110,7 @@ def _robot_element(document: Element, findings: Findings) -> Element | None:
     return None
 
 
-def _check_version(robot: Element, findings: Findings) -> None:
+def _check_version(robot: Element, findings: UrdfFindings) -> None:
     version = robot.get("version")
     if version is None or version in ("1.0", "1.00"):
         return
@@ -124,7 +124,7 @@ def _check_version(robot: Element, findings: Findings) -> None:
     )
 
 
-def _robot_name(parts: RobotParts, findings: Findings, expanded: bool) -> str:
+def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> str:
     robot = parts.robot
     name = robot.get("name")
     if name:
@@ -151,7 +151,7 @@ def _robot_name(parts: RobotParts, findings: Findings, expanded: bool) -> str:
     return "robot"
 
 
-def _read_links(parts: RobotParts, reader: LinkReader, findings: Findings) -> None:
+def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -> None:
     for element in parts.robot.find_all("link"):
         name = element.get("name")
         if not name:
@@ -189,7 +189,7 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: Findings) -> No
         parts.links[name] = reader.read(element, name)
 
 
-def _check_slashes(parts: RobotParts, findings: Findings) -> None:
+def _check_slashes(parts: RobotParts, findings: UrdfFindings) -> None:
     """Reject links that are one frame for tf2, which strips one slash (§4)."""
     for name, element in parts.link_elements.items():
         twin = parts.link_elements.get(name[1:]) if name.startswith("/") else None
@@ -203,7 +203,7 @@ def _check_slashes(parts: RobotParts, findings: Findings) -> None:
             )
 
 
-def _tell_nameless(robot: Element, element: Element, findings: Findings) -> None:
+def _tell_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
     named = {link.get("name") for link in robot.find_all("link")}
     wanted: list[str] = []
     for joint in robot.find_all("joint"):
@@ -221,7 +221,7 @@ def _tell_nameless(robot: Element, element: Element, findings: Findings) -> None
     )
 
 
-def _read_joints(parts: RobotParts, findings: Findings) -> None:
+def _read_joints(parts: RobotParts, findings: UrdfFindings) -> None:
     for element in parts.robot.find_all("joint"):
         joint = read_joint(element, findings)
         first = parts.joint_elements.get(element.get("name") or "")
@@ -247,7 +247,7 @@ def _excuse(parts: RobotParts, joint: Element) -> None:
     parts.excused.update([link] if link else parts.links)
 
 
-def _tell_no_links(robot: Element, findings: Findings) -> None:
+def _tell_no_links(robot: Element, findings: UrdfFindings) -> None:
     inside = next(
         (e for e in robot.iter() if e.tag == "link" and e.parent is not robot), None
     )

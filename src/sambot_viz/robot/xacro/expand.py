@@ -19,8 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xacro.diagnose.prefix import missing_prefix
 from sambot_viz.robot.xacro.result import (
     Definition,

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import secrets
-import stat
 from pathlib import Path
 
 import yaml
 
 from sambot_viz.errors import ConfigError, Problem
+from sambot_viz.files import write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
@@ -138,9 +137,8 @@ class Document:
             ConfigError: it cannot be written; the old file is untouched.
         """
         text = self.to_yaml()
-        target = Path(os.path.realpath(path))
         try:
-            _write_atomically(target, text.encode("utf-8"))
+            write_atomically(Path(path), text.encode("utf-8"))
         except OSError as error:
             why = error.strerror or str(error)
             raise _error(
@@ -151,23 +149,6 @@ class Document:
             ) from error
         self._saved = copied(self.root)
         self.file = os.fspath(path)
-
-
-def _write_atomically(target: Path, data: bytes) -> None:
-    temporary = target.with_name(f".{target.name}.{secrets.token_hex(4)}")
-    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
-    handle = os.open(temporary, flags, 0o666)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        if target.exists():
-            temporary.chmod(stat.S_IMODE(target.stat().st_mode))
-        temporary.replace(target)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
 
 
 def _reads_as(text: str, root: Node) -> bool:

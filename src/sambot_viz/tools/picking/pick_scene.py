@@ -12,8 +12,9 @@ from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.robot_model.link_settings import RobotSettings
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.displays.tf.tf import TfDisplay
+from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.mesh import MeshError, apply_scale
-from sambot_viz.robot.model import Geometry, Matrix, MeshFile, Robot, Shape, Sphere
+from sambot_viz.robot.model import Geometry, MeshFile, Robot, Shape, Sphere
 from sambot_viz.tools.picking.raycast import (
     Array,
     Solid,

@@ -14,14 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.robot.model import (
-    Box,
-    Capsule,
-    Cylinder,
-    Matrix,
-    Sphere,
-    Vector3,
-)
+from sambot_viz.geometry import Matrix, Vector3
+from sambot_viz.robot.model import Box, Capsule, Cylinder, Sphere
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.integer[Any]]

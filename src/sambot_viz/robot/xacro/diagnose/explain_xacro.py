@@ -10,8 +10,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.errors import Problem, did_you_mean
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place, Problem, did_you_mean
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion
 from sambot_viz.robot.xacro.diagnose.unknown_names import (
     block_trouble,

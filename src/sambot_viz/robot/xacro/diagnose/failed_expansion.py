@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement, SourceSet
 from sambot_viz.robot.xacro.result import XacroFailure
 

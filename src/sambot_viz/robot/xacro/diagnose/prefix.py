@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xml.parse import Element
 
 _WORDS = ("include", "property", "macro", "arg")

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place
 from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 

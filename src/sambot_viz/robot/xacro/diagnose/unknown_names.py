@@ -5,8 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 
-from sambot_viz.errors import Problem, did_you_mean
-from sambot_viz.robot.model import Place
+from sambot_viz.errors import Place, Problem, did_you_mean
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion, line_in
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement
 

@@ -1,0 +1,151 @@
+"""Rotations and rigid transforms as numbers; the one place where they are converted.
+
+Quaternions say their order in their name: RViz and ROS write (x, y, z, w), viser wants
+(w, x, y, z). `T_parent_child` is a (4, 4) float64 matrix that maps coordinates of the
+child to coordinates of the parent: ``p_parent = T_parent_child @ p_child``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, cast
+
+import numpy as np
+import numpy.typing as npt
+
+Matrix = npt.NDArray[np.float64]
+Vector3 = tuple[float, float, float]
+Xyzw = tuple[float, float, float, float]
+"""A rotation as ROS and RViz write it."""
+Wxyz = tuple[float, float, float, float]
+"""A rotation as viser wants it."""
+
+
+def finite(value: Any) -> float | None:
+    """A value as a finite float, or None when it is not one (text, bool, NaN, …)."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+        return None
+    try:
+        number = float(cast("float", value))
+    except (TypeError, OverflowError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> list[list[float]]:
+    """The (3, 3) rotation Rz(yaw) @ Ry(pitch) @ Rx(roll), as URDF means rpy [rad]."""
+    cr, sr = math.cos(roll), math.sin(roll)
+    cp, sp = math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    return [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+
+
+def rotation_from_axis(axis: Vector3, angle: float) -> list[list[float]]:
+    """The (3, 3) rotation by an angle [rad] about an axis of length 1 (Rodrigues)."""
+    x, y, z = axis
+    c, s = math.cos(angle), math.sin(angle)
+    k = 1.0 - c
+    return [
+        [c + k * x * x, k * x * y - s * z, k * x * z + s * y],
+        [k * x * y + s * z, c + k * y * y, k * y * z - s * x],
+        [k * x * z - s * y, k * y * z + s * x, c + k * z * z],
+    ]
+
+
+def rotation_from_xyzw(xyzw: Xyzw) -> list[list[float]]:
+    """The (3, 3) rotation of a quaternion that need not be quite of length 1."""
+    x, y, z, w = xyzw
+    s = 2.0 / (x * x + y * y + z * z + w * w)
+    return [
+        [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+        [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+        [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
+    ]
+
+
+def xyzw_from_rpy(roll: float, pitch: float, yaw: float) -> Xyzw:
+    """The unit quaternion (x, y, z, w) of fixed-axis angles [rad], tf2's setRPY."""
+    cr, sr = math.cos(roll / 2), math.sin(roll / 2)
+    cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
+    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def xyzw_product(a: Xyzw, b: Xyzw) -> Xyzw:
+    """The rotation b followed by the rotation a, both (x, y, z, w)."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by + ay * bw + az * bx - ax * bz,
+        aw * bz + az * bw + ax * by - ay * bx,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def xyzw_from_matrix(matrix: Matrix) -> Xyzw:
+    """The unit quaternion (x, y, z, w) of a (4, 4) transform, with KDL's sign."""
+    # Dividing by the largest of the four components keeps all digits.
+    rows: list[list[float]] = matrix.tolist()
+    trace = rows[0][0] + rows[1][1] + rows[2][2]
+    if trace > 0:
+        root = math.sqrt(trace + 1.0)
+        s = 0.5 / root
+        return (
+            s * (rows[2][1] - rows[1][2]),
+            s * (rows[0][2] - rows[2][0]),
+            s * (rows[1][0] - rows[0][1]),
+            0.5 * root,
+        )
+    i = max(range(3), key=lambda k: rows[k][k])
+    j, k = (i + 1) % 3, (i + 2) % 3
+    root = math.sqrt(rows[i][i] - rows[j][j] - rows[k][k] + 1.0)
+    s = 0.5 / root
+    xyzw = [0.0, 0.0, 0.0, s * (rows[k][j] - rows[j][k])]
+    xyzw[i] = 0.5 * root
+    xyzw[j] = s * (rows[j][i] + rows[i][j])
+    xyzw[k] = s * (rows[k][i] + rows[i][k])
+    return (xyzw[0], xyzw[1], xyzw[2], xyzw[3])
+
+
+def wxyz_from_matrix(T: Matrix) -> Wxyz:
+    """The rotation of a (4, 4) or (3, 3) matrix as a unit quaternion (w, x, y, z)."""
+    x, y, z, w = xyzw_from_matrix(T)
+    return (w, x, y, z)
+
+
+def wxyz_from_z(direction: Vector3) -> Wxyz:
+    """The shortest rotation that turns +z into a direction (any length but 0)."""
+    x, y, z = direction
+    norm = math.sqrt(x * x + y * y + z * z)
+    x, y, z = x / norm, y / norm, z / norm
+    if z < -0.999999:
+        return (0.0, 1.0, 0.0, 0.0)
+    w = 1.0 + z
+    length = math.sqrt(w * w + x * x + y * y)
+    return (w / length, -y / length, x / length, 0.0)
+
+
+def inverse_matrix(matrix: Matrix) -> Matrix:
+    """The inverse of a rigid (4, 4) transform, read-only."""
+    # Twelve products of Python floats take half the time of slicing with numpy.
+    (a, b, c, x), (d, e, f, y), (g, h, i, z), _ = matrix.tolist()
+    inverse = np.array(
+        (
+            (a, d, g, -(a * x + d * y + g * z)),
+            (b, e, h, -(b * x + e * y + h * z)),
+            (c, f, i, -(c * x + f * y + i * z)),
+            (0.0, 0.0, 0.0, 1.0),
+        )
+    )
+    inverse.flags.writeable = False
+    return inverse
