@@ -1,11 +1,25 @@
-"""The lines of a grid (spec/rviz-core.md §4.2, §10 G-01 … G-04)."""
+"""Grid: its lines, its limits, and when it is sent."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
+import viser
 
-from sambot_viz.displays.grid import grid_segments
+from sambot_viz.displays.grid import (
+    MOST_LINES,
+    drawn_cells,
+    grid_segments,
+    line_count,
+)
+from sambot_viz.frames import Transform
+from sambot_viz.session import Session
+
+Show = Callable[..., Session]
+Nodes = Callable[[Session], dict[str, viser.SceneNodeHandle]]
 
 
 def test_the_default_grid_has_22_lines_of_ten_metres() -> None:
@@ -35,3 +49,93 @@ def test_the_number_of_lines_follows_the_formula() -> None:
         uprights = (cells + 1) ** 2 if layers else 0
         expected = 2 * (cells + 1) * (layers + 1) + uprights
         assert len(grid_segments(cells, layers, 0.5)) == expected
+
+
+GRID = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Grid
+      Enabled: true
+      Name: Floor
+{body}
+    - {{Class: rviz_default_plugins/Axes, Enabled: true, Name: Axes}}
+  Global Options: {{Fixed Frame: base}}
+"""
+
+
+@pytest.fixture
+def grid(show: Show) -> Show:
+    """``grid("      Alpha: 1")``: a session with a Grid and an Axes display."""
+
+    def open_session(body: str = "", **more: Any) -> Session:
+        return show(config=GRID.format(body=body), **more)
+
+    return open_session
+
+
+@pytest.mark.parametrize("cells", [10**6, 2**31 - 1])
+@pytest.mark.parametrize("layers", [0, 3, 2**31 - 1])
+def test_a_grid_of_far_too_many_cells_is_drawn_with_fewer(
+    cells: int, layers: int
+) -> None:
+    drawn = drawn_cells(cells, layers)
+    assert len(grid_segments(*drawn, 1.0)) == line_count(*drawn) <= MOST_LINES
+    assert drawn[0] >= 20
+
+
+def test_a_grid_that_can_be_drawn_is_drawn_as_it_is() -> None:
+    assert drawn_cells(1000, 0) == (1000, 0)
+    assert drawn_cells(100, 100) == (100, 100)
+
+
+def test_the_status_reports_fewer_cells_and_the_file_keeps_its_count(
+    grid: Show,
+) -> None:
+    session = grid("      Plane Cell Count: 1000000000")
+    assert session.displays[0].status.rows["Cells"].level == "Warn"
+    assert "Plane Cell Count: 1000000000" in session.config.to_yaml()
+    session.set_property(session.displays[0], "Plane Cell Count", 10)
+    assert set(session.displays[0].status.rows) == {"Transform"}
+    session.set_property(session.displays[0], "Plane Cell Count", 2**31 - 1)
+    assert session.displays[0].config.get("Plane Cell Count") == 2**31 - 1
+    assert "Cells" in session.displays[0].status.rows
+
+
+def test_a_grid_and_axes_that_have_not_changed_are_not_sent_again(
+    grid: Show, nodes: Nodes
+) -> None:
+    session = grid()
+    before = nodes(session)
+    session.refresh()
+    session.set_static_transform("base", "laser", Transform.identity())
+    session.set_global("Background Color", (255, 255, 255))
+    after = nodes(session)
+    assert len(before) > 1
+    assert all(after[name] is handle for name, handle in before.items())
+    session.set_property(session.displays[0], "Alpha", 0.25)
+    changed = nodes(session)
+    assert [n for n in before if changed[n] is not before[n]] == [
+        name for name in before if name.endswith(session.displays[0].key)
+    ]
+
+
+def test_ribbons_are_drawn_again_for_another_background(
+    grid: Show, nodes: Nodes
+) -> None:
+    session = grid("      Line Style: Billboards")
+    before = nodes(session)
+    session.set_global("Background Color", (255, 255, 255))
+    assert any(nodes(session)[name] is not before[name] for name in before)
+
+
+def test_a_grid_in_an_unknown_frame_is_not_drawn_and_says_so(
+    grid: Show, nodes: Nodes
+) -> None:
+    session = grid("      Reference Frame: nowhere")
+    display = session.displays[0]
+    status = display.status.rows["Transform"]
+    assert status.text == "Could not transform from [nowhere] to [base]"
+    assert not any(name.endswith(display.key) for name in nodes(session))
+    session.set_property(display, "Reference Frame", "upper")
+    assert display.status.rows["Transform"].text == "Ok"
+    assert any(name.endswith(display.key) for name in nodes(session))

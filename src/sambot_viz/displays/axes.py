@@ -1,10 +1,11 @@
-"""Axes: the axes of one frame, larger than TF's (spec/rviz-core.md §7)."""
+"""Axes: the axes of one frame, larger than those that TF draws."""
 
 from __future__ import annotations
 
-from sambot_viz.displays.display import Display, Handle, remove_all
+from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.scene.kept_nodes import KeptNodes
 from sambot_viz.displays.scene.solids import add_axes
-from sambot_viz.rviz import FIXED_FRAME, FloatProperty, TfFrameProperty
+from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, FloatProperty, TfFrameProperty
 
 
 class AxesDisplay(Display):
@@ -34,23 +35,28 @@ class AxesDisplay(Display):
         ),
     )
 
-    _nodes: tuple[Handle, ...] = ()
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """See `Display`."""
+        super().__init__(context, config, key)
+        self._nodes = KeptNodes()
 
     def draw(self) -> None:
-        """Draw the axes anew."""
-        self.clear()
+        """Draw the axes, unless they are drawn already."""
         frame = self.context.frame(self.config.get("Reference Frame"))
         problem = self.context.lookup_problem(frame)
         if problem is not None:
+            self.clear()
             self.status.set("Transform", "Error", problem)
             return
         self.status.set("Transform", "Ok", "Transform OK")
         name = f"{self.context.above(frame)}/{self.key}"
         length = float(self.config.get("Length"))
         diameter = float(self.config.get("Radius"))
-        self._nodes = (add_axes(self.context.scene, name, length, diameter),)
+        self._nodes.show(
+            (name, length, diameter),
+            lambda: (add_axes(self.context.scene, name, length, diameter),),
+        )
 
     def clear(self) -> None:
         """Take the axes out of the scene."""
-        remove_all(self._nodes)
-        self._nodes = ()
+        self._nodes.remove()

@@ -13,7 +13,6 @@ from typing import ClassVar
 
 import viser
 
-from sambot_viz import viser_private
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
@@ -152,18 +151,3 @@ class Display:
     def frames_moved(self, frames: Iterable[str]) -> None:
         """Some frames have a new pose in their parents; the nodes are moved already."""
         del frames
-
-
-Handle = viser.SceneNodeHandle
-
-
-def remove_all(handles: Iterable[Handle]) -> None:
-    """Take nodes out of the scene, also when their parent is gone already."""
-    for handle in handles:
-        if not viser_private.is_removed(handle):
-            handle.remove()
-
-
-def any_gone(handles: Iterable[Handle]) -> bool:
-    """Whether some of the nodes went with the frame they hung below."""
-    return any(viser_private.is_removed(handle) for handle in handles)

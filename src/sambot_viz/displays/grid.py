@@ -1,18 +1,20 @@
-"""Grid: lines in a plane of a frame (spec/rviz-core.md §4)."""
+"""Grid: lines in a plane of a frame."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-import viser
 
-from sambot_viz.displays.display import Display, Handle, remove_all
+from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.scene.kept_nodes import Handle, KeptNodes
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
 from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.displays.status import Status
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import (
     FIXED_FRAME,
     ColorProperty,
+    DisplayConfig,
     EnumProperty,
     FloatProperty,
     IntProperty,
@@ -26,7 +28,25 @@ _PLANES: dict[str, Wxyz] = {
     "XZ": (1.0, 0.0, 0.0, 0.0),
     "YZ": (0.5, 0.5, -0.5, 0.5),
 }
-"""Turns the grid's own axes (normal along y) into the plane (§4.2)."""
+"""Turns the grid's own axes (normal along y) into the plane, as RViz does."""
+MOST_LINES = 100_000
+"""A grid with more lines (2.4 MB) is drawn with fewer cells."""
+
+
+def line_count(cells: int, layers: int) -> int:
+    """How many lines a grid has."""
+    uprights = (cells + 1) ** 2 if layers else 0
+    return 2 * (cells + 1) * (layers + 1) + uprights
+
+
+def drawn_cells(cells: int, layers: int) -> tuple[int, int]:
+    """The counts to draw: halved until the grid has at most `MOST_LINES` lines."""
+    while line_count(cells, layers) > MOST_LINES:
+        if layers > cells:
+            layers //= 2
+        else:
+            cells //= 2
+    return cells, layers
 
 
 def grid_segments(cells: int, layers: int, size: float) -> npt.NDArray[np.float32]:
@@ -123,38 +143,62 @@ class GridDisplay(Display):
         ),
     )
 
-    _nodes: tuple[Handle, ...] = ()
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """See `Display`."""
+        super().__init__(context, config, key)
+        self._nodes = KeptNodes()
 
     def draw(self) -> None:
-        """Draw the grid anew: a handful of bytes, so nothing is worth keeping."""
-        self.clear()
+        """Draw the grid, unless it is drawn already."""
         frame = self.context.frame(self.config.get("Reference Frame"))
         if self.context.lookup_problem(frame) is not None:
-            self.status.set(
-                "Transform",
-                "Error",
-                f"Could not transform from [{frame}] to [{self.context.fixed_frame}]",
-            )
+            self.clear()
+            fixed = self.context.fixed_frame
+            sentence = f"Could not transform from [{frame}] to [{fixed}]"
+            self.status.replace({"Transform": Status("Error", sentence)})
             return
-        self.status.set("Transform", "Ok", "Ok")
-        self._nodes = (self._add_lines(f"{self.context.above(frame)}/{self.key}"),)
+        name = f"{self.context.above(frame)}/{self.key}"
+        state = (name, self._background(), *self.config.properties.values())
+        self._nodes.show(state, lambda: (self._add_lines(name),))
+        self._report()
 
-    def _add_lines(self, name: str) -> viser.SceneNodeHandle:
+    def _background(self) -> Rgb | None:
+        """What the colour is blended with: ribbons have no alpha of their own."""
+        ribbons = self.config.get("Line Style") == "Billboards"
+        return self.context.background if ribbons else None
+
+    def _counts(self) -> tuple[int, int]:
+        """The cells along each side and along the normal, as they are drawn."""
+        cells = int(self.config.get("Plane Cell Count"))
+        return drawn_cells(cells, int(self.config.get("Normal Cell Count")))
+
+    def _report(self) -> None:
+        rows = {"Transform": Status("Ok", "Ok")}
+        cells, layers = self._counts()
+        if (cells, layers) != (
+            self.config.get("Plane Cell Count"),
+            self.config.get("Normal Cell Count"),
+        ):
+            rows["Cells"] = Status(
+                "Warn",
+                f"Too many cells to draw: {cells} are drawn along each side"
+                + (f" and {layers} along the normal" if layers else ""),
+            )
+        self.status.replace(rows)
+
+    def _add_lines(self, name: str) -> Handle:
         get, scene = self.config.get, self.context.scene
-        segments = grid_segments(
-            int(get("Plane Cell Count")),
-            int(get("Normal Cell Count")),
-            float(get("Cell Size")),
-        )
+        segments = grid_segments(*self._counts(), float(get("Cell Size")))
         color: Rgb = get("Color")
         alpha = float(get("Alpha"))
         wxyz = _PLANES.get(str(get("Plane")), _PLANES["XY"])
         offset: Vector3 = get("Offset")
-        if get("Line Style") == "Billboards":
+        background = self._background()
+        if background is not None:
             return scene.add_line_segments(
                 name,
                 segments,
-                colors=_blend(color, self.context.background, alpha),
+                colors=_blend(color, background, alpha),
                 thickness=float(get("Line Style/Line Width")),
                 thickness_units="world",
                 wxyz=wxyz,
@@ -171,8 +215,7 @@ class GridDisplay(Display):
 
     def clear(self) -> None:
         """Take the grid out of the scene."""
-        remove_all(self._nodes)
-        self._nodes = ()
+        self._nodes.remove()
 
 
 def _blend(color: Rgb, background: Rgb, alpha: float) -> Rgb:

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 import viser
 
-from sambot_viz.displays.display import any_gone, remove_all
+from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
 from sambot_viz.errors import FrameError
 from sambot_viz.panels.widgets import Input, finite, on_click, on_hold, watch
 from sambot_viz.session import Event, Session

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.display import any_gone, remove_all
+from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
 from sambot_viz.robot.model import Joint
 from sambot_viz.session import Session
 

@@ -1,4 +1,4 @@
-"""Global Options: the first row of the displays (spec/rviz-core.md §2.1)."""
+"""Global Options: the first row of the displays."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ GLOBAL_OPTIONS: tuple[Property, ...] = (
         default=30,
         minimum=1,
         unit="Hz",
-        help="How often what moves by itself is drawn.",
+        help="How often what moves by itself is drawn, at most 60 times a second.",
+        acts_up_to=60,
     ),
     BoolProperty(
         "Default Light",

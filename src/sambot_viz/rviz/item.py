@@ -124,6 +124,11 @@ class ConfigItem:
         except KeyError:
             raise self._unknown(path) from None
 
+    def acting(self, path: str) -> Any:
+        """The value of a property as it acts, within what can be drawn."""
+        value = self.get(path)
+        return self._declared[path].property.acting(value)
+
     def set(self, path: str, value: object) -> Any:
         """Change a property here and in the document.
 

@@ -370,7 +370,7 @@ class Session:
     @property
     def period(self) -> float:
         """Shortest time between two pictures of a stream [s]."""
-        return 1.0 / max(1, int(self.config.global_options.get("Frame Rate")))
+        return 1.0 / max(1, int(self.config.global_options.acting("Frame Rate")))
 
     def _apply_boxes(self) -> None:
         """Show what is ticked itself and in all groups above it."""

@@ -223,12 +223,51 @@ def test_a_list_where_a_frame_belongs_keeps_the_default():
 def test_a_broken_regular_expression_filters_nothing_and_is_kept():
     value, said = read(RegexProperty("Filter (whitelist)"), "'*wheel'")
     assert value == "*wheel"
-    assert "is no regular expression" in said[0]
+    assert "is not a regular expression" in said[0]
     assert RegexProperty.compiled(value) is None
     assert RegexProperty.compiled("") is None
     pattern = RegexProperty.compiled("wheel$")
     assert pattern is not None
-    assert pattern.search("left_wheel")
+    assert pattern.matches("left_wheel")
+    assert not pattern.matches("wheel_left")
+
+
+@pytest.mark.parametrize("expression", [r"((((\w+)+)+)+)+!", "(a+)+$", "(a|aa)+$"])
+def test_an_expression_that_would_backtrack_for_ever_is_searched_at_once(expression):
+    pattern = RegexProperty.compiled(expression)
+    assert pattern is not None
+    assert not pattern.matches("a" * 5000 + "\n")
+
+
+@pytest.mark.parametrize(
+    "expression", ["(?!left)wheel", r"(a)\1", "a" * 1001, "\ud800"]
+)
+def test_an_expression_that_cannot_be_searched_in_linear_time_filters_nothing(
+    expression,
+):
+    assert RegexProperty.compiled(expression) is None
+
+
+def test_a_name_with_half_a_character_can_be_searched():
+    pattern = RegexProperty.compiled("wheel")
+    assert pattern is not None
+    assert pattern.matches("\ud800wheel")
+
+
+@pytest.mark.parametrize(
+    "prop", [RegexProperty("Filter"), StringProperty("TF Prefix"), TfFrameProperty("F")]
+)
+def test_a_text_that_is_set_has_at_most_1000_characters(prop):
+    assert prop.coerce("x" * 1000) == "x" * 1000
+    with pytest.raises(PropertyError, match="at most 1000 characters"):
+        prop.coerce("x" * 1001)
+
+
+def test_a_frame_rate_above_60_is_kept_and_acts_as_60():
+    prop = IntProperty("Frame Rate", default=30, minimum=1, acts_up_to=60)
+    value, said = read(prop, "2000")
+    assert (value, prop.acting(value), prop.acting(25)) == (2000, 60, 25)
+    assert said == ["'Frame Rate' is 2000, which acts as 60 here"]
 
 
 def test_a_map_gives_its_value_and_a_flat_text_gives_the_same():

@@ -9,10 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.displays.display import DisplayContext, Handle, any_gone, remove_all
+from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.link_settings import RobotSettings
 from sambot_viz.displays.robot_model.trail import Trail
+from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes, sphere
 from sambot_viz.geometry import Vector3, wxyz_from_matrix

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.display import Handle, any_gone, remove_all
+from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import AssetContent, SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 import viser
 
-from sambot_viz.displays.display import (
-    Display,
-    DisplayContext,
+from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.scene.kept_nodes import (
     Handle,
+    KeptNodes,
     any_gone,
     remove_all,
 )
-from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes
 from sambot_viz.displays.status import Status
@@ -85,14 +85,6 @@ class _FrameMarks:
         return tuple(h for h in (self.axes, self.name) if h is not None)
 
 
-@dataclass
-class _Arrows:
-    """The arrows of all children of one frame: they turn with the parent only."""
-
-    state: tuple[object, ...] = ()
-    handles: tuple[Handle, ...] = field(default_factory=tuple)
-
-
 class TfDisplay(Display):
     """The frames: axes, names, and arrows from child to parent."""
 
@@ -156,18 +148,19 @@ class TfDisplay(Display):
         """See `Display`."""
         super().__init__(context, config, key)
         self._marks: dict[str, _FrameMarks] = {}
-        self._arrows: dict[str, _Arrows] = {}
+        self._arrows: dict[str, KeptNodes] = {}
 
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
         tree, nodes = self.context.tree, self.context.nodes
         boxes = frame_boxes(self.config)
+        passes = self._filter()
         frames = {
             frame: None
             for frame in tree.frames
             if nodes.connected(frame)
-            and self._passes(frame)
             and boxes.get(frame, boxes[ALL_FRAMES])
+            and passes(frame)
         }
         for frame in [f for f in self._marks if f not in frames]:
             self._drop(self._marks.pop(frame))
@@ -175,19 +168,23 @@ class TfDisplay(Display):
             self._draw_marks(frame)
         parents = {tree.parent(f) for f in frames}
         for parent in [p for p in self._arrows if p not in parents]:
-            remove_all(self._arrows.pop(parent).handles)
+            self._arrows.pop(parent).remove()
         for parent in parents:
             if parent is not None:
                 self._draw_arrows(parent)
         self._report()
 
-    def _passes(self, frame: str) -> bool:
-        """Whether the filters let a frame through (§6.1)."""
+    def _filter(self) -> Callable[[str], bool]:
+        """What tells whether the two filters let a frame through."""
         whitelist = RegexProperty.compiled(self.config.get("Filter (whitelist)"))
         blacklist = RegexProperty.compiled(self.config.get("Filter (blacklist)"))
-        if whitelist is not None and not whitelist.search(frame):
-            return False
-        return blacklist is None or not blacklist.search(frame)
+
+        def passes(frame: str) -> bool:
+            if whitelist is not None and not whitelist.matches(frame):
+                return False
+            return blacklist is None or not blacklist.matches(frame)
+
+        return passes
 
     def _draw_marks(self, frame: str) -> None:
         path = self.context.nodes.path(frame)
@@ -236,20 +233,16 @@ class TfDisplay(Display):
                 arrow = frame_arrow(position_of(T_parent_child), scale)
                 if arrow is not None and child in self._marks:
                     arrows.append(arrow)
-        known = self._arrows.setdefault(parent, _Arrows())
-        state = (path, tuple(arrows))
-        if state == known.state and not any_gone(known.handles):
+        if path is None or not arrows:
+            self._arrows.pop(parent, KeptNodes()).remove()
             return
-        remove_all(known.handles)
-        known.state, known.handles = state, ()
-        if arrows and path is not None:
-            known.handles = add_arrows(
-                self.context.scene,
-                f"{path}/{self.key}",
-                arrows,
-                SHAFT_COLOR,
-                HEAD_COLOR,
-            )
+        name = f"{path}/{self.key}"
+        self._arrows.setdefault(parent, KeptNodes()).show(
+            (name, *arrows),
+            lambda: add_arrows(
+                self.context.scene, name, arrows, SHAFT_COLOR, HEAD_COLOR
+            ),
+        )
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
@@ -287,7 +280,7 @@ class TfDisplay(Display):
         for marks in self._marks.values():
             self._drop(marks)
         for arrows in self._arrows.values():
-            remove_all(arrows.handles)
+            arrows.remove()
         self._marks.clear()
         self._arrows.clear()
 

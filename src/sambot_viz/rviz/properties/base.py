@@ -56,6 +56,7 @@ class Property:
             hidden property is saved all the same.
         minimum: least value; smaller ones are raised to it.
         maximum: greatest value; greater ones are lowered to it.
+        acts_up_to: greater values are kept, and act as this one.
         options: what can be chosen.
         read_only: shown, but never read from a file, set or saved.
         support: how far we show what it says.
@@ -75,6 +76,7 @@ class Property:
     hidden_unless: tuple[str, object] | None = None
     minimum: Any = None
     maximum: Any = None
+    acts_up_to: Any = None
     options: tuple[str, ...] = ()
     read_only: bool = False
     support: Support = "full"
@@ -135,6 +137,11 @@ class Property:
             PropertyError: it cannot be meant.
         """
         raise PropertyError(self.name, value, self._expected)
+
+    def acting(self, value: Any) -> Any:
+        """The value that one acts as (see `acts_up_to`)."""
+        limit = self.acts_up_to
+        return value if limit is None or value <= limit else limit
 
     def write(self, value: Any) -> str:
         """The text of a value, exactly as RViz saves it (§1.12)."""

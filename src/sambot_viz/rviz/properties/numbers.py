@@ -101,6 +101,14 @@ class _NumberProperty(Property):
                 f"{self.write(clamped)} is used, as in RViz",
                 f"write {self._expected}",
             )
+        acting = self.acting(clamped)
+        if acting != clamped:
+            limit = self.write(acting)
+            report(
+                node,
+                f"'{self.name}' is {node.text}, which acts as {limit} here",
+                f"write at most {limit}",
+            )
         return clamped
 
 

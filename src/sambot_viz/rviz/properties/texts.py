@@ -1,16 +1,18 @@
-"""Texts, options, frames and topics (spec/rviz-core.md §1.3, §1.7)."""
+"""Properties that hold texts: free text, options, frames, topics, expressions."""
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from sambot_viz.rviz.properties.base import Property, PropertyError, Report
 from sambot_viz.rviz.properties.numbers import IntProperty
+from sambot_viz.rviz.properties.pattern import Pattern, compile_pattern
 from sambot_viz.rviz.yaml.nodes import Scalar
 
 FIXED_FRAME = "<Fixed Frame>"
 """What a frame property says when it means the fixed frame, whatever that is."""
+LONGEST_TEXT = 1000
+"""Longest text that can be set, in characters; files may hold longer ones."""
 
 
 @dataclass(frozen=True)
@@ -29,13 +31,16 @@ class StringProperty(Property):
 
 
 def checked_text(name: str, value: object) -> str:
-    """A text that can be saved.
+    """Check a text that a program or a browser sets.
 
     Raises:
-        PropertyError: it is no text, or has half a surrogate pair, which no file holds.
+        PropertyError: it is not a text, is longer than 1000 characters, or has half a
+            surrogate pair, which no file can hold.
     """
     if not isinstance(value, str):
         raise PropertyError(name, value, "a text")
+    if len(value) > LONGEST_TEXT:
+        raise PropertyError(name, value, f"a text of at most {LONGEST_TEXT} characters")
     if any("\ud800" <= character <= "\udfff" for character in value):
         raise PropertyError(name, value, "a text without half characters")
     return str(value)
@@ -51,20 +56,18 @@ class RegexProperty(StringProperty):
     """A regular expression, searched anywhere; empty or broken it filters nothing."""
 
     @staticmethod
-    def compiled(value: str) -> re.Pattern[str] | None:
+    def compiled(value: str) -> Pattern | None:
         """The expression; None when it filters nothing."""
-        try:
-            return re.compile(value) if value else None
-        except re.error:
-            return None
+        return compile_pattern(value) if value else None
 
     def _parse(self, node: Scalar, report: Report) -> str:
         if node.text and self.compiled(node.text) is None:
             report(
                 node,
-                f"'{self.name}' is no regular expression: {node.text}; it filters "
-                "nothing, as in RViz",
-                "mend the expression or leave it empty",
+                f"'{self.name}' is not a regular expression that can be searched here: "
+                f"{node.text[:200]}; it filters nothing",
+                "fix the expression (look-ahead and back references are not supported) "
+                "or leave it empty",
             )
         return node.text
 
