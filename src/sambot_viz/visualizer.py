@@ -2,33 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future
+import functools
+import inspect
+from collections.abc import Callable, Mapping
 from functools import partial
-from pathlib import Path
 from types import MappingProxyType, TracebackType
+from typing import Any, Concatenate, ParamSpec
 
 import viser
 
-from sambot_viz import bundled
-from sambot_viz.background import Loading, finished, in_thread
-from sambot_viz.bundled import find
-from sambot_viz.errors import Problem, ServerError
+from sambot_viz.errors import ServerError
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.frames.static_transform import StaticTransform
 from sambot_viz.geometry import Vector3
-from sambot_viz.open_config import declarations, load_config
-from sambot_viz.robot.load import load_robot
+from sambot_viz.inputs import Inputs
+from sambot_viz.joints.presets import Presets
+from sambot_viz.open_config import declarations
+from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.reload import Documents, Reloader
-from sambot_viz.server.server import Server, ServerOptions, SessionMode
+from sambot_viz.server.server import Server
 from sambot_viz.session import Session
-from sambot_viz.session.drive_control import WheelOptions
-from sambot_viz.session.start_state import make_setup, poses_beside
 
-PathLike = Path | str
+_P = ParamSpec("_P")
+
+
+def _takes_the_keywords_of(
+    options: Callable[_P, Options],
+) -> Callable[[Callable[[Any, Options], None]], Callable[Concatenate[Any, _P], None]]:
+    """Let a constructor that wants an `Options` take its fields as arguments."""
+
+    def decorate(
+        construct: Callable[[Any, Options], None],
+    ) -> Callable[Concatenate[Any, _P], None]:
+        @functools.wraps(construct)
+        def with_keywords(self: Any, /, *args: _P.args, **kwargs: _P.kwargs) -> None:
+            construct(self, options(*args, **kwargs))
+
+        own = inspect.signature(construct).parameters["self"]
+        given = inspect.signature(options).parameters.values()
+        with_keywords.__signature__ = inspect.Signature([own, *given])  # type: ignore[attr-defined]
+        return with_keywords
+
+    return decorate
 
 
 class Visualizer:
@@ -41,116 +58,73 @@ class Visualizer:
             viz.set_joint_positions({"drivewhl_l_joint": 1.0})
             viz.wait()
 
-    Args:
-        model: a model file, a package folder, a `Robot` (also one that is still being
-            loaded); None is the bundled sam_bot.
-        config: a .rviz file, or an `RvizConfig`; None is the one that belongs to the
-            model, or the bundled one.
-        host: address to listen on; the default is this machine only.
-        port: 0 takes a free one.
-        fixed_frame: overrides the config's Fixed Frame.
-        gui: whether there is a Joints panel.
-        session: "shared" shows all browsers one robot, "private" each its own; the
-            methods below then act on all of them.
-        xacro_args: arguments for xacro, name → text.
-        package_path: folders in which ROS packages are looked for.
-        allowed_origins: web pages of other origins that may use the server, such as
-            "https://lab.example.org" for one behind a proxy.
-        server: a viser server that listens already (host and port then say nothing);
-            None makes one. It is stopped with this.
-        trusted: False for a model of unknown origin (see `load_robot`).
-        watch: whether the page follows the files: the model with all that it
-            includes, its meshes and textures, and the config. A save with a mistake
-            leaves the last good robot standing and says what is wrong.
-        zeros: joint → start value [rad or m], instead of 0 or the middle.
-        joint_positions: joint → position [rad or m] to begin with.
-        joint_state: a yaml file with recorded positions to begin with.
-        static_transforms: frames to add, each a `StaticTransform` or the arguments of
-            static_transform_publisher in one text.
-        wheels: the wheels to drive with; None finds them in the model.
-        poses: the yaml file for named poses; None is one beside the model.
-        on_reload: told what is wrong with the model (or nothing) whenever a reload
-            changes that.
+    The arguments are the fields of `Options`. With ``session="private"`` the methods
+    act on the sessions of all browsers.
 
     Raises:
         RobotError: the model cannot be shown.
-        ConfigError: the config is no .rviz document.
-        UsageError: a file is not there.
+        ConfigError: the config is not a .rviz document.
+        UsageError: a file that does not exist, or a value that makes no sense.
+        JointError: a joint at the start that does not exist or cannot be set, or a
+            file of joint positions or poses that cannot be read.
+        FrameError: static transforms that form a ring.
         ServerError: the address cannot be listened on.
     """
 
-    def __init__(
-        self,
-        model: PathLike | Robot | Loading | None = None,
-        config: PathLike | RvizConfig | None = None,
-        *,
-        host: str = "127.0.0.1",
-        port: int = 0,
-        fixed_frame: str | None = None,
-        gui: bool = True,
-        session: SessionMode = "shared",
-        xacro_args: Mapping[str, str] | None = None,
-        package_path: Sequence[PathLike] = (),
-        allowed_origins: Sequence[str] = (),
-        server: viser.ViserServer | None = None,
-        trusted: bool = True,
-        watch: bool = False,
-        zeros: Mapping[str, float] | None = None,
-        joint_positions: Mapping[str, float] | None = None,
-        joint_state: PathLike | None = None,
-        static_transforms: Sequence[StaticTransform | str] = (),
-        wheels: WheelOptions | None = None,
-        poses: PathLike | None = None,
-        on_reload: Callable[[Sequence[Problem]], None] | None = None,
-    ) -> None:
-        self._trusted = trusted
-        self._xacro_args = dict(xacro_args or {})
-        self._package_path = tuple(package_path)
-        path = Path(model) if isinstance(model, Path | str) else None
-        config_path = None if isinstance(config, RvizConfig | None) else Path(config)
-        found = find(path, config_path)
-        if isinstance(model, Future):
-            loading = model
-        elif isinstance(model, Robot):
-            loading = finished(model)
-        else:
-            loading = in_thread(partial(self._load, found.model))
-        document = config if isinstance(config, RvizConfig) else None
-        no_config = document is None and found.config is None
-        document = document or load_config(found.config or bundled.config_path())
-        _set_fixed_frame(document, fixed_frame)
-        beside = None if isinstance(model, Robot) else poses_beside(found.model)
-        setup = make_setup(
-            zeros=zeros,
-            joint_positions=joint_positions,
-            joint_state=joint_state,
-            static_transforms=static_transforms,
-            wheels=wheels,
-            poses=Path(poses) if poses else beside,
-        )
-        options = ServerOptions(
-            host, port, session, gui, allowed_origins=allowed_origins, setup=setup
-        )
-        documents = Documents(document, None if session == "shared" else _copy)
-        self._server = Server(options, documents, self._load, server)
+    @_takes_the_keywords_of(Options)
+    def __init__(self, options: Options) -> None:
+        self._start(Inputs(options), None)
+
+    @classmethod
+    def of_inputs(
+        cls, inputs: Inputs, listening: viser.ViserServer | None = None
+    ) -> Visualizer:
+        """Show files that are opened already.
+
+        Args:
+            inputs: the model and the config, with their options.
+            listening: a viser server that listens already, so that the options' host
+                and port do not count; it is stopped with the visualizer.
+
+        Raises:
+            SambotVizError: as the constructor.
+        """
+        visualizer = cls.__new__(cls)
+        visualizer._start(inputs, listening)
+        return visualizer
+
+    def _start(self, inputs: Inputs, listening: viser.ViserServer | None) -> None:
+        options = inputs.options
+        document = inputs.document()
+        prepare = partial(_set_fixed_frame, fixed_frame=options.fixed_frame)
+        prepare(document)
+        documents = Documents(document, None if options.session == "shared" else _copy)
         self._reloader: Reloader | None = None
+        self._server = Server(
+            options, documents, inputs.load, listening, Presets(inputs.poses)
+        )
         try:
-            robot = loading.result()
-            if no_config and fixed_frame is None:
+            robot = inputs.robot()
+            if inputs.takes_bundled_config and options.fixed_frame is None:
                 _fit_fixed_frame(document, robot)
             self._server.show_robot(robot)
-            if watch:
+            if options.watch:
                 self._reloader = Reloader(
                     self._server,
-                    self._load,
-                    None if isinstance(config, RvizConfig) else found.config,
+                    inputs.load,
+                    inputs.config,
                     documents,
-                    partial(_set_fixed_frame, fixed_frame=fixed_frame),
-                    on_reload,
+                    prepare,
+                    options.on_reload,
                 )
         except BaseException:
             self._server.stop()
             raise
+
+    @property
+    def server(self) -> Server:
+        """The server, with the sessions of its browsers."""
+        return self._server
 
     @property
     def url(self) -> str:
@@ -233,14 +207,6 @@ class Visualizer:
     ) -> None:
         self.stop()
 
-    def _load(self, path: PathLike) -> Robot:
-        return load_robot(
-            path,
-            xacro_args=self._xacro_args,
-            package_path=self._package_path,
-            trusted=self._trusted,
-        )
-
     def _first(self) -> Session:
         sessions = self._server.sessions()
         if not sessions:
@@ -261,3 +227,6 @@ def _fit_fixed_frame(document: RvizConfig, robot: Robot) -> None:
     """Let the bundled config, which is sam_bot's, fit any robot: its root serves."""
     if document.global_options.get("Fixed Frame") not in robot.links:
         document.global_options.set("Fixed Frame", plain_name(robot.root))
+
+
+Visualizer.__doc__ = f"{inspect.cleandoc(Visualizer.__doc__ or '')}\n\n{keyword_help()}"

@@ -59,7 +59,7 @@ def test_options_may_stand_between_the_frames_and_turn_the_wheel(
     assert set(found) == {"translation", "rotation_xyzw", "rpy", "matrix"}
 
 
-def test_a_recorded_joint_state_counts_and_foreign_joints_are_passed_over(
+def test_a_recorded_joint_state_counts_and_foreign_joints_are_ignored(
     tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "state.yaml"
@@ -68,7 +68,7 @@ def test_a_recorded_joint_state_counts_and_foreign_joints_are_passed_over(
     assert main([*words, "--format", "json"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["rpy"][1] == pytest.approx(0.25)
-    assert "the robot has no joint 'other'; passed over" in err
+    assert "the robot has no joint 'other'; ignored" in err
 
 
 @pytest.mark.parametrize(

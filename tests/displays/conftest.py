@@ -10,9 +10,10 @@ import viser
 
 from sambot_viz import load_robot
 from sambot_viz.open_config import declarations
+from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.server.server import Server, ServerOptions
+from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 
 ARM = """
@@ -77,7 +78,7 @@ def show(arm: Robot) -> Iterator[Show]:
     ) -> Session:
         text = CONFIG.format(body=body, fixed=fixed) if config is None else config
         document = RvizConfig.parse(text, declarations())
-        options = ServerOptions(port=0, panels=False)
+        options = Options(port=0, panels=False)
         robots = {Path(name).name: robot for name, robot in (files or {}).items()}
         load = lambda path: robots[Path(path).name]  # noqa: E731
         server = Server(options, lambda: document, load)

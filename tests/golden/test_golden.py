@@ -137,12 +137,13 @@ def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image
     """Our picture, of the size of the recording, through the config's own view."""
     from sambot_viz import load_config, load_robot
     from sambot_viz.export.view_picture import snapshot
-    from sambot_viz.server.server import Server, ServerOptions
+    from sambot_viz.options import Options
+    from sambot_viz.server.server import Server
 
     config = load_config(folder / "config.rviz")
     packages = [COLLECTION / "golden_meshes"] if COLLECTION.is_dir() else []
     robot = load_robot(folder / "robot.urdf", package_path=packages)
-    options = ServerOptions(port=0, gui=False, panels=False)
+    options = Options(port=0, gui=False, panels=False)
     server = Server(options, lambda: config)
     try:
         server.show_robot(robot)

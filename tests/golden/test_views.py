@@ -54,12 +54,13 @@ def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> Non
 
     from sambot_viz import load_config, load_robot
     from sambot_viz.export.view_picture import snapshot
-    from sambot_viz.server.server import Server, ServerOptions
+    from sambot_viz.options import Options
+    from sambot_viz.server.server import Server
 
     folder = DATA / name
     golden = np.asarray(Image.open(folder / "render.png").convert("RGB"), np.int16)
     height, width, _ = golden.shape
-    options = ServerOptions(port=0, panels=False)
+    options = Options(port=0, panels=False)
     server = Server(options, lambda: load_config(folder / "config.rviz"), load_robot)
     try:
         server.show_robot(load_robot(DATA / "view_robot.urdf"))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, load_robot
 from sambot_viz.session import Session
 
 MODEL = """\
@@ -61,9 +61,7 @@ def test_what_will_bite_later_is_told_of_the_robot_that_is_shown(model: Path) ->
     with Visualizer(model, port=0) as viz:
         assert codes(viz) == ["limit-in-degrees"]
         model.write_text(MODEL.replace("90", "1"))
-        viz._server.show_robot(  # pyright: ignore[reportPrivateUsage]
-            viz._load(model)  # pyright: ignore[reportPrivateUsage]
-        )
+        viz.server.show_robot(load_robot(model))
         assert codes(viz) == []
 
 

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from sambot_viz import problem_text
-from sambot_viz.commands.options import Parser
+from sambot_viz.commands.command_line import Parser
 from sambot_viz.errors import UsageError
 
 
@@ -21,9 +21,6 @@ def run(words: list[str]) -> int:
     )
     parser.add_argument("file", metavar="FILE.rviz", help="of ROS 2 or ROS 1")
     parser.add_argument("--format", choices=("text", "json"), default="text")
-    parser.add_argument(
-        "--debug", action="store_true", help="show where a fault of ours comes from"
-    )
     options = parser.parse_args(words)
     if not Path(options.file).is_file():
         raise UsageError(f"no config '{options.file}': there is no such file")

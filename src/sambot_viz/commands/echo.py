@@ -6,12 +6,12 @@ import argparse
 import json
 
 from sambot_viz import problem_text
-from sambot_viz.bundled import find
-from sambot_viz.commands.options import Parser, add_model_options, parse
-from sambot_viz.commands.pose_options import add_pose_options, read_setup
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.posed_frames import posed_frames
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.export.echo_text import echo_json, format_echo
+from sambot_viz.inputs import Inputs
 
 
 class _AnyOrder(Parser):
@@ -22,16 +22,15 @@ class _AnyOrder(Parser):
 
 def run(words: list[str]) -> int:
     """Print the pose of TARGET in SOURCE; 0 when there is one."""
-    options, wanted = parse(_parser(), words)
-    setup = read_setup(options)
-    robot = wanted.load(find(wanted.model).model)
+    given, options = parse(_parser(), words)
+    robot = Inputs(options).robot()
     problem_text.write(p for p in robot.problems if p.severity != "info")
-    tree = setup.tree(robot)
+    tree = posed_frames(robot, options)
     # What tf2_echo calls the source is the target of tf2's look-up.
-    found = explain(tree, options.source, options.target, robot)
+    found = explain(tree, given.source, given.target, robot)
     if found.transform is None:
         raise FrameError(_no_answer(found))
-    if options.format == "json":
+    if given.format == "json":
         print(json.dumps(echo_json(found.transform), indent=2))
     else:
         time = tree.latest_common_time(found.target, found.source)
@@ -45,16 +44,15 @@ def _no_answer(found: Explanation) -> str:
     return f"{tf2_text}\n  {found.reason}"
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = _AnyOrder(
         prog="sambot-viz echo",
+        groups=("model", "pose"),
         description="Print the pose of the frame TARGET, seen from the frame SOURCE, "
         "as tf2_echo does: the transform that takes coordinates in TARGET to SOURCE. "
         "Exit status: 0 printed, 1 no such transform, 2 usage.",
     )
-    add_model_options(parser)
     parser.add_argument("source", metavar="SOURCE", help="the frame to look from")
     parser.add_argument("target", metavar="TARGET", help="the frame to look at")
-    add_pose_options(parser)
     parser.add_argument("--format", choices=("text", "json"), default="text")
     return parser

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from sambot_viz.bundled import find
-from sambot_viz.commands.options import Parser, add_model_options, parse
+from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.robot.load import expand
 
 
@@ -13,15 +13,15 @@ def run(words: list[str]) -> int:
     """Print the URDF."""
     parser = Parser(
         prog="sambot-viz expand",
+        groups=("model",),
         description="Print the URDF that xacro makes of a model.",
     )
-    add_model_options(parser)
-    _, wanted = parse(parser, words)
+    _, options = parse(parser, words)
     text = expand(
-        find(wanted.model).model,
-        xacro_args=wanted.xacro_args,
-        package_path=wanted.package_path,
-        trusted=wanted.trusted,
+        find(model_path(options)).model,
+        xacro_args=options.xacro_args,
+        package_path=options.package_path,
+        trusted=options.trusted,
     )
     sys.stdout.write(text)
     sys.stdout.flush()

@@ -7,13 +7,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from sambot_viz import problem_text
-from sambot_viz.bundled import find
-from sambot_viz.commands.options import Parser, add_model_options, parse
-from sambot_viz.commands.pose_options import add_pose_options, read_setup
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.posed_frames import posed_frames
 from sambot_viz.errors import UsageError
 from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
 from sambot_viz.frames.frame_tree import FrameTree
+from sambot_viz.inputs import Inputs
 from sambot_viz.robot.model import Robot
 
 Draw = Callable[[FrameTree, "Robot | None"], str]
@@ -29,24 +29,22 @@ def run(words: list[str]) -> int:
     """Draw the frames of a model; 0 when that is done."""
     parser = Parser(
         prog="sambot-viz frames",
+        groups=("model", "pose"),
         description="Draw the tree of frames with joint name and type, xyz [m] and "
         "rpy [rad]. Exit status: 0 drawn, 1 errors found, 2 usage.",
     )
-    add_model_options(parser)
-    add_pose_options(parser)
     parser.add_argument(
         "-o",
         "--output",
         metavar="FILE",
         help="where to write it: .svg, .dot or .json (default: DOT on standard output)",
     )
-    options, wanted = parse(parser, words)
-    output = Path(options.output) if options.output else None
+    given, options = parse(parser, words)
+    output = Path(given.output) if given.output else None
     draw = tree_dot if output is None else _format(output)
-    setup = read_setup(options)
-    robot = wanted.load(find(wanted.model).model)
+    robot = Inputs(options).robot()
     problem_text.write(p for p in robot.problems if p.severity != "info")
-    drawing = draw(setup.tree(robot), robot)
+    drawing = draw(posed_frames(robot, options), robot)
     if output is None:
         sys.stdout.write(drawing)
         sys.stdout.flush()

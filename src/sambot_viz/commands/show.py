@@ -7,17 +7,12 @@ import signal
 import sys
 import threading
 from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
-from xml.etree import ElementTree
 
 from sambot_viz import problem_text
 from sambot_viz._version import __version__
-from sambot_viz.background import Loading, give_up, in_thread
-from sambot_viz.bundled import Found, find
-from sambot_viz.commands.options import ModelOptions, Parser, add_model_options, parse
-from sambot_viz.commands.pose_options import add_pose_options, any_given, read_setup
-from sambot_viz.errors import Problem, UsageError
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.errors import Problem
+from sambot_viz.inputs import Inputs
 
 EPILOG = """\
 commands:
@@ -45,133 +40,40 @@ move its joints; without --host only this machine can
 
 def run(words: list[str]) -> int:
     """Serve until Ctrl-C."""
-    options, wanted = parse(_parser(), words, ours=("rvizconfig", "gui"))
-    config = options.display_config or wanted.words.get("rvizconfig")
-    found = find(wanted.model, Path(config) if config else None)
-    gui = _gui(options.gui, wanted.words.get("gui"))
-    setup = read_setup(options) if any_given(options) else None
-    _refuse_early(wanted, found)
+    given, options = parse(_parser(), words, on_reload=_report_reload)
+    inputs = Inputs(options)
+    # viser is imported and the port opened while the robot is loaded; the rest of the
+    # program is imported while a browser loads the page.
     from sambot_viz.server.access import only_this_machine
     from sambot_viz.server.bind import close, listen, url_of
 
-    stop, waited_for = threading.Event(), list[Loading]()
-    _stop_on_signals(stop, waited_for)
-    server = listen(options.host, options.port, options.allow_origin)
+    stop = threading.Event()
+    _stop_on_signals(stop, inputs)
+    server = listen(options.host, options.port, options.allowed_origins)
     try:
-        _announce(url_of(server), options.open)
+        _announce(url_of(server), given.open)
         if not only_this_machine(options.host):
             sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
-        # From here on a browser can load the page; the rest is imported meanwhile.
-        loading = in_thread(partial(wanted.load, found.model))
-        waited_for.append(loading)
-        from sambot_viz.session.drive_control import WheelOptions
         from sambot_viz.visualizer import Visualizer
 
-        with Visualizer(
-            model=loading,
-            config=found.config,
-            fixed_frame=options.fixed_frame,
-            gui=gui,
-            session=options.session,
-            xacro_args=wanted.xacro_args,
-            package_path=wanted.package_path,
-            server=server,
-            trusted=wanted.trusted,
-            watch=options.watch,
-            on_reload=_report_reload,
-            zeros=setup.start.zeros if setup else None,
-            joint_positions=setup.start.positions if setup else None,
-            joint_state=options.joint_state,
-            static_transforms=setup.static_transforms if setup else (),
-            wheels=WheelOptions(
-                options.left_wheel,
-                options.right_wheel,
-                options.wheel_radius,
-                options.wheel_separation,
-            ),
-            poses=options.poses,
-        ):
-            problem_text.write(loading.result().problems)
+        with Visualizer.of_inputs(inputs, server):
+            problem_text.write(inputs.robot().problems)
             stop.wait()
     finally:
         close(server)
     return 0
 
 
-def _refuse_early(wanted: ModelOptions, found: Found) -> None:
-    """Tell what is plainly wrong before an address is shown.
-
-    Raises:
-        RobotError: the model is no XML.
-        ConfigError: the config is no .rviz document.
-    """
-    if not _is_xml(found.model):
-        wanted.load(found.model)
-    if found.config is not None:
-        from sambot_viz.rviz import Declarations, RvizConfig
-
-        RvizConfig.load(found.config, Declarations())
-
-
-def _is_xml(path: Path) -> bool:
-    """Whether a model is well-formed; a quick look that imports next to nothing."""
-    try:
-        ElementTree.fromstring(path.read_bytes())
-    except (ElementTree.ParseError, ValueError, LookupError, OSError):
-        return False
-    return True
-
-
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = Parser(
         prog="sambot-viz",
+        groups=("model", "view", "pose", "server"),
         description="Show a URDF or xacro robot in the browser: no ROS, no X server.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    add_model_options(parser)
     add = parser.add_argument
     add("--version", action="version", version=f"sambot-viz {__version__}")
-    add("-d", "--display-config", metavar="FILE", help="a .rviz file")
-    add("-f", "--fixed-frame", metavar="FRAME", help="overrides the config's")
-    add(
-        "--gui",
-        action=argparse.BooleanOptionalAction,
-        help="the Joints panel with its sliders (default: yes)",
-    )
-    add("--host", default="127.0.0.1", help="where to listen (default: %(default)s)")
-    add("--port", type=int, default=8080, help="default: %(default)s; 0: any free one")
-    add(
-        "--allow-origin",
-        action="append",
-        default=[],
-        metavar="ORIGIN",
-        help="a web page of another origin that may use the server, such as "
-        "https://lab.example.org for one behind a proxy",
-    )
-    add(
-        "--session",
-        choices=("shared", "private"),
-        default="shared",
-        help="one robot for all browsers, or one for each (default: %(default)s)",
-    )
-    add(
-        "--watch",
-        action=argparse.BooleanOptionalAction,
-        default=True,
-        help="show the model, its meshes and the config again when they are saved "
-        "(default: yes)",
-    )
-    add_pose_options(parser)
-    add("--left-wheel", metavar="JOINT", help="the left wheel to drive with")
-    add("--right-wheel", metavar="JOINT", help="the right wheel to drive with")
-    add("--wheel-radius", type=float, metavar="METRES", help="default: the model's")
-    add("--wheel-separation", type=float, metavar="METRES", help="default: the model's")
-    add(
-        "--poses",
-        metavar="FILE",
-        help="where named poses are kept (default: beside the model)",
-    )
     add("--open", action="store_true", help="open the page in this machine's browser")
     return parser
 
@@ -192,31 +94,19 @@ def _announce(url: str, open_it: bool) -> None:
         webbrowser.open(url)
 
 
-def _stop_on_signals(stop: threading.Event, waited_for: list[Loading]) -> None:
+def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> None:
     """Ctrl-C and a service manager's stop end the program quietly.
 
     Args:
         stop: is set then.
-        waited_for: models that are being read, which may take long; the wait for them
-            ends too.
+        inputs: its robot may take long to load; the wait for it ends too.
     """
 
     def finish(number: int, frame: object) -> None:
         del number, frame
         stop.set()
-        for loading in waited_for:
-            give_up(loading)
+        inputs.give_up()
 
     if threading.current_thread() is threading.main_thread():
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, finish)
-
-
-def _gui(flag: bool | None, word: str | None) -> bool:
-    if flag is not None:
-        return flag
-    if word is None:
-        return True
-    if word.lower() not in ("true", "false", "1", "0"):
-        raise UsageError(f"gui:={word} is neither true nor false")
-    return word.lower() in ("true", "1")

@@ -2,77 +2,66 @@
 
 from __future__ import annotations
 
-import argparse
 import io
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz import bundled, problem_text
-from sambot_viz.bundled import find
-from sambot_viz.commands.options import Parser, add_model_options, parse
-from sambot_viz.commands.pose_options import add_pose_options, read_setup
+from sambot_viz import problem_text
+from sambot_viz.commands.command_line import Parser, parse, warn
 from sambot_viz.errors import UsageError
 from sambot_viz.files import write_atomically
+from sambot_viz.inputs import Inputs
 
 if TYPE_CHECKING:
     from sambot_viz.export.view_picture import Picture
-    from sambot_viz.robot.model import Robot
-    from sambot_viz.rviz import RvizConfig
+    from sambot_viz.session import Session
 
 LARGEST = 8192
 """Longest side of a picture [pixels]; software WebGL takes no larger ones."""
 
 
 def run(words: list[str]) -> int:
-    """Write a picture of a model; 0 when the file is there."""
-    options, wanted = parse(_parser(), words, ours=("rvizconfig",))
-    width, height = _size(options.size)
-    setup = read_setup(options)
-    output = _output(options.output)
-    config = options.display_config or wanted.words.get("rvizconfig")
-    found = find(wanted.model, Path(config) if config else None)
-    robot = wanted.load(found.model)
-    problem_text.write(robot.problems)
-    # What is wrong with the joints or frames is told before a browser is started.
-    setup.tree(robot)
-    document = _document(found.config, options.fixed_frame, robot)
+    """Write a picture of a model; 0 when the file is written."""
+    given, options = parse(_parser(), words, panels=False)
+    width, height = _size(given.size)
+    output = _output(given.output)
+    inputs = Inputs(options)
+    problem_text.write(inputs.robot().problems)
 
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import snapshot
-    from sambot_viz.server.server import Server, ServerOptions
-    from sambot_viz.session.start_state import SessionSetup
+    from sambot_viz.visualizer import Visualizer
 
-    with Chromium() as chromium:
-        begin = SessionSetup(setup.start, setup.static_transforms)
-        settings = ServerOptions(port=0, gui=False, panels=False, setup=begin)
-        server = Server(
-            settings, lambda: document, lambda path: wanted.load(Path(path))
-        )
-        try:
-            server.show_robot(robot)
-            camera = server.sessions()[0].views.camera
-            picture = snapshot(server, chromium, width, height, camera)
-        finally:
-            server.stop()
+    # What is wrong with joints or frames is reported before a browser is started.
+    with Visualizer.of_inputs(inputs) as viz, Chromium() as chromium:
+        session = viz.server.sessions()[0]
+        problem_text.write(session.config.problems)
+        _report_fixed_frame(session)
+        picture = snapshot(viz.server, chromium, width, height, session.views.camera)
     _write(output, picture)
     return 0
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = Parser(
         prog="sambot-viz snapshot",
+        groups=("model", "view", "pose"),
         description="Write a PNG of the 3D view alone, drawn by a Chromium or Chrome "
         "of this machine. Exit status: 0 written, 1 errors found, 2 usage.",
     )
-    add_model_options(parser)
     add = parser.add_argument
     add("-o", "--output", required=True, metavar="FILE.png", help="where to write it")
-    add("-d", "--display-config", metavar="FILE", help="a .rviz file")
-    add("-f", "--fixed-frame", metavar="FRAME", help="overrides the config's")
     add("--size", default="800x600", metavar="WxH", help="default: %(default)s")
-    add_pose_options(parser)
     return parser
+
+
+def _report_fixed_frame(session: Session) -> None:
+    """Warn when the fixed frame does not exist, because the picture is empty then."""
+    status = session.global_status()
+    if status.level != "Ok":
+        frames = ", ".join(session.tree.frames) or "none"
+        warn(f"Fixed Frame: {status.text}; existing frames: {frames}")
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -94,20 +83,6 @@ def _output(text: str) -> Path:
     if not path.parent.is_dir():
         raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")
     return path
-
-
-def _document(config: Path | None, fixed_frame: str | None, robot: Robot) -> RvizConfig:
-    """The config to show; the bundled one fits any robot by taking its root."""
-    from sambot_viz.open_config import load_config
-
-    document = load_config(config or bundled.config_path())
-    problem_text.write(document.problems)
-    options = document.global_options
-    if fixed_frame is not None:
-        options.set("Fixed Frame", fixed_frame)
-    elif config is None and options.get("Fixed Frame") not in robot.links:
-        options.set("Fixed Frame", robot.root)
-    return document
 
 
 def _write(path: Path, picture: Picture) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError
@@ -24,8 +25,34 @@ from sambot_viz.robot.xml.parse import Element, parse_xml
 PathLike = str | os.PathLike[str]
 
 
+@dataclass(frozen=True, slots=True)
+class OpenedModel:
+    """A model that is well-formed XML; xacro and URDF's rules come later.
+
+    Attributes:
+        source: where the text is from.
+        document: its root element.
+    """
+
+    source: ModelSource
+    document: Element
+
+
+def open_model(model: PathLike) -> OpenedModel:
+    """Read a model's text as XML, for `load_robot`.
+
+    Args:
+        model: the file, or the XML text itself.
+
+    Raises:
+        RobotError: it cannot be read, or is not well-formed.
+    """
+    source = _source(model)
+    return OpenedModel(source, _parsed(source.text, source.label))
+
+
 def load_robot(
-    model: PathLike,
+    model: PathLike | OpenedModel,
     *,
     xacro_args: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
@@ -34,7 +61,7 @@ def load_robot(
     """Load a robot from a URDF or xacro file, or from text.
 
     Args:
-        model: the file, or the XML text itself.
+        model: the file, the XML text itself, or what `open_model` has read.
         xacro_args: values for ``xacro:arg``.
         package_path: where packages are: package folders, folders that hold
             packages, or ``name=folder``.
@@ -48,8 +75,8 @@ def load_robot(
     Raises:
         RobotError: ROS would refuse the model; `.problems` has every fault found.
     """
-    source = _source(model)
-    document = written = _parsed(source.text, source.label)
+    opened = model if isinstance(model, OpenedModel) else open_model(model)
+    source, document, written = opened.source, opened.document, opened.document
     problems = list(source.problems)
     expanded: ExpandedModel | None = None
     xacro = first_xacro(document)
@@ -88,8 +115,7 @@ def expand(
     Raises:
         RobotError: it is no XML, or it cannot be expanded.
     """
-    source = _source(model)
-    _parsed(source.text, source.label)
+    source = open_model(model).source
     return _expanded(source, xacro_args or {}, package_path, trusted).text
 
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Literal, cast
+from typing import cast
 
 import viser
 
 from sambot_viz import viser_private
 from sambot_viz.errors import Problem, ServerError
+from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.options import Options
 from sambot_viz.panels.layout import Layout
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -19,56 +20,35 @@ from sambot_viz.server.bind import close, listen, url_of
 from sambot_viz.server.mesh_thread import AssetReader
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
-from sambot_viz.session.start_state import SessionSetup
 
-SessionMode = Literal["shared", "private"]
 MakeConfig = Callable[[], RvizConfig]
-
-
-@dataclass(frozen=True, slots=True)
-class ServerOptions:
-    """How a server is set up.
-
-    Attributes:
-        host: address to listen on; the default is this machine only.
-        port: 0 takes a free one.
-        session: one robot for all browsers, or one for each.
-        gui: whether there is a Joints panel.
-        panels: whether there are any panels; without them the view fills the page.
-        allowed_origins: web pages of other origins that may use the server.
-        setup: what every session begins with.
-    """
-
-    host: str = "127.0.0.1"
-    port: int = 8080
-    session: SessionMode = "shared"
-    gui: bool = True
-    panels: bool = True
-    allowed_origins: Sequence[str] = ()
-    setup: SessionSetup = field(default_factory=SessionSetup)
 
 
 class Server:
     """A viser server whose every browser sees a session.
 
     Args:
-        options: where to listen, and for whom.
+        options: where to listen, for whom, and what every session begins with.
         make_config: a fresh .rviz document; called once per session.
         load_file: reads another model, for a RobotModel from a file.
         listening: a viser server that listens already; None makes one.
+        poses: the named poses, shared by all sessions; None keeps new ones in memory.
 
     Raises:
         ServerError: the address cannot be listened on.
+        FrameError: static transforms that form a ring.
     """
 
     def __init__(
         self,
-        options: ServerOptions,
+        options: Options,
         make_config: MakeConfig,
         load_file: Callable[[str], Robot] | None = None,
         listening: viser.ViserServer | None = None,
+        poses: Presets | None = None,
     ) -> None:
         self.options = options
+        self._poses = poses or Presets()
         self._make_config = make_config
         self._load_file = load_file
         self.meshes = MeshStore()
@@ -89,7 +69,11 @@ class Server:
         self.shared: Session | None = None
         self._layout: Layout | None = None
         if options.session == "shared":
-            self.shared, self._layout = self._open(self._viser)
+            try:
+                self.shared, self._layout = self._open(self._viser)
+            except BaseException:
+                self.stop()
+                raise
         self._viser.on_client_connect(self._join)
         self._viser.on_client_disconnect(self._leave)
 
@@ -185,8 +169,9 @@ class Server:
             self.meshes,
             self._load_file,
             self._reader,
+            self.options,
+            self._poses,
         )
-        self.options.setup.apply(session)
         session.show_config()
         advice = self._advice[session] = CheckResults(session)
         if self._robot is not None:

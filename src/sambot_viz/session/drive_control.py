@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from sambot_viz.drive.differential import DifferentialDrive, PlanarPose, WheelPair
@@ -27,37 +26,6 @@ ODOM = "odom"
 """The frame that the robot moves in; it stands on the floor below the start."""
 
 
-@dataclass(frozen=True, slots=True)
-class WheelOptions:
-    """What is said about the wheels; None takes it from the model.
-
-    Attributes:
-        left: name of the left wheel's joint.
-        right: name of the right wheel's joint.
-        radius: of the wheels [m].
-        separation: distance of the wheels [m].
-    """
-
-    left: str | None = None
-    right: str | None = None
-    radius: float | None = None
-    separation: float | None = None
-
-    def find(self, robot: Robot) -> WheelPair:
-        """The two wheels of a robot.
-
-        Raises:
-            JointError: there is no such pair, and why.
-        """
-        return find_wheel_pair(
-            robot,
-            left=self.left,
-            right=self.right,
-            radius=self.radius,
-            separation=self.separation,
-        )
-
-
 class DriveControl:
     """Velocities, pose and trail of one session's robot.
 
@@ -66,7 +34,6 @@ class DriveControl:
         start: begins to take steps (see `Motion.start`).
 
     Attributes:
-        options: what is said about the wheels.
         v: linear velocity [m/s], forwards positive.
         w: angular velocity [rad/s], to the left positive.
         why_not: why the robot cannot be driven, or "".
@@ -75,7 +42,6 @@ class DriveControl:
     def __init__(self, session: Session, start: Callable[[], None]) -> None:
         self._session = session
         self._start = start
-        self.options = WheelOptions()
         self.v = 0.0
         self.w = 0.0
         self._left = 0.0
@@ -106,15 +72,22 @@ class DriveControl:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Why the wheels that somebody named cannot be driven with."""
-        if not self.why_not or self.options == WheelOptions():
+        """Why the robot cannot be driven with the wheels that the options name."""
+        options = self._session.options
+        named = (
+            options.left_wheel,
+            options.right_wheel,
+            options.wheel_radius,
+            options.wheel_separation,
+        )
+        if not self.why_not or named == (None, None, None, None):
             return ()
         return (Problem("warning", "drive-wheels", self.why_not),)
 
     def take(self, robot: Robot) -> None:
         """Find the wheels of a robot, new or edited; its place in odom stays."""
         try:
-            wheels = self.options.find(robot)
+            wheels = self._find(robot)
         except JointError as error:
             self._drive, self.why_not = None, str(error)
             self.v = self.w = 0.0
@@ -200,6 +173,16 @@ class DriveControl:
         if parent is None:
             T = Transform.trusted(self._matrix())
             session.add_frame(ODOM, self._root, T, static=False)
+
+    def _find(self, robot: Robot) -> WheelPair:
+        options = self._session.options
+        return find_wheel_pair(
+            robot,
+            left=options.left_wheel,
+            right=options.right_wheel,
+            radius=options.wheel_radius,
+            separation=options.wheel_separation,
+        )
 
     def _matrix(self) -> Matrix:
         pose = self.pose

@@ -28,8 +28,8 @@ from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.presets import Presets
-from sambot_viz.joints.start import StartPose
 from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.session.motion import Motion
@@ -70,6 +70,11 @@ class Session:
         meshes: mesh files that are read already (shared by all sessions).
         load_file: reads another model, for a RobotModel from a file.
         reader: reads mesh files in the background; None reads them while drawing.
+        options: the start pose, the static transforms and the wheels.
+        poses: the named poses; None keeps new ones in memory.
+
+    Raises:
+        FrameError: static transforms that form a ring.
     """
 
     def __init__(
@@ -80,7 +85,10 @@ class Session:
         meshes: MeshStore,
         load_file: Callable[[str], Robot] | None = None,
         reader: Reader | None = None,
+        options: Options | None = None,
+        poses: Presets | None = None,
     ) -> None:
+        self.options = options or Options()
         self.lock = threading.RLock()
         self.loop = loop
         self.audience = audience
@@ -90,8 +98,7 @@ class Session:
         self.problems: tuple[Problem, ...] = ()
         self.reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self.listeners: list[Listener] = []
-        self.start = StartPose()
-        self.poses = Presets()
+        self.poses = poses or Presets()
         self.added = UserFrames(self.tree)
         self._posed = RobotState(self.tree, self.added)
         self._of_frames: tuple[Problem, ...] = ()
@@ -111,6 +118,8 @@ class Session:
         self.views = ViewControl(self)
         self.motion = Motion(self)
         self.tools = ToolControl(self)
+        for added in self.options.transforms:
+            self.set_static_transform(added.parent, added.child, added.transform)
 
     # Opening
 
@@ -142,7 +151,7 @@ class Session:
         with self.change("robot"):
             self.context.robot = robot
             self.context.assets.look_again()
-            self._posed.take(robot, self.start)
+            self._posed.take(robot, self.options.start_pose)
             self.motion.drive.take(robot)
             refused = self._build_tree()
             self._take_globals()

@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import JointError, Visualizer, bundled
-from sambot_viz.session.drive_control import WheelOptions
-from sambot_viz.session.start_state import poses_beside
+from sambot_viz.inputs import poses_beside
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
@@ -77,7 +76,7 @@ def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
 
 
 def test_wheels_that_do_not_exist_are_told_in_the_problems() -> None:
-    with Visualizer(port=0, wheels=WheelOptions(left="lft", right=RIGHT)) as viz:
+    with Visualizer(port=0, left_wheel="lft", right_wheel=RIGHT) as viz:
         session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
         problem = next(p for p in session.problems if p.code == "drive-wheels")
         assert "no continuous joint 'lft'" in problem.message

@@ -1,0 +1,144 @@
+"""The command line as `Options`: flags and NAME:=VALUE words, one clear error line."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+from dataclasses import Field
+from pathlib import Path
+from typing import Any, NoReturn
+
+from sambot_viz.errors import UsageError
+from sambot_viz.options import Flag, Group, Options, declared, flag_of
+
+_ARGUMENT = re.compile(r"\s*([A-Za-z_][\w.-]*)\s*:=(.*)", re.DOTALL)
+_YES, _NO = ("true", "1"), ("false", "0")
+
+
+class Parser(argparse.ArgumentParser):
+    """A command's parser; a bad command line is one line, not the whole usage.
+
+    Args:
+        prog: the command, such as "sambot-viz check".
+        groups: which of the `Options` it takes; with any, it takes a MODEL.
+        rest: as for `argparse.ArgumentParser`.
+    """
+
+    def __init__(self, prog: str, groups: Sequence[Group] = (), **rest: Any) -> None:
+        super().__init__(prog=prog, **rest)
+        self.options = [o for o in declared() if _is_taken(flag_of(o), groups)]
+        if groups:
+            add = self.add_argument
+            add(
+                "model", nargs="?", metavar="MODEL", help="model file or package folder"
+            )
+            add(
+                "--model", dest="model_option", metavar="PATH", help="the same, by name"
+            )
+        for option in self.options:
+            _add(self, option)
+        self.add_argument(
+            "--debug", action="store_true", help="show where an internal error occurred"
+        )
+
+    def error(self, message: str) -> NoReturn:
+        """Exit with the message and where the help is."""
+        self.exit(2, f"{self.prog}: error: {message}; see {self.prog} --help\n")
+
+
+def parse(
+    parser: Parser, words: Sequence[str], **fixed: Any
+) -> tuple[argparse.Namespace, Options]:
+    """Read a command line with a MODEL, and with NAME:=VALUE words anywhere in it.
+
+    What is odd about a value, but accepted, is written to standard error.
+
+    Args:
+        parser: a parser that takes a MODEL.
+        words: the command line.
+        fixed: options that the command sets itself.
+
+    Returns:
+        What the command's own arguments say, and the options.
+
+    Raises:
+        UsageError: a value that makes no sense, or two models.
+        JointError: a joint state file that cannot be read.
+    """
+    rest: list[str] = []
+    arguments: dict[str, str] = {}
+    for word in words:
+        match = _ARGUMENT.fullmatch(word)
+        if match:
+            arguments[match[1]] = match[2].strip()
+        else:
+            rest.append(word)
+    launch_model = arguments.pop("model", None)
+    by_word = [
+        spelled
+        for option in parser.options
+        if (word := flag_of(option).word) in arguments
+        for spelled in _as_flag(flag_of(option), arguments.pop(word))
+    ]
+    # A flag comes later than the word of the same option, and so it wins.
+    given = parser.parse_args([*by_word, *rest])
+    models = [
+        m for m in (given.model, given.model_option, launch_model) if m is not None
+    ]
+    if len(models) > 1:
+        raise UsageError(f"two models given: '{models[0]}' and '{models[1]}'; name one")
+    values = {o.name: _value(o, getattr(given, o.name)) for o in parser.options}
+    model = models[0] if models else None
+    options = Options(model=model, xacro_args=arguments, **values, **fixed)
+    for transform in options.transforms:
+        for warning in transform.warnings:
+            warn(f"--static-transform: {warning}")
+    return given, options
+
+
+def model_path(options: Options) -> Path | None:
+    """The MODEL of a command line; None for the bundled robot."""
+    return Path(str(options.model)) if options.model is not None else None
+
+
+def warn(text: str) -> None:
+    """Write a warning about the command line to standard error."""
+    sys.stderr.write(f"sambot-viz: warning: {text}\n")
+
+
+def _is_taken(flag: Flag, groups: Sequence[Group]) -> bool:
+    return bool(flag.names) and flag.group in groups
+
+
+def _add(parser: Parser, option: Field[Any]) -> None:
+    flag = flag_of(option)
+    default = option.default if flag.default is None else flag.default
+    given: dict[str, Any] = {"dest": option.name, "help": flag.help}
+    if flag.switch == "yes-no":
+        given |= {"action": argparse.BooleanOptionalAction, "default": default}
+    elif flag.switch == "off":
+        given |= {"action": "store_false"}
+    else:
+        given |= {"metavar": flag.metavar, "type": flag.type, "default": default}
+        if flag.choices:
+            given |= {"choices": flag.choices}
+        if flag.read is not None:
+            given |= {"action": "append", "default": []}
+    parser.add_argument(*flag.names, **given)
+
+
+def _as_flag(flag: Flag, value: str) -> list[str]:
+    """An argument of display.launch.py, such as ``gui:=false``, as flags of ours."""
+    name = flag.names[-1]
+    if not flag.switch:
+        return [f"{name}={value}"]
+    if value.lower() not in (*_YES, *_NO):
+        raise UsageError(f"{flag.word}:={value} is neither true nor false")
+    return [name if value.lower() in _YES else f"--no-{name.removeprefix('--')}"]
+
+
+def _value(option: Field[Any], given: Any) -> Any:
+    flag = flag_of(option)
+    return given if flag.read is None else flag.read(given, flag.names[-1])

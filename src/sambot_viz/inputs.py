@@ -1,0 +1,148 @@
+"""The model and the config to show: found, opened, and the robot loaded in a thread."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from concurrent.futures import Future, InvalidStateError
+from pathlib import Path
+from threading import Thread
+
+from sambot_viz import bundled
+from sambot_viz.options import Options, PathLike
+from sambot_viz.robot.load import OpenedModel, load_robot, open_model
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.rviz.yaml.document import Document
+
+
+class Inputs:
+    """What `Options.model` and `Options.config` mean.
+
+    Each file is read once. What is plainly wrong with one (no such file, not XML, not
+    a .rviz document) is raised here, before a server is started; the robot is loaded
+    in a thread meanwhile.
+
+    Args:
+        options: what the user asked for.
+
+    Attributes:
+        model: the model file; None for a `Robot` from Python.
+        config: the .rviz file, or None when none was named and none belongs to the
+            model; the bundled one serves then.
+        poses: the file for named poses, or None to keep them in memory.
+
+    Raises:
+        UsageError: a file does not exist.
+        RobotError: the model is not XML.
+        ConfigError: the config is not a .rviz document.
+    """
+
+    def __init__(self, options: Options) -> None:
+        self._options = options
+        model, config = options.model, options.config
+        found = bundled.find(
+            Path(model) if isinstance(model, Path | str) else None,
+            Path(config) if isinstance(config, Path | str) else None,
+        )
+        self.config = None if isinstance(config, RvizConfig) else found.config
+        self._document = None if self.config is None else Document.load(self.config)
+        self._robot: Future[Robot] = Future()
+        if isinstance(model, Robot):
+            self.model = None
+            self._robot.set_result(model)
+        else:
+            self.model = found.model
+            opened = open_model(found.model)
+            _in_thread(lambda: self.load(opened), self._robot)
+        self.poses = self._poses_file()
+
+    @property
+    def options(self) -> Options:
+        """What the user asked for."""
+        return self._options
+
+    @property
+    def takes_bundled_config(self) -> bool:
+        """Whether the config is the bundled one, which was made for sam_bot."""
+        return self.config is None and not isinstance(self._options.config, RvizConfig)
+
+    def robot(self) -> Robot:
+        """The robot, as soon as it is loaded.
+
+        Raises:
+            RobotError: the model cannot be shown.
+            KeyboardInterrupt: after `give_up`.
+        """
+        return self._robot.result()
+
+    def give_up(self) -> None:
+        """Make `robot` raise KeyboardInterrupt for whoever waits for it.
+
+        The loading itself goes on in its thread until the program ends.
+        """
+        with contextlib.suppress(InvalidStateError):
+            self._robot.set_exception(KeyboardInterrupt())
+
+    def load(self, model: PathLike | OpenedModel) -> Robot:
+        """Load a model with the xacro arguments and packages of the options.
+
+        Raises:
+            RobotError: the model cannot be shown.
+        """
+        return load_robot(
+            model,
+            xacro_args=self._options.xacro_args,
+            package_path=self._options.package_path,
+            trusted=self._options.trusted,
+        )
+
+    def document(self) -> RvizConfig:
+        """The config as a document; to be called once.
+
+        Raises:
+            ConfigError: the bundled config cannot be read.
+        """
+        # The displays that declare the properties import viser.
+        from sambot_viz.open_config import declarations, load_config
+
+        given = self._options.config
+        if isinstance(given, RvizConfig):
+            return given
+        if self._document is None:
+            return load_config(bundled.config_path())
+        return RvizConfig(self._document, declarations())
+
+    def _poses_file(self) -> Path | None:
+        if self._options.poses is not None:
+            return Path(self._options.poses)
+        return None if self.model is None else poses_beside(self.model)
+
+
+def poses_beside(model: Path) -> Path | None:
+    """Where the poses of a model are kept: robot.urdf.xacro has robot.poses.yaml.
+
+    Those of the bundled robot are kept in memory: its folder belongs to the package.
+    """
+    if model.resolve() == bundled.model_path().resolve():
+        return None
+    stem = model.name
+    for ending in (".xacro", ".urdf"):
+        stem = stem.removesuffix(ending)
+    return model.with_name(f"{stem}.poses.yaml")
+
+
+def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:
+    """Load a robot in a daemon thread, so that a long one does not delay the end."""
+
+    def run() -> None:
+        try:
+            robot = load()
+        except BaseException as error:
+            with contextlib.suppress(InvalidStateError):
+                loading.set_exception(error)
+        else:
+            with contextlib.suppress(InvalidStateError):
+                loading.set_result(robot)
+
+    Thread(target=run, name="sambot-viz-load", daemon=True).start()

@@ -1,0 +1,338 @@
+# ruff: noqa: RUF009 (`_option` makes a new field for each option)
+"""Everything a user can ask for, declared once.
+
+`Visualizer` takes the fields of `Options` as keyword arguments, and the command line
+takes those that have flags (see `commands/command_line.py`). Server, session and
+snapshot read the same object. A new option is one field here, and one line where it is
+used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, MISSING, Field, dataclass, field, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from sambot_viz.errors import Problem, UsageError
+
+# A command line is read before anything heavy is imported.
+if TYPE_CHECKING:
+    from sambot_viz.frames.static_transform import StaticTransform
+    from sambot_viz.joints.start import StartPose
+    from sambot_viz.robot.model import Robot
+    from sambot_viz.rviz import RvizConfig
+
+PathLike = Path | str
+SessionMode = Literal["shared", "private"]
+Group = Literal["model", "pose", "view", "server"]
+"""Options that the same commands take: all with a MODEL, those that pose the robot,
+those that draw it, and the one that serves a page."""
+
+_KEY = "option"
+_AGAIN = "; may be given several times"
+
+
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """How an option is written on the command line, and what it means.
+
+    Attributes:
+        help: what the option does; also its documentation as a keyword argument.
+        names: its flags, such as ``("-d", "--display-config")``; none for an option
+            of the Python interface only.
+        group: which commands take it.
+        word: its name as an argument of display.launch.py, for ``NAME:=VALUE``.
+        metavar: what stands for its value in the help.
+        default: the command line's default where it is not the keyword argument's.
+        choices: the only values there are.
+        type: makes the value from one word; None keeps the text.
+        read: makes the value from all words of an option that may be repeated, and
+            the flag's name.
+        switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
+            one that makes it False.
+    """
+
+    help: str
+    names: tuple[str, ...] = ()
+    group: Group = "server"
+    word: str = ""
+    metavar: str | None = None
+    default: object = None
+    choices: tuple[str, ...] = ()
+    type: Callable[[str], object] | None = None
+    read: Callable[[Sequence[str], str], object] | None = None
+    switch: Literal["", "yes-no", "off"] = ""
+
+
+def _option(
+    default: Any,
+    help: str,
+    *names: str,
+    factory: Callable[[], Any] | None = None,
+    flag_default: object = None,
+    **rest: Any,
+) -> Any:
+    flag = Flag(help, names, default=flag_default, **rest)
+    if factory is not None:
+        return field(default_factory=factory, metadata={_KEY: flag})
+    return field(default=default, metadata={_KEY: flag})
+
+
+def _words(words: Sequence[str], flag: str) -> tuple[str, ...]:
+    return tuple(words)
+
+
+def _assignments(words: Sequence[str], flag: str) -> dict[str, float]:
+    from sambot_viz.joints.values import parse_assignments
+
+    return parse_assignments(words, flag)
+
+
+def _static_transforms(words: Sequence[str], flag: str) -> list[StaticTransform]:
+    from sambot_viz.frames.static_transform import (
+        StaticTransformError,
+        parse_static_transform,
+    )
+
+    parsed: list[StaticTransform] = []
+    for text in words:
+        try:
+            parsed.append(parse_static_transform(text))
+        except StaticTransformError as error:
+            quotes = "" if len(text.split()) > 1 else "; all values belong in one quote"
+            raise UsageError(f"{flag} '{text}': {error}{quotes}") from error
+    return parsed
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What to show, to whom, and how the robot starts.
+
+    Attributes:
+        start_pose: from `zeros`, `joint_state` and `joint_positions`.
+        transforms: `static_transforms`, read.
+
+    Raises:
+        UsageError: a value that makes no sense.
+        JointError: a joint state file that cannot be read.
+        StaticTransformError: a text that static_transform_publisher would refuse.
+    """
+
+    model: PathLike | Robot | None = _option(
+        None,
+        "model file or package folder, or a Robot from Python; the bundled sam_bot "
+        "without one",
+    )
+    config: PathLike | RvizConfig | None = _option(
+        None,
+        "a .rviz file; by default the one that belongs to the model, or the bundled "
+        "one",
+        "-d",
+        "--display-config",
+        group="view",
+        word="rvizconfig",
+        metavar="FILE",
+    )
+    _: KW_ONLY
+    xacro_args: Mapping[str, str] = _option(
+        None, "arguments for xacro, name → text", factory=dict
+    )
+    package_path: Sequence[PathLike] = _option(
+        (),
+        f"a folder with ROS packages{_AGAIN}",
+        "--package-path",
+        group="model",
+        metavar="DIR",
+        read=_words,
+    )
+    trusted: bool = _option(
+        True,
+        "evaluate the model without file access and attribute access, for files you "
+        "do not trust",
+        "--untrusted",
+        group="model",
+        switch="off",
+    )
+    fixed_frame: str | None = _option(
+        None,
+        "the fixed frame, instead of the config's",
+        "-f",
+        "--fixed-frame",
+        group="view",
+        metavar="FRAME",
+    )
+    joint_positions: Mapping[str, float] = _option(
+        None,
+        f"position of a joint at the start [rad or m]{_AGAIN}",
+        "--joint",
+        factory=dict,
+        group="pose",
+        metavar="NAME=VALUE",
+        read=_assignments,
+    )
+    zeros: Mapping[str, float] = _option(
+        None,
+        f"start value of a joint, as joint_state_publisher's zeros.NAME{_AGAIN}",
+        "--zeros",
+        factory=dict,
+        group="pose",
+        metavar="NAME=VALUE",
+        read=_assignments,
+    )
+    joint_state: PathLike | None = _option(
+        None,
+        "a yaml file with joint positions, such as ros2 topic echo prints them",
+        "--joint-state",
+        group="pose",
+        metavar="FILE",
+    )
+    static_transforms: Sequence[StaticTransform | str] = _option(
+        (),
+        "another frame, with the arguments of static_transform_publisher, old or new, "
+        f"in quotes{_AGAIN}",
+        "--static-transform",
+        group="pose",
+        metavar='"X Y Z YAW PITCH ROLL PARENT CHILD"',
+        read=_static_transforms,
+    )
+    gui: bool = _option(
+        True,
+        "the Joints panel with its sliders (default: yes)",
+        "--gui",
+        word="gui",
+        switch="yes-no",
+    )
+    host: str = _option(
+        "127.0.0.1", "the address to listen on (default: %(default)s)", "--host"
+    )
+    port: int = _option(
+        0,
+        "the port to listen on; 0 takes any free one (default: %(default)s)",
+        "--port",
+        type=int,
+        flag_default=8080,
+    )
+    allowed_origins: Sequence[str] = _option(
+        (),
+        "a web page of another origin that may use the server, such as "
+        f"https://lab.example.org for one behind a proxy{_AGAIN}",
+        "--allow-origin",
+        metavar="ORIGIN",
+        read=_words,
+    )
+    session: SessionMode = _option(
+        "shared",
+        "one robot for all browsers, or one for each (default: %(default)s)",
+        "--session",
+        choices=("shared", "private"),
+    )
+    watch: bool = _option(
+        False,
+        "show the model, its meshes and the config again when they are saved "
+        "(default: %(default)s)",
+        "--watch",
+        switch="yes-no",
+        flag_default=True,
+    )
+    left_wheel: str | None = _option(
+        None,
+        "the joint of the left wheel to drive with",
+        "--left-wheel",
+        metavar="JOINT",
+    )
+    right_wheel: str | None = _option(
+        None,
+        "the joint of the right wheel to drive with",
+        "--right-wheel",
+        metavar="JOINT",
+    )
+    wheel_radius: float | None = _option(
+        None,
+        "radius of the wheels [m]; by default the model's",
+        "--wheel-radius",
+        type=float,
+        metavar="METRES",
+    )
+    wheel_separation: float | None = _option(
+        None,
+        "distance of the wheels [m]; by default the model's",
+        "--wheel-separation",
+        type=float,
+        metavar="METRES",
+    )
+    poses: PathLike | None = _option(
+        None,
+        "the yaml file for named poses; by default one beside the model",
+        "--poses",
+        metavar="FILE",
+    )
+    panels: bool = _option(
+        True, "whether the page has panels; without them the 3D view fills it"
+    )
+    on_reload: Callable[[Sequence[Problem]], None] | None = _option(
+        None,
+        "called with what is wrong with the model whenever a reload changes that",
+    )
+    start_pose: StartPose = field(init=False, repr=False, compare=False)
+    transforms: tuple[StaticTransform, ...] = field(
+        init=False, repr=False, compare=False
+    )
+
+    def __post_init__(self) -> None:
+        for each in declared():
+            _check_choice(each, getattr(self, each.name))
+        if self.fixed_frame is not None and not self.fixed_frame.strip():
+            raise UsageError(
+                "the fixed frame has an empty name; give a frame of the robot, such "
+                "as base_link"
+            )
+        object.__setattr__(self, "start_pose", self._read_start_pose())
+        object.__setattr__(self, "transforms", self._read_transforms())
+
+    def _read_start_pose(self) -> StartPose:
+        from sambot_viz.joints.start import StartPose
+        from sambot_viz.joints.values import load_joint_state
+
+        file = self.joint_state
+        recorded = {} if file is None else load_joint_state(Path(file))
+        return StartPose(self.zeros, recorded, self.joint_positions)
+
+    def _read_transforms(self) -> tuple[StaticTransform, ...]:
+        if not self.static_transforms:
+            return ()
+        from sambot_viz.frames.static_transform import parse_static_transform
+
+        return tuple(
+            parse_static_transform(given) if isinstance(given, str) else given
+            for given in self.static_transforms
+        )
+
+
+def declared() -> Iterator[Field[Any]]:
+    """The fields of `Options` that a user can give, in the order of the help."""
+    return (each for each in fields(Options) if _KEY in each.metadata)
+
+
+def flag_of(option: Field[Any]) -> Flag:
+    """How an option is written on the command line."""
+    flag: Flag = option.metadata[_KEY]
+    return flag
+
+
+def keyword_help() -> str:
+    """The options as the "Args" of a docstring."""
+    lines = ["Args:"]
+    for each in declared():
+        flag = flag_of(each)
+        default = "" if each.default is MISSING else repr(each.default)
+        text = flag.help.replace("%(default)s", default).removesuffix(_AGAIN)
+        lines.append(f"    {each.name}: {text}.")
+    return "\n".join(lines)
+
+
+def _check_choice(option: Field[Any], value: object) -> None:
+    choices = flag_of(option).choices
+    if choices and value not in choices:
+        listed = " or ".join(f"'{choice}'" for choice in choices)
+        raise UsageError(f"{option.name}={value!r}: it must be {listed}")

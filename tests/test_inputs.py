@@ -1,0 +1,104 @@
+"""The files that options name: opened once, refused early, loaded in the background."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz import ConfigError, Robot, RobotError, UsageError, load_robot
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+from sambot_viz.visualizer import Visualizer
+
+ARM = """<robot name="arm"><link name="a"/><link name="b"/>
+<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint></robot>
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    model = tmp_path / "arm.urdf"
+    model.write_text(ARM)
+    return model
+
+
+def test_an_ill_formed_model_is_refused_before_anything_is_loaded(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "r.urdf"
+    model.write_text('<robot name="r">\n<link name="a">\n</robot>\n')
+    with pytest.raises(RobotError) as refused:
+        Inputs(Options(model))
+    assert refused.value.problems[0].line in (2, 3)
+
+
+def test_a_model_that_urdf_refuses_is_refused_when_the_robot_is_wanted(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "r.urdf"
+    model.write_text('<robot name="r"><link name="a"/><link name="b"/></robot>')
+    inputs = Inputs(Options(model))
+    with pytest.raises(RobotError):
+        inputs.robot()
+
+
+def test_a_config_that_is_not_a_rviz_document_is_refused_at_once(
+    tmp_path: Path,
+) -> None:
+    config = tmp_path / "c.rviz"
+    config.write_text("a: [1")
+    with pytest.raises(ConfigError):
+        Inputs(Options(config=config))
+
+
+def test_each_file_is_read_once(arm: Path, repository: Path, tmp_path: Path) -> None:
+    config = tmp_path / "c.rviz"
+    config.write_text((repository / "rviz" / "urdf_config.rviz").read_text())
+    inputs = Inputs(Options(arm, config))
+    # What was opened is enough: the files may be gone when their content is used.
+    config.unlink()
+    arm.unlink()
+    assert inputs.robot().name == "arm"
+    assert inputs.document().file == str(config)
+
+
+def test_who_gives_up_waiting_gets_a_keyboard_interrupt(arm: Path) -> None:
+    inputs = Inputs(Options(load_robot(arm)))
+    assert isinstance(inputs.robot(), Robot)
+    waiting = Inputs(Options(arm))
+    waiting.give_up()
+    # Either the robot was there already, or the wait has ended.
+    try:
+        assert waiting.robot().name == "arm"
+    except KeyboardInterrupt:
+        pass
+
+
+def test_named_poses_are_kept_beside_the_model(arm: Path) -> None:
+    # The command line opens the files first and gives them to the visualizer.
+    with Visualizer.of_inputs(Inputs(Options(arm))) as viz:
+        viz.server.sessions()[0].poses.save("half", {"j": 0.5})
+    assert "half" in (arm.parent / "arm.poses.yaml").read_text()
+    with Visualizer(arm) as again:
+        assert again.server.sessions()[0].poses.names == ("half",)
+
+
+def test_a_robot_from_python_keeps_its_poses_in_memory(arm: Path) -> None:
+    assert Inputs(Options(load_robot(arm))).poses is None
+    named = arm.parent / "mine.yaml"
+    assert Inputs(Options(load_robot(arm), poses=named)).poses == named
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"fixed_frame": ""}, "the fixed frame has an empty name"),
+        ({"session": "privat"}, "session='privat': it must be 'shared' or 'private'"),
+    ],
+)
+def test_an_option_that_makes_no_sense_is_refused(
+    wrong: dict[str, str], said: str
+) -> None:
+    with pytest.raises(UsageError, match=said):
+        Options(**wrong)  # type: ignore[arg-type]
