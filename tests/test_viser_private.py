@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import pytest
 import viser
-from viser import _messages
 
 from sambot_viz import viser_private
 from sambot_viz.server.bind import close, listen
@@ -19,25 +18,11 @@ def server() -> Iterator[viser.ViserServer]:
     close(server)
 
 
-def handlers(server: viser.ViserServer) -> dict[type, list[object]]:
-    return server._websock_server._incoming_handlers  # type: ignore[return-value]
-
-
-def test_the_share_handlers_are_there_and_are_taken_away(
-    server: viser.ViserServer,
-) -> None:
-    assert _messages.ShareUrlRequest in handlers(server)
-    assert _messages.ShareUrlDisconnect in handlers(server)
-    viser_private.drop_share_handlers(server)
-    assert _messages.ShareUrlRequest not in handlers(server)
-    assert _messages.ShareUrlDisconnect not in handlers(server)
-
-
-def test_the_gui_handler_is_there_and_is_wrapped(server: viser.ViserServer) -> None:
-    before = handlers(server)[_messages.GuiUpdateMessage]
-    assert before
-    viser_private.guard_gui_updates(server)
-    assert handlers(server)[_messages.GuiUpdateMessage] != before
+def test_widgets_are_found_by_their_id(server: viser.ViserServer) -> None:
+    number = server.gui.add_number("number", 1.0)
+    (uuid,) = server.gui._gui_input_handle_from_uuid
+    assert viser_private.input_handle(server, 0, uuid) is number
+    assert viser_private.input_handle(server, 0, "other") is None
 
 
 def test_nodes_are_counted(server: viser.ViserServer) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import inspect
 import logging
+import weakref
 from collections.abc import Callable, Generator
 from typing import Any, cast
 
@@ -19,46 +19,89 @@ from viser import (
     _assignable_props_api,  # pyright: ignore[reportPrivateUsage]
     _messages,  # pyright: ignore[reportPrivateUsage]
 )
+from websockets.asyncio.server import ServerConnection
 
-Handler = Callable[[Any, Any], Any]
-
-
-def _handlers(server: viser.ViserServer) -> dict[type, list[Handler]]:
-    """What the server does with each type of message from a browser."""
-    connection = server._websock_server  # pyright: ignore[reportPrivateUsage]
-    return cast(
-        dict[type, list[Handler]],
-        connection._incoming_handlers,  # pyright: ignore[reportPrivateUsage, reportUnknownMemberType]
-    )
+_prepared: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
 
 
-def drop_share_handlers(server: viser.ViserServer) -> None:
-    """Take away the messages with which any browser could open a public tunnel.
+def on_connection(
+    server: viser.ViserServer, prepare: Callable[[int, ServerConnection], object]
+) -> None:
+    """Call `prepare` with every browser's number and connection before it is read.
 
-    Hiding the button only hides the button (spec/viser.md §4, "Share").
+    Connections that are open already are prepared too. A second call for the same
+    server does nothing.
     """
-    handlers = _handlers(server)
-    handlers.pop(_messages.ShareUrlRequest, None)
-    handlers.pop(_messages.ShareUrlDisconnect, None)
+    if server in _prepared:
+        return
+    _prepared.add(server)
+    websocket = cast(Any, server)._websock_server
+    connections: dict[int, ServerConnection] = websocket._live_connections
+
+    def connected(browser: Any) -> None:
+        prepare(browser.client_id, connections[browser.client_id])
+
+    websocket.on_client_connect(connected)
+    for number, connection in list(connections.items()):
+        prepare(number, connection)
 
 
-def guard_gui_updates(server: viser.ViserServer) -> None:
-    """Let browsers set the value of a widget and nothing else of it.
+def replace_methods(connection: ServerConnection, **methods: Any) -> None:
+    """Have viser call other functions in place of methods of a connection."""
+    vars(connection).update(methods)
 
-    viser would take any attribute of the handle's state: one message with
-    ``{"update_cb": []}`` takes all callbacks away for everybody.
+
+def _client(server: viser.ViserServer, client_id: int) -> Any:
+    """The handle of a browser that has reported its camera, or None."""
+    return cast(Any, server)._connected_clients.get(client_id)
+
+
+def input_handle(server: viser.ViserServer, client_id: int, uuid: str) -> Any:
+    """The widget of this id in a browser's page, common or its own; None: no such."""
+    client = _client(server, client_id)
+    for gui in (server.gui, *(() if client is None else (client.gui,))):
+        handle = cast(Any, gui)._gui_input_handle_from_uuid.get(uuid)
+        if handle is not None:
+            return handle
+    return None
+
+
+def send_value(server: viser.ViserServer, client_id: int, handle: Any) -> None:
+    """Send a widget's present value to one browser, which shows another one."""
+    client = _client(server, client_id)
+    if client is not None:
+        client._websock_connection.queue_message(
+            _messages.GuiUpdateMessage(handle._impl.uuid, {"value": handle.value})
+        )
+
+
+def awaits_picture(server: viser.ViserServer, client_id: int) -> bool:
+    """Whether a browser was asked for a picture that has not come yet."""
+    client = _client(server, client_id)
+    if client is None:
+        return False
+    handlers = client._websock_connection._incoming_handlers
+    return bool(handlers.get(_messages.GetRenderResponseMessage))
+
+
+@contextlib.contextmanager
+def larger_messages(client: viser.ClientHandle, most: int) -> Generator[None]:
+    """Let a browser send longer messages for a while, for a picture.
+
+    Args:
+        client: the browser.
+        most: length of a message [bytes].
     """
-    handlers = _handlers(server)
-    inner = list(handlers.get(_messages.GuiUpdateMessage, ()))
-
-    async def only_values(client_id: Any, message: Any) -> None:
-        if set(message.updates) == {"value"}:
-            for handler in inner:
-                result = handler(client_id, message)
-                if inspect.isawaitable(result):
-                    await result
-
-    handlers[_messages.GuiUpdateMessage] = [only_values]
+    server: Any = cast(Any, client)._viser_server
+    connection = server._websock_server._live_connections.get(client.client_id)
+    before = None if connection is None else connection.protocol.max_message_size
+    if connection is not None:
+        connection.protocol.max_message_size = most
+    try:
+        yield
+    finally:
+        if connection is not None:
+            connection.protocol.max_message_size = before
 
 
 def node_count(scene: viser.SceneApi) -> int:

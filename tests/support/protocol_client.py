@@ -23,7 +23,7 @@ What it offers:
     client.close()
 
 `settle` proves without sleeping that "nothing arrived" is final. The client writes to
-a hidden text field of its own; the server's answer takes the same way as everything
+a text field of its own; the server's answer takes the same way as everything
 that was queued before it, once through the buffer of all browsers and once through the
 buffer of this one. viser keeps the order in both directions, so what was sent before
 `settle` has been handled (as far as its callbacks are `async def` and wait for nothing
@@ -51,6 +51,18 @@ from websockets.typing import Subprotocol
 
 FENCE_REQUEST = "~fence request"
 FENCE_REPLY = "~fence reply"
+CAMERA: dict[str, Any] = {
+    "wxyz": (0.5, -0.5, -0.5, 0.5),
+    "position": (3.0, 0.0, 0.0),
+    "fov": 0.785,
+    "near": 0.01,
+    "far": 1000.0,
+    "image_height": 480,
+    "image_width": 640,
+    "look_at": (0.0, 0.0, 0.0),
+    "up_direction": (0.0, 0.0, 1.0),
+}
+"""What `send_camera` reports."""
 _fenced: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
 
 
@@ -166,22 +178,15 @@ class ProtocolClient:
 
     def send(self, type: str, **fields: Any) -> None:
         """Send the viser message `type` with these fields."""
-        self._socket.send(msgspec.msgpack.encode({"type": type, **fields}))
+        self.send_raw(msgspec.msgpack.encode({"type": type, **fields}))
+
+    def send_raw(self, data: bytes | str) -> None:
+        """Send a frame as it is."""
+        self._socket.send(data)
 
     def send_camera(self) -> None:
         """Report a camera 3 m in front of the origin, 640 x 480 pixels."""
-        self.send(
-            "ViewerCameraMessage",
-            wxyz=(0.5, -0.5, -0.5, 0.5),
-            position=(3.0, 0.0, 0.0),
-            fov=0.785,
-            near=0.01,
-            far=1000.0,
-            image_height=480,
-            image_width=640,
-            look_at=(0.0, 0.0, 0.0),
-            up_direction=(0.0, 0.0, 1.0),
-        )
+        self.send("ViewerCameraMessage", **CAMERA)
 
     def set_value(self, uuid: str, value: Any) -> None:
         """Move a widget as a browser does."""
@@ -305,12 +310,12 @@ def _fill_arrays(value: Any, arrays: list[bytes], used: list[bytes]) -> Any:
 
 
 def _build_fence(server: viser.ViserServer) -> None:
-    """Put the two hidden text fields of `settle` into the server's page, once."""
+    """Put the two text fields of `settle` into the server's page, once."""
     if server in _fenced:
         return
     _fenced.add(server)
     reply = server.gui.add_text(FENCE_REPLY, "", visible=False)
-    request = server.gui.add_text(FENCE_REQUEST, "", visible=False)
+    request = server.gui.add_text(FENCE_REQUEST, "")
     own: dict[int, viser.GuiTextHandle] = {}
 
     @request.on_update

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.server.server import Server
@@ -71,12 +72,13 @@ def snapshot(
             ):
                 BrowserCamera(client).point(camera, flat_fov=None)
                 standing, before = _place(client), None
-            image = client.get_render(
-                height,
-                width,
-                transport_format="png",
-                timeout=max(1.0, end - time.monotonic()),
-            )
+            with viser_private.larger_messages(client, 8 * width * height + 2**16):
+                image = client.get_render(
+                    height,
+                    width,
+                    transport_format="png",
+                    timeout=max(1.0, end - time.monotonic()),
+                )
             picture: Picture = image[..., :3].astype(np.uint8)
             # Meshes and names appear some frames after their messages; two equal
             # pictures in a row say that nothing more is coming.

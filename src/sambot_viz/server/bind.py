@@ -15,6 +15,7 @@ import viser
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.server import access
+from sambot_viz.server.door import guard
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
@@ -52,6 +53,7 @@ def listen(
     if port not in (0, server.get_port()):
         close(server)
         raise _taken(host, port)
+    guard(server)
     return server
 
 

@@ -17,6 +17,7 @@ from sambot_viz.panels.layout import Layout
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.bind import close, listen, url_of
+from sambot_viz.server.door import guard
 from sambot_viz.server.mesh_thread import AssetReader
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
@@ -63,8 +64,7 @@ class Server:
             options.host, options.port, options.allowed_origins
         )
         self._stopped = threading.Event()
-        viser_private.drop_share_handlers(self._viser)
-        viser_private.guard_gui_updates(self._viser)
+        guard(self._viser)
         Layout.prepare_page(self._viser)
         self.shared: Session | None = None
         self._layout: Layout | None = None

@@ -1,0 +1,300 @@
+"""What a browser may send: a short list of messages, each checked before viser sees it.
+
+viser itself takes any message from anyone: any attribute of a widget, uploads of any
+size, values that cannot be sent to the other browsers. Here a browser may report its
+camera, set a visible and enabled widget to a value of the widget's type, hold a button,
+press a key of a command, click or draw a rectangle with the current tool, and send the
+picture that it was asked for. Everything else is dropped. A browser counts only after
+its first camera, because viser runs no callback, and so no check of ours, before that.
+
+A message is limited in size, and a browser in messages per second: one that sends more
+is slowed down, by reading less from its connection. One that does not read what it is
+sent is disconnected.
+
+What stays weak: every connection costs the memory of one copy of the scene while it is
+sent, and the number of connections is not limited; that is the job of a proxy.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import math
+import time
+from collections.abc import Sequence
+from functools import partial
+from typing import Annotated, Any, Literal, cast
+
+import msgspec
+import viser
+from websockets.asyncio.server import ServerConnection
+
+from sambot_viz import viser_private
+
+LARGEST_MESSAGE = 64 * 1024
+"""A longer message ends its connection [bytes]."""
+LONGEST_TEXT = 1000
+"""Of a value that is a text [characters]."""
+MESSAGES_PER_SECOND = 300.0
+"""A hand with a mouse sends about 110: 60 values and 50 cameras."""
+BURST = 600.0
+"""So many messages may come at once."""
+STALL_PERIOD = 10.0
+"""A browser that hardly reads is disconnected after one to two of these [s]."""
+SLOWEST = 1000.0
+"""A slower browser hardly reads [bytes/s]."""
+CLOSE_TIME = 1.0
+"""How long the end of the program waits for a browser's goodbye [s]."""
+LOG_PERIOD = 10.0
+"""Refused messages are reported once in so long at most [s]."""
+_LARGEST_INT = 2**53
+"""Integers beyond this one are not exact in a browser."""
+
+_log = logging.getLogger(__name__)
+
+_Number = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+_Vector = tuple[_Number, _Number, _Number]
+_Pixels = Annotated[int, msgspec.Meta(ge=0, le=2**15)]
+_Id = Annotated[str, msgspec.Meta(max_length=100)]
+
+
+class _Message(msgspec.Struct, tag_field="type", forbid_unknown_fields=True):
+    """A message that a browser may send."""
+
+
+class Camera(_Message, tag="ViewerCameraMessage"):
+    """Where a browser's camera is."""
+
+    wxyz: tuple[_Number, _Number, _Number, _Number]
+    position: _Vector
+    fov: _Number
+    near: _Number
+    far: _Number
+    image_height: _Pixels
+    image_width: _Pixels
+    look_at: _Vector
+    up_direction: _Vector
+
+
+class SetValue(_Message, tag="GuiUpdateMessage"):
+    """A widget was moved, or a button pressed."""
+
+    uuid: _Id
+    updates: dict[str, Any]
+
+
+class HoldButton(_Message, tag="GuiButtonHoldMessage"):
+    """A button is still held."""
+
+    uuid: _Id
+    frequency: _Number
+
+
+class RunCommand(_Message, tag="CommandTriggerMessage"):
+    """A key of a command was pressed."""
+
+    uuid: _Id
+
+
+class Point(_Message, tag="ScenePointerMessage"):
+    """A click or a rectangle in the 3D view."""
+
+    event_type: Literal["click", "rect-select"]
+    ray_origin: _Vector | None
+    ray_direction: _Vector | None
+    screen_pos: Annotated[
+        list[tuple[_Number, _Number]], msgspec.Meta(min_length=1, max_length=2)
+    ]
+    modifier: _Id | None
+
+
+class Picture(_Message, tag="GetRenderResponseMessage"):
+    """The picture that the server has asked this browser for."""
+
+    payload: bytes
+    render_uuid: _Id
+
+
+_DECODER = msgspec.msgpack.Decoder(
+    Camera | SetValue | HoldButton | RunCommand | Point | Picture
+)
+
+
+def guard(server: viser.ViserServer) -> None:
+    """Check all that the browsers of a server send from now on; once per server."""
+    viser_private.on_connection(server, partial(Door, server))
+
+
+class Door:
+    """Checks what one browser sends, and how it takes what it is sent.
+
+    Args:
+        server: the server.
+        client_id: the browser's number.
+        connection: the browser's connection; its `recv` and `send` are replaced.
+    """
+
+    def __init__(
+        self, server: viser.ViserServer, client_id: int, connection: ServerConnection
+    ) -> None:
+        self._server = server
+        self._client_id = client_id
+        self._connection = connection
+        self._known = False
+        self._rate = Rate(MESSAGES_PER_SECOND, BURST)
+        self._recv, self._send = connection.recv, connection.send
+        connection.protocol.max_message_size = LARGEST_MESSAGE
+        connection.close_timeout = CLOSE_TIME
+        viser_private.replace_methods(connection, recv=self.recv, send=self.send)
+
+    async def recv(self) -> bytes:
+        """The next message that may be handled."""
+        while True:
+            raw = await self._recv()
+            await self._rate.wait()
+            reason = self._reason_against(raw)
+            if reason is None:
+                return cast(bytes, raw)
+            _report(self._client_id, reason)
+
+    async def send(self, message: bytes) -> None:
+        """Send a message; disconnect a browser that does not take it."""
+        timer = StallTimer(self._connection.transport)
+        try:
+            await self._send(message)
+        finally:
+            timer.cancel()
+
+    def _reason_against(self, raw: object) -> str | None:
+        """Why a message is refused; None when it may be handled."""
+        try:
+            message = _DECODER.decode(cast(bytes, raw))
+        except (msgspec.MsgspecError, UnicodeDecodeError, TypeError, RecursionError):
+            return "not one of the messages that a page of this server sends"
+        if isinstance(message, Camera):
+            self._known = True
+            return None
+        if not self._known:
+            return "a message before the first camera"
+        if isinstance(message, SetValue):
+            return self._reason_against_value(message)
+        if isinstance(message, HoldButton) and not self._usable(message.uuid):
+            return "a button that cannot be pressed"
+        if isinstance(message, Point):
+            return _reason_against_gesture(message)
+        if isinstance(message, Picture):
+            expected = viser_private.awaits_picture(self._server, self._client_id)
+            return None if expected else "a picture that was not asked for"
+        return None
+
+    def _reason_against_value(self, message: SetValue) -> str | None:
+        if set(message.updates) != {"value"}:
+            return "an attribute of a widget other than its value"
+        handle = self._usable(message.uuid)
+        if handle is None:
+            return "a value for a widget that is not there, hidden or disabled"
+        value = message.updates["value"]
+        options: Sequence[str] | None = getattr(handle, "options", None)
+        if fits(handle.value, value) and (options is None or value in options):
+            return None
+        # The page shows what its user entered; it gets the value that holds back.
+        viser_private.send_value(self._server, self._client_id, handle)
+        return "a value that is not of its widget's type"
+
+    def _usable(self, uuid: str) -> viser.GuiInputHandle[Any] | None:
+        """The widget, if a user of this browser can see and use it."""
+        handle = viser_private.input_handle(self._server, self._client_id, uuid)
+        usable = handle is not None and handle.visible and not handle.disabled
+        return handle if usable else None
+
+
+def fits(held: object, value: object) -> bool:
+    """Whether a value from a browser has the type of the value that a widget holds."""
+    if isinstance(held, bool):
+        return isinstance(value, bool)
+    if isinstance(held, int | float):
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return False
+        largest = _LARGEST_INT if isinstance(held, int) else math.inf
+        return math.isfinite(value) and abs(value) <= largest
+    if isinstance(held, str):
+        return isinstance(value, str) and len(value) <= LONGEST_TEXT
+    if isinstance(held, tuple) and isinstance(value, list):
+        pair = cast(tuple[object, ...], held), cast(list[object], value)
+        return len(pair[0]) == len(pair[1]) and all(map(fits, *pair))
+    return False
+
+
+def _reason_against_gesture(message: Point) -> str | None:
+    if message.event_type == "rect-select":
+        complete = len(message.screen_pos) == 2
+    else:
+        complete = message.ray_origin is not None and message.ray_direction is not None
+    return None if complete else "half a click"
+
+
+class Rate:
+    """Lets so many events pass in a second, after a burst, and holds back the rest.
+
+    Args:
+        per_second: events in the long run [1/s].
+        burst: events that may come at once.
+    """
+
+    def __init__(self, per_second: float, burst: float) -> None:
+        self._per_second = per_second
+        self._burst = self._left = burst
+        self._at = time.monotonic()
+
+    def take(self) -> float:
+        """Count one event; returns how long it has to wait [s]."""
+        now = time.monotonic()
+        self._left += (now - self._at) * self._per_second
+        self._left = min(self._left, self._burst) - 1.0
+        self._at = now
+        return max(0.0, -self._left / self._per_second)
+
+    async def wait(self) -> None:
+        """Count one event, and return when it may pass."""
+        pause = self.take()
+        if pause > 0.0:
+            await asyncio.sleep(pause)
+
+
+class StallTimer:
+    """Disconnects a browser that hardly reads, while something is sent to it.
+
+    Args:
+        transport: its connection.
+    """
+
+    def __init__(self, transport: asyncio.Transport) -> None:
+        self._transport = transport
+        self._left = math.inf
+        self._start()
+
+    def _start(self) -> None:
+        loop = asyncio.get_running_loop()
+        self._timer = loop.call_later(STALL_PERIOD, self._look)
+
+    def _look(self) -> None:
+        before, self._left = self._left, self._transport.get_write_buffer_size()
+        if before - self._left < SLOWEST * STALL_PERIOD:
+            self._transport.abort()
+        else:
+            self._start()
+
+    def cancel(self) -> None:
+        """Everything was sent."""
+        self._timer.cancel()
+
+
+_next_report = 0.0
+
+
+def _report(client_id: int, reason: str) -> None:
+    """Say in the log that a message was dropped; rarely, as there may be many."""
+    global _next_report
+    if (now := time.monotonic()) >= _next_report:
+        _next_report = now + LOG_PERIOD
+        _log.warning("browser %d: dropped %s", client_id, reason)

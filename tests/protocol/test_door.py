@@ -1,0 +1,308 @@
+"""What a browser may send, over a real connection to a running server."""
+
+from __future__ import annotations
+
+import logging
+import math
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import msgspec.msgpack
+import numpy as np
+import pytest
+import viser
+from protocol_client import CAMERA, ProtocolClient
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
+
+from sambot_viz import Visualizer
+from sambot_viz.server import door
+
+Connect = Callable[..., ProtocolClient]
+SLIDER, COUNT = "drivewhl_l_joint", "Plane Cell Count"
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def witness(viz: Visualizer, protocol: Connect) -> ProtocolClient:
+    """A browser that only looks."""
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    return client
+
+
+def upload(client: ProtocolClient, uuid: str, content: bytes, parts: int = 1) -> None:
+    client.send(
+        "FileTransferStartUpload",
+        source_component_uuid=uuid,
+        transfer_uuid="t",
+        filename="f",
+        mime_type="x/y",
+        part_count=parts,
+        size_bytes=len(content),
+    )
+    client.send(
+        "FileTransferPart",
+        source_component_uuid=uuid,
+        transfer_uuid="t",
+        part_index=0,
+        content=content,
+    )
+
+
+def still_works(viz: Visualizer, witness: ProtocolClient, protocol: Connect) -> bool:
+    """Whether a late browser can move a joint and the witness sees it."""
+    late = protocol(viz.viser.get_port())
+    late.settle(viz.viser)
+    late.set_value(late.uuid_of(SLIDER), 0.25)
+    late.settle(viz.viser)
+    witness.settle(viz.viser)
+    moved = viz.joint_positions[SLIDER] == 0.25
+    return moved and witness.value_of(SLIDER) == 0.25
+
+
+@pytest.mark.parametrize(
+    ("label", "value"),
+    [(COUNT, 1e300), (COUNT, 2**64 - 1), (SLIDER, 12345.0), ("Fixed Frame", "no such")],
+)
+def test_a_browser_without_a_camera_changes_nothing(
+    viz: Visualizer,
+    witness: ProtocolClient,
+    protocol: Connect,
+    label: str,
+    value: object,
+) -> None:
+    before = witness.value_of(label)
+    stranger = protocol(viz.viser.get_port(), camera=False)
+    uuid = stranger.uuid_of(label)
+    stranger.set_value(uuid, value)
+    stranger.send_camera()
+    stranger.settle(viz.viser)
+    assert witness.value_of(label) == before
+    assert still_works(viz, witness, protocol)
+
+
+@pytest.mark.parametrize(
+    ("label", "value"),
+    [
+        (COUNT, 1e300),
+        (COUNT, math.nan),
+        (COUNT, 2**63),
+        (COUNT, True),
+        (COUNT, [10]),
+        (SLIDER, math.inf),
+        (SLIDER, "0.5"),
+        (SLIDER, {"a": [1]}),
+        (SLIDER, None),
+        ("Fixed Frame", "no such frame"),
+        ("Fixed Frame", 3),
+        ("Background Color", [1, 2]),
+        ("Background Color", [1, 2, "3"]),
+        ("Type", "Nope"),
+        ("Pose name", "x" * 1001),
+    ],
+)
+def test_a_value_of_another_type_reaches_no_widget_and_is_taken_back(
+    viz: Visualizer,
+    witness: ProtocolClient,
+    protocol: Connect,
+    label: str,
+    value: object,
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    before, mark = witness.value_of(label), witness.mark()
+    uuid, own = client.uuid_of(label), client.mark()
+    client.set_value(uuid, value)
+    client.settle(viz.viser)
+    witness.settle(viz.viser)
+    assert witness.since(mark) == []
+    (answer,) = client.since(own)
+    assert answer.type == "GuiUpdateMessage"
+    assert answer.fields["uuid"] == uuid
+    assert answer.fields["updates"] == {"value": before}
+
+
+@pytest.mark.parametrize("camera", [True, False])
+def test_an_upload_to_a_slider_does_nothing(
+    viz: Visualizer, witness: ProtocolClient, protocol: Connect, camera: bool
+) -> None:
+    client = protocol(viz.viser.get_port(), camera=camera)
+    upload(client, client.uuid_of(SLIDER), b"hello")
+    upload(client, client.uuid_of(SLIDER), b"x" * 1000, parts=2)
+    client.send_camera()
+    client.settle(viz.viser)
+    assert client.types()["FileTransferPartAck"] == 0
+    assert still_works(viz, witness, protocol)
+
+
+def test_messages_about_forms_are_not_kept(
+    viz: Visualizer, witness: ProtocolClient, protocol: Connect
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.send("GuiFormDirtyMessage", uuid="a" * 1000, dirty=True)
+    client.send("ShareUrlRequest")
+    client.settle(viz.viser)
+    late = protocol(viz.viser.get_port())
+    late.settle(viz.viser)
+    for browser in (witness, late):
+        assert browser.types()["GuiFormDirtyMessage"] == 0
+        assert browser.types()["ShareUrlUpdated"] == 0
+
+
+def test_a_browser_cannot_break_the_widgets_of_its_private_session(
+    protocol: Connect,
+) -> None:
+    with Visualizer(port=0, session="private") as viz:
+        first, second = (protocol(viz.viser.get_port()) for _ in range(2))
+        for client in (first, second):
+            client.wait_until(lambda c=client: SLIDER in c.widgets)
+        uuids = list(first.widgets.values())
+        for updates in ({"removed": True}, {"props": None}, {"gui_api": None}):
+            for uuid in uuids:
+                first.send("GuiUpdateMessage", uuid=uuid, updates=updates)
+        first.settle(viz.viser)
+        viz.set_joint_positions({SLIDER: 0.5})
+        for client in (first, second):
+            client.wait_until(lambda c=client: c.value_of(SLIDER) == 0.5)
+
+
+def test_hidden_and_disabled_widgets_take_no_value(
+    viz: Visualizer, protocol: Connect
+) -> None:
+    seen: list[object] = []
+    hidden = viz.viser.gui.add_number("hidden", 1.0, visible=False)
+    disabled = viz.viser.gui.add_number("disabled", 1.0, disabled=True)
+    usable = viz.viser.gui.add_number("usable", 1.0)
+    for handle in (hidden, disabled, usable):
+
+        @handle.on_update
+        async def _(event: viser.GuiEvent[Any]) -> None:
+            seen.append(event.target)
+
+    client = protocol(viz.viser.get_port())
+    for label in ("hidden", "disabled", "usable"):
+        client.set_value(client.uuid_of(label), 2.0)
+    client.settle(viz.viser)
+    assert (hidden.value, disabled.value, usable.value) == (1.0, 1.0, 2.0)
+    assert seen == [usable]
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"\xc1",
+        b"\x91" * 60_000,
+        msgspec.msgpack.encode({"type": "NoSuchMessage"}),
+        msgspec.msgpack.encode({"type": "GuiUpdateMessage", "uuid": 1, "updates": 2}),
+        msgspec.msgpack.encode({"type": "ViewerCameraMessage", "wxyz": [1, 0]}),
+        b"\x82\xa4type\xb0GuiUpdateMessage\xa4uuid\xa3\xed\xa0\x80",
+        "text",
+    ],
+)
+def test_nonsense_is_dropped_and_the_connection_stays(
+    viz: Visualizer, protocol: Connect, data: bytes | str
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.send_raw(data)
+    client.settle(viz.viser)
+    assert not client.closed
+
+
+def test_a_camera_that_is_not_finite_is_dropped(
+    viz: Visualizer, protocol: Connect
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    for x in (math.nan, math.inf, 1e300):
+        client.send("ViewerCameraMessage", **{**CAMERA, "position": (x, 0.0, 0.0)})
+    client.settle(viz.viser)
+    (handle,) = viz.viser.get_clients().values()
+    assert tuple(handle.camera.position) == (3.0, 0.0, 0.0)
+
+
+def test_a_message_that_is_too_long_ends_its_connection_only(
+    viz: Visualizer, witness: ProtocolClient, protocol: Connect
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.set_value(client.uuid_of("Pose name"), "x" * door.LARGEST_MESSAGE)
+    with pytest.raises(AssertionError, match="the connection ended"):
+        client.wait_until(lambda: False)
+    assert still_works(viz, witness, protocol)
+
+
+def test_a_flood_of_bad_values_is_one_line_in_the_log(
+    viz: Visualizer, protocol: Connect, caplog: pytest.LogCaptureFixture
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    caplog.clear()
+    with caplog.at_level(logging.DEBUG, "asyncio"):
+        for _ in range(300):
+            client.set_value(client.uuid_of(SLIDER), "fast")
+        client.settle(viz.viser)
+    assert len(caplog.records) <= 1
+    assert all("dropped" in record.getMessage() for record in caplog.records)
+
+
+def test_a_button_is_held_only_by_who_may_press_it(
+    viz: Visualizer, protocol: Connect
+) -> None:
+    held: list[str] = []
+    for label, disabled in (("off", True), ("on", False)):
+        button = viz.viser.gui.add_button(label, disabled=disabled)
+
+        async def hold(_: object, label: str = label) -> None:
+            held.append(label)
+
+        button.on_hold(hold, callback_hz=10.0)
+    client = protocol(viz.viser.get_port())
+    for label in ("off", "on"):
+        uuid = client.uuid_of(label)
+        client.send("GuiButtonHoldMessage", uuid=uuid, frequency=10.0)
+    client.settle(viz.viser)
+    assert held == ["on"]
+
+
+def test_a_picture_that_was_not_asked_for_is_dropped(
+    viz: Visualizer, protocol: Connect
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.send("GetRenderResponseMessage", payload=b"x", render_uuid="y")
+    client.settle(viz.viser)
+    assert not client.closed
+
+
+def test_a_browser_that_does_not_read_is_disconnected(
+    viz: Visualizer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(door, "STALL_PERIOD", 0.1)
+    gone = threading.Event()
+    viz.viser.on_client_disconnect(lambda _: gone.set())
+    socket = connect(
+        f"ws://127.0.0.1:{viz.viser.get_port()}",
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        max_size=None,
+        max_queue=1,
+        compression=None,
+    )
+    socket.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **CAMERA}))
+    for number in range(64):
+        viz.viser.scene.add_image(f"/large{number}", noise(), 1.0, 1.0, format="png")
+    assert gone.wait(20.0)
+    with pytest.raises(ConnectionClosed):
+        while True:
+            socket.recv(timeout=20.0)
+
+
+def noise() -> np.ndarray:
+    """A picture that cannot be compressed."""
+    return np.random.default_rng(0).integers(0, 255, (512, 512, 3), np.uint8)
