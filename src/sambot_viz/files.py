@@ -1,10 +1,12 @@
-"""Small facts about files: whether one was saved, writing one whole, git-LFS marks."""
+"""Small facts about files: whether one was saved, where it is, how large, git-LFS."""
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import stat
+from collections.abc import Iterable
 from pathlib import Path
 
 Stamp = tuple[int, int, int]
@@ -44,6 +46,60 @@ def write_atomically(path: Path, data: bytes) -> None:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+class FileTooLargeError(OSError):
+    """A file with more bytes than the caller allows."""
+
+
+class NotAFileError(OSError):
+    """A folder, a pipe or a device where a file is expected."""
+
+
+def reason_of(error: OSError | ValueError) -> str:
+    """Why a file cannot be used, to follow a colon in a sentence."""
+    if isinstance(error, FileNotFoundError):
+        return "there is no such file"
+    text = getattr(error, "strerror", None) or str(error) or "it cannot be read"
+    return text[:1].lower() + text[1:]
+
+
+def read_limited(path: Path, largest: int) -> bytes:
+    """The bytes of a regular file, unless there are more than `largest`.
+
+    No more than that is read, whatever the size that the system reports.
+
+    Raises:
+        FileTooLargeError: it has more bytes.
+        OSError: it is not a regular file, or cannot be read.
+        ValueError: no file can have this name.
+    """
+    found = path.stat()
+    if not stat.S_ISREG(found.st_mode):
+        raise NotAFileError(errno.EINVAL, "it is not a regular file", str(path))
+    if found.st_size <= largest:
+        with path.open("rb") as stream:
+            data = stream.read(largest + 1)
+        if len(data) <= largest:
+            return data
+    raise FileTooLargeError(
+        errno.EFBIG, f"it has more than {largest / 2**20:.0f} MB", str(path)
+    )
+
+
+def is_below(path: Path, folders: Iterable[Path]) -> bool:
+    """Whether a path, with its links followed, leads into one of these folders.
+
+    Args:
+        path: may or may not exist.
+        folders: resolved folders.
+    """
+    try:
+        real = path.resolve()
+    except (OSError, RuntimeError, ValueError):
+        # A ring of links, or a name that no file system can hold.
+        return False
+    return any(real.is_relative_to(folder) for folder in folders)
 
 
 def is_lfs_pointer(data: bytes) -> bool:

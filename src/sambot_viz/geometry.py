@@ -19,6 +19,8 @@ Xyzw = tuple[float, float, float, float]
 """A rotation as ROS and RViz write it."""
 Wxyz = tuple[float, float, float, float]
 """A rotation as viser wants it."""
+Rgba = tuple[float, float, float, float]
+"""A colour with its opacity, each 0 to 1."""
 
 
 def finite(value: Any) -> float | None:

@@ -171,7 +171,7 @@ def test_a_texture_that_cannot_be_had_leaves_the_colour(write: Write) -> None:
     mesh = read_mesh(write("a.glb", glb(textured({"uri": "gone.png"}))))
     assert mesh.parts[0].texture is None and mesh.parts[0].rgba == (1, 0.5, 0.25, 1)
     assert codes(mesh) == ["mesh-texture-broken"]
-    assert "'gone.png' is not there" in mesh.problems[0].message
+    assert "'gone.png': there is no such file" in mesh.problems[0].message
 
 
 @pytest.mark.parametrize(
@@ -226,7 +226,7 @@ def test_quantized_positions_and_sparse_changes_are_read(write: Write) -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"buffers": [{"uri": "gone.bin"}]}, "'gone.bin' with its numbers is not"),
+        ({"buffers": [{"uri": "gone.bin"}]}, "'gone.bin': there is no such file"),
         ({"nodes": []}, "no entry 0 in its list of nodes"),
         ({"nodes": [{"mesh": 7}]}, "no entry 7 in its list of meshes"),
         ({"nodes": [{"mesh": 0, "children": [0]}]}, "contain themselves"),

@@ -113,7 +113,7 @@ def test_a_missing_library_is_grey_with_a_warning(write: Write) -> None:
     )
     assert mesh.parts[0].rgba == (0.6, 0.6, 0.6, 1.0)
     assert codes(mesh) == ["mesh-material-missing"]
-    assert "'gone.mtl' is not there" in mesh.problems[0].message
+    assert "'gone.mtl' cannot be used: there is no" in mesh.problems[0].message
 
 
 def test_indices_that_point_nowhere_are_left_out(write: Write) -> None:

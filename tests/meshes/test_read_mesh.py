@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import subprocess
 import sys
 from collections.abc import Callable
@@ -10,8 +12,12 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import errors
+from sambot_viz.errors import SambotVizError
+from sambot_viz.meshes import source as source_module
 from sambot_viz.meshes.mesh import MeshError
+from sambot_viz.meshes.named_files import NamedFileError
 from sambot_viz.meshes.read_mesh import read_mesh
+from sambot_viz.meshes.textures import TextureError
 
 POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:abc\nsize 12\n"
 
@@ -56,7 +62,7 @@ def test_a_pointer_beside_the_mesh_is_said(write: Callable[..., Path]) -> None:
       {"attributes": {"POSITION": 0}}]}], "buffers": [{"uri": "a.bin"}],
       "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [
       {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]}"""
-    with pytest.raises(MeshError, match=r"'a\.bin' is a git-LFS pointer"):
+    with pytest.raises(MeshError, match=r"'a\.bin': it is a git-LFS pointer"):
         read_mesh(write("a.gltf", content))
 
 
@@ -88,5 +94,56 @@ def test_a_file_above_the_limit_is_refused_before_it_is_read(
     write: Callable[..., Path],
 ) -> None:
     path = write("a.stl", b"x" * 2_100_000)
-    with pytest.raises(MeshError, match="the mesh has 2 MB, more than the 1 MB"):
+    with pytest.raises(MeshError, match="the mesh has more than the 1 MB"):
         read_mesh(path, largest=1 << 20)
+
+
+@pytest.mark.parametrize("copies", [1, 40])
+def test_entries_that_the_file_does_not_contain_take_no_memory(
+    write: Callable[..., Path], copies: int
+) -> None:
+    primitive = {"attributes": {"POSITION": 0}}
+    document = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [primitive] * copies}],
+        "accessors": [{"componentType": 5126, "count": 2**24, "type": "VEC3"}],
+    }
+    with pytest.raises(MeshError, match=r"more than (1048576 entries|30000000)"):
+        read_mesh(write("a.gltf", json.dumps(document)))
+
+
+def test_vertices_that_many_primitives_share_are_counted_for_each(
+    write: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(source_module, "MOST_VERTICES", 1000)
+    data = base64.b64encode(bytes(1200)).decode()
+    document = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}] * 40}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 100, "type": "VEC3"}
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": 1200}],
+        "buffers": [{"byteLength": 1200, "uri": f"data:;base64,{data}"}],
+    }
+    with pytest.raises(MeshError, match="more than 1000 vertices"):
+        read_mesh(write("a.gltf", json.dumps(document)))
+
+
+@pytest.mark.parametrize("end", ["", "</x>" * 200_000])
+def test_a_collada_file_that_is_nested_too_deep_is_refused_clearly(
+    write: Callable[..., Path], end: str
+) -> None:
+    text = "<COLLADA>" + "<x>" * 200_000 + end
+    with pytest.raises(MeshError) as caught:
+        read_mesh(write("a.dae", text))
+    assert "internal" not in str(caught.value) and "expected" not in str(caught.value)
+
+
+def test_the_errors_of_meshes_belong_to_the_tree_of_this_package() -> None:
+    for kind in (TextureError, NamedFileError, MeshError):
+        assert issubclass(kind, SambotVizError)

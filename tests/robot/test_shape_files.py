@@ -75,7 +75,7 @@ def test_a_refusal_counts_as_read_and_is_given_again(model: Path) -> None:
     for asset in (image, mesh):
         store.read(asset)
         assert store.is_read(asset)
-    with pytest.raises(TextureError, match="no image"):
+    with pytest.raises(TextureError, match="not an image"):
         store.texture(image.path)
     with pytest.raises(MeshError):
         store.get(mesh.path)

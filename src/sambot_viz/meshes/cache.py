@@ -7,10 +7,10 @@ import threading
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh, MeshError, Texture, mesh_error
 from sambot_viz.meshes.read_mesh import LARGEST, read_mesh
 from sambot_viz.meshes.textures import LONGEST_SIDE, TextureError, TextureStore
-from sambot_viz.robot.shape_files import Asset
 
 _Stamp = tuple[tuple[Path, int, int], ...]
 
@@ -45,24 +45,29 @@ class MeshStore:
         """
         self.images = TextureStore(longest_side)
         self._largest = largest
-        self._entries: dict[Path, _Entry] = {}
-        self._locks: dict[Path, threading.Lock] = {}
+        self._entries: dict[Asset, _Entry] = {}
+        self._locks: dict[Asset, threading.Lock] = {}
         self._guard = threading.Lock()
 
-    def get(self, path: Path) -> Mesh:
+    def get(self, path: Path, roots: tuple[Path, ...] | None = None) -> Mesh:
         """The mesh in a file, the same object as long as the file does not change.
+
+        Args:
+            path: the file.
+            roots: folders it may use, as for `read_mesh`.
 
         Raises:
             MeshError: it cannot be drawn; see `read_mesh`.
         """
         # Two threads that want the same file wait for one reading; other files
         # are read at the same time.
+        asset = Asset("mesh", path, roots)
         with self._guard:
-            lock = self._locks.setdefault(path, threading.Lock())
+            lock = self._locks.setdefault(asset, threading.Lock())
         with lock:
-            entry = self._entries.get(path)
+            entry = self._entries.get(asset)
             if entry is None or entry.stamp != _stamp(entry.files):
-                entry = self._entries[path] = self._read(path)
+                entry = self._entries[asset] = self._read(asset)
         if isinstance(entry.outcome, MeshError):
             raise MeshError(entry.outcome.problem)
         return entry.outcome
@@ -79,7 +84,7 @@ class MeshStore:
         """Whether `get` or `texture` has its answer at hand, also a refusal."""
         if asset.kind == "texture":
             return self.images.is_read(asset.path)
-        entry = self._entries.get(asset.path)
+        entry = self._entries.get(asset)
         return entry is not None and entry.stamp == _stamp(entry.files)
 
     def read(self, asset: Asset) -> None:
@@ -88,17 +93,20 @@ class MeshStore:
             if asset.kind == "texture":
                 self.texture(asset.path)
             else:
-                self.get(asset.path)
+                self.get(asset.path, asset.roots)
 
     def files(self, asset: Asset) -> tuple[Path, ...]:
         """The file and, as far as it was read, the images and materials it names."""
-        entry = self._entries.get(asset.path)
+        entry = self._entries.get(asset)
         return (asset.path,) if entry is None else entry.files
 
-    def _read(self, path: Path) -> _Entry:
+    def _read(self, asset: Asset) -> _Entry:
+        path = asset.path
         before = _stamp((path,))
         try:
-            mesh = read_mesh(path, images=self.images, largest=self._largest)
+            mesh = read_mesh(
+                path, images=self.images, largest=self._largest, roots=asset.roots
+            )
         except MeshError as error:
             return _Entry(before, error)
         except Exception as error:

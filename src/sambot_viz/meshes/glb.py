@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.mesh import WHITE, Mesh, MeshPart, Texture
-from sambot_viz.robot.model import Rgba
 
 _FLOAT, _UINT32, _UINT16 = 5126, 5125, 5123
 _VERTICES, _INDICES = 34962, 34963

@@ -14,8 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.geometry import Vector3
-from sambot_viz.robot.model import Rgba
+from sambot_viz.geometry import Rgba, Vector3
 
 FloatArray = npt.NDArray[np.float32]
 IndexArray = npt.NDArray[np.uint32]

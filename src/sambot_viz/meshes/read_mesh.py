@@ -1,46 +1,71 @@
-"""One door to every mesh format."""
+"""The one way to read a mesh file, whatever its format."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from sambot_viz.files import is_lfs_pointer
-from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh, assemble
+from sambot_viz.files import (
+    FileTooLargeError,
+    NotAFileError,
+    is_below,
+    is_lfs_pointer,
+    read_limited,
+    reason_of,
+)
+from sambot_viz.meshes.assembly.assemble import Submesh, assemble
 from sambot_viz.meshes.mesh import Mesh, mesh_error
+from sambot_viz.meshes.source import MeshSource
 from sambot_viz.meshes.textures import TextureStore
 
 LARGEST = 500 * 1024 * 1024
-"""Files above this size [bytes] are refused unless somebody asks for more."""
+"""Files above this size [bytes] are refused unless the caller allows more."""
 
-_Reader = Callable[[bytes, MeshFindings, TextureStore], list[Submesh]]
+_Reader = Callable[[MeshSource], list[Submesh]]
 
 
 def read_mesh(
-    path: Path, *, images: TextureStore | None = None, largest: int = LARGEST
+    path: Path,
+    *,
+    images: TextureStore | None = None,
+    largest: int = LARGEST,
+    roots: Sequence[Path] | None = None,
 ) -> Mesh:
     """Read a mesh file: STL, COLLADA, OBJ, glTF, GLB or PLY.
 
     Args:
-        path: the file; its ending tells the format, as in RViz.
+        path: the file; its ending gives the format, as in RViz.
         images: where textures are kept; give the same one for meshes that may share
             them.
         largest: refuse files above this size [bytes].
+        roots: resolved folders that the file and all files it names must be in, as
+            for a model that is not trusted; None for no limit.
 
     Raises:
         MeshError: missing, broken, empty, a git-LFS pointer, an unknown format, …;
             its one problem is a sentence that says so.
     """
+    if roots is not None and not is_below(path, roots):
+        raise mesh_error(
+            path, "mesh-unreadable", "the file is outside the model's folder"
+        )
     data = _read_bytes(path, largest)
     reader = _reader(path)
-    findings = MeshFindings(path)
+    source = MeshSource(path, data, images, roots)
     try:
-        # What is no number, or too large for one, is dealt with in `assemble`.
+        # Values that are not finite are dealt with in `assemble`.
         with np.errstate(all="ignore"):
-            pieces = reader(data, findings, images or TextureStore())
-            return assemble(pieces, findings)
+            pieces = reader(source)
+            if source.budget.cut_short:
+                source.warn(
+                    "mesh-polygons-tangled",
+                    "the mesh has too many or too large polygons with inward corners; "
+                    "some may be drawn wrongly",
+                    "triangulate the mesh before exporting it",
+                )
+            return assemble(pieces, source)
     except (MemoryError, RecursionError) as error:
         raise mesh_error(
             path, "mesh-too-large", "the mesh is too large or too deep to be read"
@@ -49,26 +74,24 @@ def read_mesh(
 
 def _read_bytes(path: Path, largest: int) -> bytes:
     try:
-        size = path.stat().st_size
-        if not path.is_file():
-            raise mesh_error(path, "mesh-missing", "this is not a file")
-        if size > largest:
-            raise mesh_error(
-                path,
-                "mesh-too-large",
-                f"the mesh has {size / 2**20:.0f} MB, more than the "
-                f"{largest / 2**20:.0f} MB that a browser can be expected to show",
-                "reduce its triangles",
-            )
-        data = path.read_bytes()
+        data = read_limited(path, largest)
     except FileNotFoundError as error:
         raise mesh_error(
             path, "mesh-missing", "there is no such file", "check name and folder"
         ) from error
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
+    except NotAFileError as error:
+        raise mesh_error(path, "mesh-missing", "this is not a file") from error
+    except FileTooLargeError as error:
         raise mesh_error(
-            path, "mesh-unreadable", f"the file cannot be read: {reason}"
+            path,
+            "mesh-too-large",
+            f"the mesh has more than the {largest / 2**20:.0f} MB that a browser can "
+            "be expected to show",
+            "reduce its triangles",
+        ) from error
+    except (OSError, ValueError) as error:
+        raise mesh_error(
+            path, "mesh-unreadable", f"the file cannot be read: {reason_of(error)}"
         ) from error
     if is_lfs_pointer(data):
         raise mesh_error(
@@ -96,36 +119,34 @@ def _reader(path: Path) -> _Reader:
     )
 
 
-def _stl(data: bytes, findings: MeshFindings, images: TextureStore) -> list[Submesh]:
+def _stl(source: MeshSource) -> list[Submesh]:
     from sambot_viz.meshes.formats.stl import read_stl
 
-    return read_stl(data, findings)
+    return read_stl(source)
 
 
-def _collada(
-    data: bytes, findings: MeshFindings, images: TextureStore
-) -> list[Submesh]:
+def _collada(source: MeshSource) -> list[Submesh]:
     from sambot_viz.meshes.formats.collada import read_collada
 
-    return read_collada(data, findings, images)
+    return read_collada(source)
 
 
-def _obj(data: bytes, findings: MeshFindings, images: TextureStore) -> list[Submesh]:
+def _obj(source: MeshSource) -> list[Submesh]:
     from sambot_viz.meshes.formats.obj import read_obj
 
-    return read_obj(data, findings, images)
+    return read_obj(source)
 
 
-def _gltf(data: bytes, findings: MeshFindings, images: TextureStore) -> list[Submesh]:
+def _gltf(source: MeshSource) -> list[Submesh]:
     from sambot_viz.meshes.formats.gltf import read_gltf
 
-    return read_gltf(data, findings, images)
+    return read_gltf(source)
 
 
-def _ply(data: bytes, findings: MeshFindings, images: TextureStore) -> list[Submesh]:
+def _ply(source: MeshSource) -> list[Submesh]:
     from sambot_viz.meshes.formats.ply import read_ply
 
-    return read_ply(data, findings)
+    return read_ply(source)
 
 
 _READERS: dict[str, _Reader] = {

@@ -9,11 +9,11 @@ from __future__ import annotations
 import hashlib
 import io
 import threading
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
-from urllib.parse import unquote
 
-from sambot_viz.files import is_lfs_pointer
+from sambot_viz.errors import SambotVizError
+from sambot_viz.files import is_lfs_pointer, read_limited, reason_of
 from sambot_viz.meshes.mesh import Texture
 
 if TYPE_CHECKING:
@@ -25,13 +25,16 @@ _MIME: dict[str, Literal["image/png", "image/jpeg"]] = {
     "PNG": "image/png",
     "JPEG": "image/jpeg",
 }
-_FOLDERS = ("", "textures", "../materials/textures", "../textures")
+LARGEST_IMAGE = 64 * 2**20
+"""Image files above this size [bytes] are refused."""
+MOST_PIXELS = 8192 * 8192
+"""Images that decode to more are refused: this many take half a gigabyte."""
 
 
 _Stamp = tuple[int, int]
 
 
-class TextureError(ValueError):
+class TextureError(SambotVizError):
     """An image that cannot be used; the text says why."""
 
 
@@ -67,10 +70,10 @@ class TextureStore:
     def _read(self, path: Path) -> Texture | str:
         """The image in a file, or why it cannot be used."""
         try:
-            return self.from_bytes(path.read_bytes())
-        except OSError as error:
-            return (error.strerror or "it cannot be read").lower()
-        except ValueError as error:
+            return self.from_bytes(read_limited(path, LARGEST_IMAGE))
+        except (OSError, ValueError) as error:
+            return reason_of(error)
+        except TextureError as error:
             return str(error)
 
     def from_bytes(self, data: bytes) -> Texture:
@@ -112,11 +115,15 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
 
     try:
         image = Image.open(io.BytesIO(data))
+        if image.width * image.height > MOST_PIXELS:
+            raise TextureError(
+                f"it has {image.width} × {image.height} pixels, too many"
+            )
         if max(image.size) <= longest_side and _ready(image, data):
             return Texture(data, _MIME[image.format or ""], *image.size)
         return _encode(Image.open(io.BytesIO(data)), longest_side)
     except UnidentifiedImageError as error:
-        raise TextureError("it is no image that can be read") from error
+        raise TextureError("it is not an image that can be read") from error
     except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
         raise TextureError("it has too many pixels") from error
     except (OSError, SyntaxError, ValueError, EOFError) as error:
@@ -163,43 +170,3 @@ def _encode(image: Image, longest_side: int) -> Texture:
     else:
         image.save(out, "PNG", compress_level=4)
     return Texture(out.getvalue(), mime, *image.size)
-
-
-def find_beside(mesh: Path, name: str) -> Path | None:
-    """The file that a mesh file means by a name.
-
-    Looked for relative to the mesh, with the letter case as it comes, and by its last
-    part beside the mesh, in `textures` and in `../materials/textures`: exporters
-    write paths of the machine they ran on.
-
-    Args:
-        mesh: the mesh file.
-        name: as written in it; may be a URI, percent-encoded, or a Windows path.
-    """
-    plain = name.strip().removeprefix("file://")
-    for text in dict.fromkeys((plain, unquote(plain))):
-        if not text or "\0" in text:
-            continue
-        relative = text.replace("\\", "/")
-        base = PureWindowsPath(text).name
-        wanted = [mesh.parent / relative]
-        wanted += [mesh.parent / folder / base for folder in _FOLDERS if base]
-        for path in wanted:
-            found = _as_it_comes(path)
-            if found is not None:
-                return found
-    return None
-
-
-def _as_it_comes(path: Path) -> Path | None:
-    """The file, or the one whose name differs only in letter case."""
-    try:
-        if path.is_file():
-            return path
-        lower = path.name.lower()
-        for other in sorted(path.parent.iterdir()):
-            if other.name.lower() == lower and other.is_file():
-                return other
-    except OSError:
-        return None
-    return None

@@ -220,4 +220,5 @@ def _robot(
         tuple(problems),
         expanded.text if expanded is not None else declared_as_utf8(source.text),
         tuple(dict.fromkeys((*own, *read))),
+        files.roots,
     )

@@ -18,12 +18,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.geometry import Matrix, Vector3, rotation_from_rpy
+from sambot_viz.geometry import Matrix, Rgba, Vector3, rotation_from_rpy
 
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
-Rgba = tuple[float, float, float, float]
 JointType = Literal[
     "revolute", "continuous", "prismatic", "fixed", "floating", "planar"
 ]
@@ -259,6 +258,8 @@ class Robot:
         problems: warnings and notes; errors only for things left out of the picture.
         urdf: the expanded and validated URDF text.
         files: every file that was read for it, the model first (for reload on save).
+        file_roots: folders that its meshes and textures may be read from (resolved);
+            None for a trusted model, whose files may be anywhere.
     """
 
     name: str
@@ -268,6 +269,7 @@ class Robot:
     problems: tuple[Problem, ...] = field(default=(), compare=False)
     urdf: str = field(default="", compare=False, repr=False)
     files: tuple[Path, ...] = field(default=(), compare=False, repr=False)
+    file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
 
     def forward_kinematics(
         self, positions: Mapping[str, float] | None = None

@@ -3,30 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.robot.model import MeshFile, Robot, Shape
 
 
-@dataclass(frozen=True, slots=True)
-class Asset:
-    """A file that has to be read before a shape can be drawn."""
+def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset | None:
+    """The file of a shape, or None when it needs none, or has none on this machine.
 
-    kind: Literal["mesh", "texture"]
-    path: Path
-
-
-def asset_of(shape: Shape) -> Asset | None:
-    """The file of a shape, or None when it needs none, or has none on this machine."""
+    Args:
+        shape: a visual or a collision.
+        file_roots: those of its robot.
+    """
     if isinstance(shape.geometry, MeshFile):
         path = shape.geometry.path
-        return None if path is None else Asset("mesh", path)
+        return None if path is None else Asset("mesh", path, file_roots)
     material = shape.material
     if material is None or material.texture_path is None:
         return None
-    return Asset("texture", material.texture_path)
+    return Asset("texture", material.texture_path, file_roots)
 
 
 def shapes_of(robot: Robot) -> Iterator[Shape]:
@@ -39,7 +35,7 @@ def shapes_of(robot: Robot) -> Iterator[Shape]:
 def assets_of(robot: Robot) -> Iterator[Asset]:
     """The files of all shapes; one that is used twice comes twice."""
     for shape in shapes_of(robot):
-        asset = asset_of(shape)
+        asset = asset_of(shape, robot.file_roots)
         if asset is not None:
             yield asset
 

@@ -6,8 +6,8 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshStore
-from sambot_viz.robot.shape_files import Asset
 
 TELL_PERIOD = 0.1
 """What was read is handed over at most so often [s]: every time costs each browser."""

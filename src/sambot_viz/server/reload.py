@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import ConfigError, Problem, RobotError
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.open_config import load_config
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.shape_files import Asset, assets_of, something_missing
+from sambot_viz.robot.shape_files import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server.server import Server

@@ -21,6 +21,7 @@ from sambot_viz.displays.robot_model.shape_nodes import ShapeLook, ShapeNode
 from sambot_viz.displays.status import Status
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Link, Robot, Shape
+from sambot_viz.robot.shape_files import asset_of
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
@@ -171,13 +172,15 @@ class RobotModelDisplay(Display):
             # Names below a frame are unique by its path; here the link makes them so.
             at_root = f"{list(self._robot.links).index(link)}."
         name = f"{above}/{self.key}{at_root}{kind[0]}{index}"
+        roots = None if self._robot is None else self._robot.file_roots
+        asset = asset_of(shape, roots)
         known = self._shapes.get(key)
         if known is not None:
             node = known[1]
-            if known[0] == name and node.shows(shape) and not node.gone:
+            if known[0] == name and node.shows(shape, asset) and not node.gone:
                 return node
             node.remove()
-        node = ShapeNode(self.context.scene, name, shape, self.context.assets)
+        node = ShapeNode(self.context.scene, name, shape, asset, self.context.assets)
         self._shapes[key] = (name, node)
         return node
 

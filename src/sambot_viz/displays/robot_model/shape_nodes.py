@@ -14,7 +14,8 @@ from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import AssetContent, SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
 from sambot_viz.errors import Problem
-from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.geometry import Rgba, Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.glb import to_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
@@ -24,11 +25,9 @@ from sambot_viz.robot.model import (
     Cylinder,
     Material,
     MeshFile,
-    Rgba,
     Shape,
     Sphere,
 )
-from sambot_viz.robot.shape_files import Asset, asset_of
 
 DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
 """What a link without a material is drawn in."""
@@ -98,24 +97,29 @@ class ShapeNode:
     """
 
     def __init__(
-        self, scene: viser.SceneApi, name: str, shape: Shape, assets: SessionAssets
+        self,
+        scene: viser.SceneApi,
+        name: str,
+        shape: Shape,
+        asset: Asset | None,
+        assets: SessionAssets,
     ) -> None:
         self.waiting = False
         self._scene = scene
         self._name = name
         self._shape = shape
         self._assets = assets
-        self._asset = asset_of(shape)
+        self._asset = asset
         self._source: AssetContent = None
         self._generation = -1
         self._wanted: ShapeLook | None = None
         self._look: ShapeLook | None = None
         self._pieces: list[_Piece] = []
 
-    def shows(self, shape: Shape) -> bool:
-        """Whether this is the node of that shape, out of the same file."""
+    def shows(self, shape: Shape, asset: Asset | None) -> bool:
+        """Whether this is the node of that shape, drawn from that file."""
         # Paths take no part in the comparison of shapes.
-        return shape == self._shape and asset_of(shape) == self._asset
+        return shape == self._shape and asset == self._asset
 
     def draw(self, look: ShapeLook) -> None:
         """Create the nodes, or change what differs from the last look.

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from typing import Protocol
 
 from sambot_viz.errors import Problem
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshStore
 from sambot_viz.meshes.mesh import Mesh, MeshError, Texture
 from sambot_viz.meshes.textures import TextureError
-from sambot_viz.robot.shape_files import Asset
 
 AssetContent = Mesh | Texture | Problem | None
 """What was read from a file, or why it cannot be used; None before that."""
@@ -81,7 +81,7 @@ class SessionAssets:
         """What is in a file, or why it cannot be drawn."""
         try:
             if asset.kind == "mesh":
-                return self._meshes.get(asset.path)
+                return self._meshes.get(asset.path, asset.roots)
             return self._meshes.texture(asset.path)
         except MeshError as error:
             return error.problem

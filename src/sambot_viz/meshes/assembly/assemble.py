@@ -7,20 +7,15 @@ the browser: values that are not finite, indices that point nowhere, empty meshe
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.errors import Problem
+from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, mesh_error
-from sambot_viz.robot.model import Rgba
-
-MOST_NODES = 100_000
-MOST_TRIANGLES = 20_000_000
-"""Meshes that unfold to more than this are refused."""
+from sambot_viz.meshes.source import MeshSource
 
 Floats = npt.NDArray[np.floating[Any]]
 Ints = npt.NDArray[np.integer[Any]]
@@ -49,50 +44,7 @@ class Submesh:
     shared: bool = False
 
 
-@dataclass(slots=True)
-class MeshFindings:
-    """What a reader wants to say about a file, each sentence once."""
-
-    path: Path
-    problems: list[Problem] = field(default_factory=list[Problem])
-    files: list[Path] = field(default_factory=list[Path])
-    nodes: int = 0
-    triangles: int = 0
-
-    def warn(self, code: str, message: str, hint: str = "") -> None:
-        """Note something doubtful."""
-        problem = Problem("warning", code, message, hint, str(self.path))
-        if problem not in self.problems:
-            self.problems.append(problem)
-
-    def spend(self, *, nodes: int = 0, triangles: int = 0) -> None:
-        """Count what a file unfolds to: a few lines can name a shape a million times.
-
-        Raises:
-            MeshError: more than a browser can be expected to show.
-        """
-        self.nodes += nodes
-        self.triangles += triangles
-        if self.nodes > MOST_NODES or self.triangles > MOST_TRIANGLES:
-            what = (
-                f"{MOST_NODES} nodes"
-                if self.nodes > MOST_NODES
-                else f"{MOST_TRIANGLES} triangles"
-            )
-            raise mesh_error(
-                self.path,
-                "mesh-too-large",
-                f"the mesh has more than {what}, too many for a browser",
-                "reduce its triangles",
-            )
-
-    def read(self, path: Path) -> None:
-        """Note that a file beside the mesh was read."""
-        if path not in self.files:
-            self.files.append(path)
-
-
-def assemble(pieces: Iterable[Submesh], findings: MeshFindings) -> Mesh:
+def assemble(pieces: Iterable[Submesh], source: MeshSource) -> Mesh:
     """The mesh that the pieces make.
 
     Raises:
@@ -100,14 +52,14 @@ def assemble(pieces: Iterable[Submesh], findings: MeshFindings) -> Mesh:
     """
     groups: dict[object, list[Submesh]] = {}
     for piece in pieces:
-        clean = _clean(piece, findings)
+        clean = _clean(piece, source)
         if clean is not None:
             look = (clean.rgba, id(clean.texture), clean.normals is None)
             groups.setdefault(look, []).append(clean)
     if not groups:
-        reasons = [problem.message for problem in findings.problems]
+        reasons = [problem.message for problem in source.findings.problems]
         raise mesh_error(
-            findings.path,
+            source.path,
             "mesh-broken" if reasons else "mesh-empty",
             f"nothing of the mesh can be drawn: {reasons[0]}"
             if reasons
@@ -115,20 +67,20 @@ def assemble(pieces: Iterable[Submesh], findings: MeshFindings) -> Mesh:
             "export it again and check that the part was selected",
         )
     return Mesh(
-        path=findings.path,
+        path=source.path,
         parts=tuple(_weld(_join(group)) for group in groups.values()),
-        problems=tuple(findings.problems),
-        files=(findings.path, *findings.files),
+        problems=tuple(source.findings.problems),
+        files=(source.path, *source.files.used),
     )
 
 
-def _clean(piece: Submesh, findings: MeshFindings) -> Submesh | None:
+def _clean(piece: Submesh, source: MeshSource) -> Submesh | None:
     """The piece without triangles that cannot be drawn; None when none is left."""
     vertices = piece.vertices.astype(np.float32, copy=False)
     faces = piece.faces
     if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
         inside = np.all((faces >= 0) & (faces < len(vertices)), axis=1)
-        findings.warn(
+        source.warn(
             "mesh-index-out-of-range",
             f"{np.count_nonzero(~inside)} triangles use vertices that the file does "
             "not have; they are left out",
@@ -140,7 +92,7 @@ def _clean(piece: Submesh, findings: MeshFindings) -> Submesh | None:
         a, b, c = faces[:, 0], faces[:, 1], faces[:, 2]
         usable = finite[a] & finite[b] & finite[c]
         if not np.all(usable):
-            findings.warn(
+            source.warn(
                 "mesh-vertex-not-finite",
                 f"{np.count_nonzero(~usable)} triangles have a corner that is no "
                 "number (NaN or infinite); they are left out",

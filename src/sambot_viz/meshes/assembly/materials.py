@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sambot_viz.meshes.assembly.assemble import MeshFindings
+from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.mesh import Texture
-from sambot_viz.meshes.textures import TextureError, TextureStore, find_beside
-from sambot_viz.robot.model import Rgba
+from sambot_viz.meshes.named_files import NamedFileError
+from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.textures import TextureError
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,26 +19,25 @@ class MeshMaterial:
     texture: Texture | None = None
 
 
-def load_texture(
-    name: str, findings: MeshFindings, images: TextureStore
-) -> Texture | None:
-    """The image that a mesh names; None, with a warning, when it cannot be had."""
-    path = find_beside(findings.path, name)
-    if path is None:
-        findings.warn(
+def load_texture(name: str, source: MeshSource) -> Texture | None:
+    """The image that a mesh names; None, with a warning, when it cannot be used."""
+    try:
+        path = source.files.find(name)
+    except NamedFileError as error:
+        source.warn(
             "mesh-texture-missing",
-            f"the texture '{name}' is not there; the surface is shown without it",
+            f"the texture '{name}' was not found: {error}; the surface is shown "
+            "without it",
             "put the image beside the mesh",
         )
         return None
+    source.files.note(path)
     try:
-        texture = images.from_file(path)
+        return source.images.from_file(path)
     except TextureError as error:
-        findings.warn(
+        source.warn(
             "mesh-texture-broken",
             f"the texture '{name}' cannot be used: {error}; the surface is shown "
             "without it",
         )
         return None
-    findings.read(path)
-    return texture

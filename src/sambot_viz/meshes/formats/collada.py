@@ -15,27 +15,25 @@ from collections.abc import Iterator
 import numpy as np
 
 from sambot_viz.geometry import Matrix
-from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
+from sambot_viz.meshes.assembly.assemble import Submesh
 from sambot_viz.meshes.assembly.placing import placed
 from sambot_viz.meshes.formats.collada_geometry import Geometry, read_geometry
 from sambot_viz.meshes.formats.collada_material import Materials
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_document
-from sambot_viz.meshes.textures import TextureStore
+from sambot_viz.meshes.source import MeshSource
 
 _DEEPEST = 200
 
 
-def read_collada(
-    data: bytes, findings: MeshFindings, images: TextureStore
-) -> list[Submesh]:
+def read_collada(source: MeshSource) -> list[Submesh]:
     """The triangles of a COLLADA file [m].
 
     Raises:
         MeshError: no COLLADA even when read leniently.
     """
-    document = parse_document(data, findings)
-    materials = Materials(document, findings, images)
-    scene = _Scene(document, materials, findings)
+    document = parse_document(source)
+    materials = Materials(document, source)
+    scene = _Scene(document, materials, source)
     pieces = list(scene.pieces())
     if not pieces:
         pieces = list(scene.loose_pieces())
@@ -46,12 +44,12 @@ class _Scene:
     """The tree of nodes, turned into pieces."""
 
     def __init__(
-        self, document: ColladaDocument, materials: Materials, findings: MeshFindings
+        self, document: ColladaDocument, materials: Materials, source: MeshSource
     ) -> None:
         self.document = document
         self.materials = materials
-        self.findings = findings
-        self.unit = _unit(document, findings)
+        self.source = source
+        self.unit = _unit(document, source)
         self._geometries: dict[int, Geometry] = {}
 
     def pieces(self) -> Iterator[Submesh]:
@@ -72,7 +70,7 @@ class _Scene:
         for geometry in self.document.root.iterfind("library_geometries/geometry"):
             pieces = list(self._geometry(geometry, None, start))
             if pieces:
-                self.findings.warn(
+                self.source.warn(
                     "mesh-scene-missing",
                     "the COLLADA file has no scene that shows its geometries; they are "
                     "drawn as they stand in the file",
@@ -82,13 +80,13 @@ class _Scene:
 
     def _node(self, node: ET.Element, T: Matrix, depth: int) -> Iterator[Submesh]:
         if depth > _DEEPEST:
-            self.findings.warn(
+            self.source.warn(
                 "mesh-nodes-too-deep",
                 "the COLLADA nodes contain themselves or are "
                 f"nested more than {_DEEPEST} deep; the rest is left out",
             )
             return
-        self.findings.spend(nodes=1)
+        self.source.budget.spend_nodes()
         T_root_node = T @ _local_transform(node)
         for child in node:
             if child.tag == "node":
@@ -121,11 +119,13 @@ class _Scene:
     ) -> Iterator[Submesh]:
         geometry = self._geometries.get(id(element))
         if geometry is None:
-            geometry = read_geometry(element, self.document, self.findings)
+            geometry = read_geometry(element, self.document, self.source)
             self._geometries[id(element)] = geometry
         bound = self.materials.bindings(instance)
         for primitives in geometry:
-            self.findings.spend(triangles=len(primitives.faces))
+            self.source.budget.spend_triangles(
+                len(primitives.faces), len(primitives.vertices)
+            )
             look = self.materials.look(primitives.symbol, bound)
             yield placed(
                 Submesh(
@@ -140,14 +140,14 @@ class _Scene:
             )
 
 
-def _unit(document: ColladaDocument, findings: MeshFindings) -> float:
+def _unit(document: ColladaDocument, source: MeshSource) -> float:
     element = document.root.find("asset/unit")
     text = element.get("meter") if element is not None else None
     if text is None:
         return 1.0
     value = _numbers(text, 1)
     if value is None or not value[0] > 0:
-        findings.warn(
+        source.warn(
             "mesh-unit-invalid",
             f'<unit meter="{text}"> is no positive number; 1 m is taken',
             'write the length of one unit in metres, for example meter="0.001"',

@@ -13,10 +13,11 @@ from sambot_viz.meshes.assembly.arrays import (
     parse_floats,
     parse_ints,
     table_of,
-    triangulate,
 )
-from sambot_viz.meshes.assembly.assemble import Floats, Ints, MeshFindings
+from sambot_viz.meshes.assembly.assemble import Floats, Ints
+from sambot_viz.meshes.assembly.polygons import triangulate
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument
+from sambot_viz.meshes.source import MeshSource
 
 _Int64 = npt.NDArray[np.int64]
 
@@ -52,7 +53,7 @@ class _Input:
 
 
 def read_geometry(
-    element: ET.Element, document: ColladaDocument, findings: MeshFindings
+    element: ET.Element, document: ColladaDocument, source: MeshSource
 ) -> Geometry:
     """All triangles of a <geometry>; lines and points are no concern of RViz."""
     mesh = element.find("mesh")
@@ -60,7 +61,7 @@ def read_geometry(
         mesh = element.find("convex_mesh")
     if mesh is None:
         return []
-    reader = _MeshReader(mesh, document, findings)
+    reader = _MeshReader(mesh, document, source)
     geometry = [reader.primitives(child) for child in mesh if child.tag in _CORNERS]
     return [primitives for primitives in geometry if primitives is not None]
 
@@ -69,11 +70,11 @@ class _MeshReader:
     """One <mesh>: its sources are parsed once, whatever refers to them."""
 
     def __init__(
-        self, mesh: ET.Element, document: ColladaDocument, findings: MeshFindings
+        self, mesh: ET.Element, document: ColladaDocument, source: MeshSource
     ) -> None:
         self.mesh = mesh
         self.document = document
-        self.findings = findings
+        self.source = source
         self._sources: dict[str, Floats | None] = {}
         # Some exporters use the same ids again in every mesh.
         self._own = {e.get("id", ""): e for e in reversed(list(mesh.iter()))}
@@ -98,7 +99,7 @@ class _MeshReader:
         if points is None:
             self._broken(f"a <{element.tag}> uses positions that do not exist")
             return None
-        faces = triangulate(counts, points)
+        faces = triangulate(counts, points, self.source.budget)
         return Primitives(
             symbol=element.get("material"),
             vertices=points.astype(np.float64),
@@ -108,7 +109,7 @@ class _MeshReader:
         )
 
     def _broken(self, what: str) -> None:
-        self.findings.warn(
+        self.source.warn(
             "mesh-geometry-broken",
             f"{what}; these triangles are left out",
             "export the mesh again",

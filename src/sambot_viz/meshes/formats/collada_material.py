@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from sambot_viz.meshes.assembly.assemble import MeshFindings
 from sambot_viz.meshes.assembly.materials import MeshMaterial, load_texture
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument
 from sambot_viz.meshes.mesh import GREY, WHITE, Texture
-from sambot_viz.meshes.textures import TextureStore
+from sambot_viz.meshes.source import MeshSource
 
 _SHADERS = ("phong", "lambert", "blinn", "constant")
 
@@ -16,12 +15,9 @@ _SHADERS = ("phong", "lambert", "blinn", "constant")
 class Materials:
     """The materials of a document, each read once."""
 
-    def __init__(
-        self, document: ColladaDocument, findings: MeshFindings, images: TextureStore
-    ) -> None:
+    def __init__(self, document: ColladaDocument, source: MeshSource) -> None:
         self.document = document
-        self.findings = findings
-        self.images = images
+        self.source = source
         self._looks: dict[int, MeshMaterial] = {}
 
     def bindings(self, instance: ET.Element | None) -> dict[str, str]:
@@ -46,7 +42,7 @@ class Materials:
         effect = self._effect(material)
         if effect is None:
             if symbol is not None:
-                self.findings.warn(
+                self.source.warn(
                     "mesh-material-broken",
                     f"the COLLADA material '{symbol}' leads to no colour; the first "
                     "one of the file, or grey, is shown",
@@ -101,13 +97,13 @@ class Materials:
         image = self.document.by_id(self._image_id(effect, reference))
         name = "" if image is None else _image_file(image)
         if not name:
-            self.findings.warn(
+            self.source.warn(
                 "mesh-texture-missing",
                 f"the COLLADA texture '{reference}' leads to no image; white is shown",
                 "export the mesh again with its textures",
             )
             return None
-        return load_texture(name, self.findings, self.images)
+        return load_texture(name, self.source)
 
     def _image_id(self, effect: ET.Element, reference: str) -> str:
         for _ in range(4):

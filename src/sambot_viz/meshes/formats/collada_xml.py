@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import importlib
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.meshes.assembly.assemble import MeshFindings
-from sambot_viz.meshes.mesh import mesh_error
+from sambot_viz.meshes.source import MeshSource
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,25 +32,22 @@ class ColladaDocument:
         return self.by_id(instance.get("url"))
 
 
-def parse_document(data: bytes, findings: MeshFindings) -> ColladaDocument:
+def parse_document(source: MeshSource) -> ColladaDocument:
     """Read the XML.
 
     Raises:
         MeshError: nothing in it looks like COLLADA.
     """
     try:
-        root = ET.fromstring(data)
+        root = ET.fromstring(source.data)
     except (ET.ParseError, ValueError, LookupError) as error:
-        recovered = _recover(data)
+        recovered = _recover(source.data)
         if recovered is None:
-            raise mesh_error(
-                findings.path,
-                "mesh-broken",
-                f"the COLLADA file is not well-formed XML ({error})",
-                "export the mesh again, or copy the file again if it was cut off",
+            raise source.broken(
+                f"the COLLADA file is not well-formed XML ({error})"
             ) from error
         root = recovered
-        findings.warn(
+        source.warn(
             "mesh-recovered",
             f"the COLLADA file is not well-formed XML ({error}); what could be read "
             "of it is drawn",
@@ -60,9 +57,7 @@ def parse_document(data: bytes, findings: MeshFindings) -> ColladaDocument:
     if root.tag != "COLLADA":
         inner = root.find(".//COLLADA")
         if inner is None:
-            raise mesh_error(
-                findings.path,
-                "mesh-broken",
+            raise source.broken(
                 f"the file has no <COLLADA> element but starts with <{root.tag}>",
                 "export the mesh again as COLLADA",
             )
@@ -92,13 +87,25 @@ def _recover(data: bytes) -> ET.Element | None:
         tree = lenient.fromstring(data, parser)
     except (lenient.LxmlError, ValueError):
         return None
-    return None if tree is None else _copy(tree)
+    return None if tree is None else _copy(lenient.iterwalk(tree, ("start", "end")))
 
 
-def _copy(found: Any) -> ET.Element:
-    """The lenient parser's element as one of the strict parser's."""
-    element = ET.Element(str(found.tag), {str(k): str(v) for k, v in found.items()})
-    element.text = found.text
-    # Comments and unknown entities have no name.
-    element.extend(_copy(child) for child in found if isinstance(child.tag, str))
-    return element
+def _copy(events: Iterable[tuple[str, Any]]) -> ET.Element | None:
+    """The lenient parser's elements as those of the strict parser.
+
+    Broken files may be nested hundreds of thousands deep, so nothing here recurses.
+    """
+    top = ET.Element("")
+    open_elements = [top]
+    for event, found in events:
+        # Comments and unknown entities have no name.
+        if not isinstance(found.tag, str):
+            continue
+        if event == "end":
+            open_elements.pop()
+            continue
+        attributes = {str(key): str(value) for key, value in found.items()}
+        element = ET.SubElement(open_elements[-1], str(found.tag), attributes)
+        element.text = found.text
+        open_elements.append(element)
+    return next(iter(top), None)

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.arrays import triples
-from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
+from sambot_viz.meshes.assembly.assemble import Submesh
 from sambot_viz.meshes.assembly.placing import placed
 from sambot_viz.meshes.formats.gltf_accessor import Accessors
 from sambot_viz.meshes.formats.gltf_json import (
@@ -30,7 +30,7 @@ from sambot_viz.meshes.formats.gltf_json import (
 from sambot_viz.meshes.formats.gltf_material import GltfMaterials
 from sambot_viz.meshes.formats.gltf_resource import Resources
 from sambot_viz.meshes.mesh import mesh_error
-from sambot_viz.meshes.textures import TextureStore
+from sambot_viz.meshes.source import MeshSource
 
 _UNREADABLE = {
     "KHR_draco_mesh_compression": "Draco",
@@ -41,25 +41,18 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _DEEPEST = 200
 
 
-def read_gltf(
-    data: bytes, findings: MeshFindings, images: TextureStore
-) -> list[Submesh]:
+def read_gltf(source: MeshSource) -> list[Submesh]:
     """The triangles of a .gltf or .glb file.
 
     Raises:
         MeshError: broken, compressed in a way that is not read, or older than 2.0.
     """
     try:
-        document, binary = _split(data)
-        _refuse_compression(document, findings)
-        return list(_Scene(document, binary, findings, images).pieces())
+        document, binary = _split(source.data)
+        _refuse_compression(document, source)
+        return list(_Scene(document, binary, source).pieces())
     except Broken as error:
-        raise mesh_error(
-            findings.path,
-            "mesh-broken",
-            f"the glTF file is broken: {error}",
-            "export the mesh again, or copy the file again if it was cut off",
-        ) from error
+        raise source.broken(f"the glTF file is broken: {error}") from error
 
 
 def _split(data: bytes) -> tuple[Json, bytes | None]:
@@ -96,12 +89,12 @@ def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
         start += 8 + length + -length % 4
 
 
-def _refuse_compression(document: Json, findings: MeshFindings) -> None:
+def _refuse_compression(document: Json, source: MeshSource) -> None:
     for name in listing(document, "extensionsRequired"):
         method = _UNREADABLE.get(str(name))
         if method is not None:
             raise mesh_error(
-                findings.path,
+                source.path,
                 "mesh-compressed",
                 f"the glTF file is compressed with {method}, which RViz and this "
                 "program do not read",
@@ -116,16 +109,13 @@ class _Scene:
         self,
         document: Json,
         binary: bytes | None,
-        findings: MeshFindings,
-        images: TextureStore,
+        source: MeshSource,
     ) -> None:
         self.document = document
-        self.findings = findings
-        resources = Resources(document, binary, findings)
-        self.accessors = Accessors(document, resources.buffer)
-        self.materials = GltfMaterials(
-            document, resources, self.accessors, findings, images
-        )
+        self.source = source
+        resources = Resources(document, binary, source)
+        self.accessors = Accessors(document, resources.buffer, source.budget)
+        self.materials = GltfMaterials(document, resources, self.accessors, source)
         self._meshes: dict[int, list[Submesh]] = {}
 
     def pieces(self) -> Iterator[Submesh]:
@@ -144,15 +134,26 @@ class _Scene:
     def _node(self, number: int, T: Matrix, depth: int) -> Iterator[Submesh]:
         if depth > _DEEPEST:
             raise Broken(f"its nodes contain themselves or nest over {_DEEPEST} deep")
-        self.findings.spend(nodes=1)
+        self.source.budget.spend_nodes()
         node = entry(self.document, "nodes", number)
         T_mesh_node = T @ _local_transform(node)
         if "mesh" in node:
+            self._spend(entry(self.document, "meshes", node["mesh"]))
             for piece in self._mesh(node["mesh"]):
-                self.findings.spend(triangles=len(piece.faces))
                 yield placed(piece, T_mesh_node)
         for child in numbers(node, "children"):
             yield from self._node(child, T_mesh_node, depth + 1)
+
+    def _spend(self, mesh: Json) -> None:
+        """Count what a mesh announces, before any memory is taken for it."""
+        for primitive in listing(mesh, "primitives"):
+            if not isinstance(primitive, dict):
+                continue
+            vertices = self.accessors.count(
+                section(cast(Json, primitive), "attributes").get("POSITION")
+            )
+            corners = self.accessors.count(cast(Json, primitive).get("indices"))
+            self.source.budget.spend_triangles((corners or vertices) // 3, vertices)
 
     def _mesh(self, number: object) -> list[Submesh]:
         mesh = entry(self.document, "meshes", number)

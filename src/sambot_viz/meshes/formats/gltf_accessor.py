@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from sambot_viz.meshes.assembly.arrays import table_of
 from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry, section, whole
+from sambot_viz.meshes.source import MeshBudget
 
 _TYPES: dict[int, str] = {
     5120: "<i1",
@@ -19,16 +20,18 @@ _TYPES: dict[int, str] = {
     5125: "<u4",
     5126: "<f4",
 }
-_MOST_ZEROS = 2**24
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 class Accessors:
     """Typed arrays by accessor number."""
 
-    def __init__(self, document: Json, buffer: Callable[[int], bytes]) -> None:
+    def __init__(
+        self, document: Json, buffer: Callable[[int], bytes], budget: MeshBudget
+    ) -> None:
         """`buffer` gives the bytes of a buffer by its number."""
         self.document = document
+        self.budget = budget
         self.buffer = buffer
 
     def view(self, number: object) -> bytes:
@@ -41,6 +44,13 @@ class Accessors:
             raise Broken(f"a buffer view ends at byte {end} of {len(data)}")
         return data[start:end]
 
+    def count(self, number: object) -> int:
+        """How many entries an accessor announces; 0 when there is no such accessor."""
+        try:
+            return whole(entry(self.document, "accessors", number), "count")
+        except Broken:
+            return 0
+
     def array(self, number: object, width: int) -> npt.NDArray[Any]:
         """(count, width) of whatever type the file uses, normalized ones as floats."""
         accessor = entry(self.document, "accessors", number)
@@ -51,9 +61,8 @@ class Accessors:
         if "bufferView" in accessor:
             start = whole(accessor, "byteOffset", 0)
             table = self._table(accessor["bufferView"], start, count, dtype, width)
-        elif count > _MOST_ZEROS:
-            raise Broken(f"an accessor announces {count} entries without data")
         else:
+            self.budget.spend_without_data(count)
             table = np.zeros((count, width), dtype=dtype)
         if "sparse" in accessor:
             table = self._sparse(table, section(accessor, "sparse"))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from sambot_viz.meshes.assembly.assemble import MeshFindings
+from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.assembly.materials import MeshMaterial
 from sambot_viz.meshes.formats.gltf_accessor import Accessors
 from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry, section
 from sambot_viz.meshes.formats.gltf_resource import Resources
 from sambot_viz.meshes.mesh import WHITE, Texture
-from sambot_viz.meshes.textures import TextureError, TextureStore
-from sambot_viz.robot.model import Rgba
+from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.textures import TextureError
 
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
 _IMAGE_EXTENSIONS = ("EXT_texture_webp", "KHR_texture_basisu")
@@ -25,14 +25,12 @@ class GltfMaterials:
         document: Json,
         resources: Resources,
         accessors: Accessors,
-        findings: MeshFindings,
-        images: TextureStore,
+        source: MeshSource,
     ) -> None:
         self.document = document
         self.resources = resources
         self.accessors = accessors
-        self.findings = findings
-        self.images = images
+        self.source = source
         self._looks: dict[int, tuple[MeshMaterial, int]] = {}
 
     def look(self, number: object) -> tuple[MeshMaterial, int]:
@@ -79,12 +77,10 @@ class GltfMaterials:
                 data = self.resources.uri(str(image["uri"]))
             else:
                 data = self.accessors.view(image.get("bufferView"))
-            if data is not None:
-                return self.images.from_bytes(data)
-            reason = f"'{str(image['uri'])[:80]}' is not there"
+            return self.source.images.from_bytes(data)
         except (Broken, TextureError) as error:
             reason = str(error)
-        self.findings.warn(
+        self.source.warn(
             "mesh-texture-broken",
             f"texture {number} of the glTF file cannot be used: {reason}; the surface "
             "is shown without it",

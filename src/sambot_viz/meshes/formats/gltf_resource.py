@@ -7,21 +7,23 @@ import binascii
 from typing import Any
 from urllib.parse import unquote, unquote_to_bytes
 
-from sambot_viz.files import is_lfs_pointer
-from sambot_viz.meshes.assembly.assemble import MeshFindings
 from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry
-from sambot_viz.meshes.textures import find_beside
+from sambot_viz.meshes.named_files import NamedFileError
+from sambot_viz.meshes.source import MeshSource
+
+_LARGEST = 500 * 2**20
+"""Buffers and images above this size [bytes] are refused."""
 
 
 class Resources:
     """Buffers by number and URIs, each read once."""
 
     def __init__(
-        self, document: Json, binary: bytes | None, findings: MeshFindings
+        self, document: Json, binary: bytes | None, source: MeshSource
     ) -> None:
         self.document = document
         self.binary = binary
-        self.findings = findings
+        self.source = source
         self._buffers: dict[int, bytes] = {}
 
     def buffer(self, number: int) -> bytes:
@@ -32,35 +34,27 @@ class Resources:
         """
         if number not in self._buffers:
             uri: Any = entry(self.document, "buffers", number).get("uri")
-            data = self.binary if uri is None else self.uri(str(uri))
-            if data is None:
-                what = "the binary part of the file" if uri is None else f"'{uri}'"
-                raise Broken(f"{what[:80]} with its numbers is not there")
-            self._buffers[number] = data
+            if uri is None and self.binary is None:
+                raise Broken("the binary part of the file with its numbers is missing")
+            self._buffers[number] = self.binary or b"" if uri is None else self.uri(uri)
         return self._buffers[number]
 
-    def uri(self, uri: str) -> bytes | None:
-        """The bytes behind a data URI or a file name; None when there are none.
+    def uri(self, uri: object) -> bytes:
+        """The bytes behind a data URI or a file name.
 
         Raises:
-            Broken: the file is a git-LFS pointer.
+            Broken: there are none, or they may not be used.
         """
-        if uri.startswith("data:"):
-            head, _, body = uri.partition(",")
+        text = str(uri)
+        if text.startswith("data:"):
+            head, _, body = text.partition(",")
             if not head.endswith(";base64"):
                 return unquote_to_bytes(body)
             try:
                 return base64.b64decode(unquote(body))
-            except (binascii.Error, ValueError):
-                return None
-        path = find_beside(self.findings.path, uri)
-        if path is None:
-            return None
+            except (binascii.Error, ValueError) as error:
+                raise Broken("a data URI is not valid base64") from error
         try:
-            data = path.read_bytes()
-        except OSError:
-            return None
-        if is_lfs_pointer(data):
-            raise Broken(f"'{path.name}' is a git-LFS pointer; run 'git lfs pull'")
-        self.findings.read(path)
-        return data
+            return self.source.files.read(text, _LARGEST)
+        except NamedFileError as error:
+            raise Broken(f"'{text[:80]}': {error}") from error

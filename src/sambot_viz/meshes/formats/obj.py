@@ -12,19 +12,21 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.files import is_lfs_pointer
 from sambot_viz.meshes.assembly.arrays import (
     parse_floats,
     parse_ints,
     table_of,
-    triangulate,
 )
-from sambot_viz.meshes.assembly.assemble import Floats, MeshFindings, Submesh
+from sambot_viz.meshes.assembly.assemble import Floats, Submesh
 from sambot_viz.meshes.assembly.materials import MeshMaterial, load_texture
+from sambot_viz.meshes.assembly.polygons import triangulate
 from sambot_viz.meshes.mesh import GREY
-from sambot_viz.meshes.textures import TextureStore, find_beside
+from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
+from sambot_viz.meshes.source import MeshSource
 
 _TWO_SLASHES = re.compile(rb"/\d*/")
+_LARGEST_LIBRARY = 64 * 2**20
+"""Material files above this size [bytes] are refused."""
 _MISSING = np.iinfo(np.int64).min
 
 
@@ -48,16 +50,14 @@ class _Lines:
     libraries: list[str] = field(default_factory=list[str])
 
 
-def read_obj(
-    data: bytes, findings: MeshFindings, images: TextureStore
-) -> list[Submesh]:
+def read_obj(source: MeshSource) -> list[Submesh]:
     """The triangles of an OBJ file."""
-    lines = _sort(data)
-    looks = _read_libraries(lines.libraries, findings, images)
+    lines = _sort(source.data)
+    looks = _read_libraries(lines.libraries, source)
     tables = (
-        _table(lines.positions, 3, findings),
-        _table(lines.uvs, 2, findings),
-        _table(lines.normals, 3, findings),
+        _table(lines.positions, 3, source),
+        _table(lines.uvs, 2, source),
+        _table(lines.normals, 3, source),
     )
     pieces: list[Submesh] = []
     for group in lines.groups:
@@ -65,12 +65,12 @@ def read_obj(
             continue
         look = looks.get(group.material)
         if look is None and group.material and looks:
-            findings.warn(
+            source.warn(
                 "mesh-material-broken",
                 f"the material '{group.material}' is not in the .mtl file; grey is "
                 "shown",
             )
-        piece = _piece(group, tables, findings)
+        piece = _piece(group, tables, source)
         if piece is not None:
             piece.rgba, piece.texture = (
                 (GREY, None) if look is None else (look.rgba, look.texture)
@@ -126,7 +126,7 @@ def _text(line: bytes) -> str:
     return line.decode("utf-8", "replace").strip()
 
 
-def _table(lines: list[bytes], width: int, findings: MeshFindings) -> Floats:
+def _table(lines: list[bytes], width: int, source: MeshSource) -> Floats:
     """(rows, width): the first numbers of every line."""
     if not lines:
         return np.empty((0, width), dtype=np.float32)
@@ -142,7 +142,7 @@ def _table(lines: list[bytes], width: int, findings: MeshFindings) -> Floats:
     if width == 2:
         return np.nan_to_num(table)
     if np.any(np.isnan(table)):
-        findings.warn(
+        source.warn(
             "mesh-geometry-broken",
             "some lines of the OBJ file are not three numbers; what uses them is left "
             "out",
@@ -152,12 +152,12 @@ def _table(lines: list[bytes], width: int, findings: MeshFindings) -> Floats:
 
 
 def _piece(
-    group: _Group, tables: tuple[Floats, Floats, Floats], findings: MeshFindings
+    group: _Group, tables: tuple[Floats, Floats, Floats], source: MeshSource
 ) -> Submesh | None:
     counts = np.array([len(line.split()) for line in group.lines], dtype=np.int64)
     corners = _corners(b" ".join(group.lines), int(counts.sum()))
     if corners is None:
-        findings.warn(
+        source.warn(
             "mesh-geometry-broken",
             "a face of the OBJ file has an index that is no whole number; the faces of "
             f"the material '{group.material}' are left out",
@@ -178,7 +178,7 @@ def _piece(
         points[there] = positions[index[there, 0]]
     return Submesh(
         vertices=points,
-        faces=triangulate(counts, points),
+        faces=triangulate(counts, points, source.budget),
         normals=_pick(normals, index[:, 2]),
         uv=_pick(uvs, index[:, 1]),
     )
@@ -215,37 +215,24 @@ def _corners(text: bytes, count: int) -> npt.NDArray[np.int64] | None:
     return table
 
 
-def _read_libraries(
-    names: list[str], findings: MeshFindings, images: TextureStore
-) -> dict[str, MeshMaterial]:
+def _read_libraries(names: list[str], source: MeshSource) -> dict[str, MeshMaterial]:
     looks: dict[str, MeshMaterial] = {}
     for name in dict.fromkeys(names):
-        path = find_beside(findings.path, name)
         try:
-            data = None if path is None else path.read_bytes()
-        except OSError:
-            data = None
-        if path is None or data is None:
-            findings.warn(
-                "mesh-material-missing",
-                f"the material file '{name}' is not there; grey is shown",
+            data = source.files.read(name, _LARGEST_LIBRARY)
+        except NamedFileError as error:
+            pointer = isinstance(error, LfsPointerError)
+            source.warn(
+                "mesh-lfs-pointer" if pointer else "mesh-material-missing",
+                f"the material file '{name}' cannot be used: {error}; grey is shown",
                 "put it beside the mesh",
             )
             continue
-        if is_lfs_pointer(data):
-            findings.warn(
-                "mesh-lfs-pointer",
-                f"the material file '{name}' is a git-LFS pointer; grey is shown",
-                "run 'git lfs pull' in its repository",
-            )
-        findings.read(path)
-        looks.update(_read_library(data, findings, images))
+        looks.update(_read_library(data, source))
     return looks
 
 
-def _read_library(
-    data: bytes, findings: MeshFindings, images: TextureStore
-) -> dict[str, MeshMaterial]:
+def _read_library(data: bytes, source: MeshSource) -> dict[str, MeshMaterial]:
     looks: dict[str, MeshMaterial] = {}
     name: str | None = None
     for line in data.decode("utf-8", "replace").splitlines():
@@ -255,7 +242,7 @@ def _read_library(
             name = rest
             looks[name] = MeshMaterial(GREY)
         elif name is not None:
-            looks[name] = _changed(looks[name], keyword, rest, findings, images)
+            looks[name] = _changed(looks[name], keyword, rest, source)
     return looks
 
 
@@ -263,13 +250,12 @@ def _changed(
     look: MeshMaterial,
     keyword: str,
     rest: str,
-    findings: MeshFindings,
-    images: TextureStore,
+    source: MeshSource,
 ) -> MeshMaterial:
     """The look after one more line of its material."""
     if keyword == "map_Kd":
         name = _map_name(rest)
-        return MeshMaterial(look.rgba, load_texture(name, findings, images))
+        return MeshMaterial(look.rgba, load_texture(name, source))
     if keyword not in ("Kd", "d", "Tr"):
         return look
     try:

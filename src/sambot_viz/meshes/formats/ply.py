@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.meshes.assembly.arrays import parse_floats, table_of, triangulate
-from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
-from sambot_viz.meshes.mesh import WHITE, mesh_error
+from sambot_viz.meshes.assembly.arrays import parse_floats, table_of
+from sambot_viz.meshes.assembly.assemble import Submesh
+from sambot_viz.meshes.assembly.polygons import triangulate
+from sambot_viz.meshes.mesh import WHITE
+from sambot_viz.meshes.source import MeshSource
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -51,24 +53,19 @@ class _Body:
     at: int = 0
 
 
-def read_ply(data: bytes, findings: MeshFindings) -> list[Submesh]:
+def read_ply(source: MeshSource) -> list[Submesh]:
     """The triangles of a PLY file.
 
     Raises:
         MeshError: broken or cut off.
     """
     try:
-        elements, body = _header(data)
+        elements, body = _header(source.data)
         if body.order == "ascii":
-            return _pieces(_read_ascii(elements, body.data))
-        return _pieces(_read_binary(elements, body))
+            return _pieces(_read_ascii(elements, body.data), source)
+        return _pieces(_read_binary(elements, body), source)
     except (_Broken, UnicodeDecodeError) as error:
-        raise mesh_error(
-            findings.path,
-            "mesh-broken",
-            f"the PLY file is broken: {error}",
-            "export the mesh again, or copy the file again if it was cut off",
-        ) from error
+        raise source.broken(f"the PLY file is broken: {error}") from error
 
 
 _Columns = dict[str, npt.NDArray[Any]]
@@ -81,7 +78,7 @@ class _Contents:
     corners: npt.NDArray[np.int64] | None = None
 
 
-def _pieces(contents: _Contents) -> list[Submesh]:
+def _pieces(contents: _Contents, source: MeshSource) -> list[Submesh]:
     if contents.counts is None or contents.corners is None:
         return []
     vertices = _stack(contents.vertex, ("x", "y", "z"))
@@ -91,7 +88,7 @@ def _pieces(contents: _Contents) -> list[Submesh]:
     inside = (corners >= 0) & (corners < len(vertices))
     points = np.zeros((len(corners), 3))
     points[inside] = vertices[corners[inside]]
-    faces = triangulate(contents.counts, points)
+    faces = triangulate(contents.counts, points, source.budget)
     normals = _stack(contents.vertex, ("nx", "ny", "nz"))
     return [Submesh(vertices, corners[faces], normals=normals, rgba=WHITE)]
 

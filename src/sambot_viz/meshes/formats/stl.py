@@ -7,14 +7,14 @@ colour of its own and is always flat shaded.
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.meshes.assembly.arrays import parse_floats, triples
-from sambot_viz.meshes.assembly.assemble import MeshFindings, Submesh
+from sambot_viz.meshes.assembly.assemble import Submesh
 from sambot_viz.meshes.mesh import mesh_error
+from sambot_viz.meshes.source import MeshSource
 
 _HEADER = 84
 _FACET = np.dtype(
@@ -24,7 +24,7 @@ _VERTEX = re.compile(rb"vertex([^\r\n]*)")
 _AGAIN = "export the mesh again, or copy the file again if it was cut off"
 
 
-def read_stl(data: bytes, findings: MeshFindings) -> list[Submesh]:
+def read_stl(source: MeshSource) -> list[Submesh]:
     """The triangles of an STL file.
 
     A binary file is told by its size, which must fit its number of triangles to the
@@ -33,55 +33,46 @@ def read_stl(data: bytes, findings: MeshFindings) -> list[Submesh]:
     Raises:
         MeshError: a file that is cut off, has bytes left over, or no triangles.
     """
-    path = findings.path
+    data = source.data
     if len(data) >= _HEADER:
         count = int.from_bytes(data[80:84], "little")
         if len(data) == _HEADER + count * _FACET.itemsize:
             facets = np.frombuffer(data, dtype=_FACET, offset=_HEADER)
             return [_piece(np.reshape(facets["corners"], (-1, 3)))]
     if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data[:1024]:
-        return [_ascii(data, path)]
+        return [_ascii(source)]
     if len(data) < _HEADER:
-        raise mesh_error(
-            path,
-            "mesh-broken",
+        raise source.broken(
             f"the STL file has only {len(data)} bytes; a binary STL needs at least 84",
-            _AGAIN,
         )
     count = int.from_bytes(data[80:84], "little")
-    raise mesh_error(
-        path,
-        "mesh-broken",
+    raise source.broken(
         f"the STL file announces {count} triangles, which takes "
         f"{_HEADER + count * _FACET.itemsize} bytes, but it has {len(data)}",
-        _AGAIN,
     )
 
 
-def _ascii(data: bytes, path: Path) -> Submesh:
+def _ascii(source: MeshSource) -> Submesh:
     # Keywords come in either case; the first line may hold any name.
-    text = data.lower()
+    text = source.data.lower()
     rows = _VERTEX.findall(text, text.find(b"\n") + 1)
     facets = text.count(b"endfacet")
     if not rows:
         raise mesh_error(
-            path, "mesh-empty", "the ASCII STL file contains no triangles", _AGAIN
+            source.path,
+            "mesh-empty",
+            "the ASCII STL file contains no triangles",
+            _AGAIN,
         )
     values = parse_floats(b" ".join(rows))
     if values is None or len(values) != 3 * len(rows):
-        raise mesh_error(
-            path,
-            "mesh-broken",
+        raise source.broken(
             "the ASCII STL file has a vertex that is not three numbers",
-            _AGAIN,
         )
     if len(rows) != 3 * facets:
-        raise mesh_error(
-            path,
-            "mesh-broken",
+        raise source.broken(
             f"the ASCII STL file has {len(rows)} vertices in {facets} complete facets; "
             "a facet has three",
-            _AGAIN,
         )
     return _piece(np.reshape(values, (-1, 3)))
 

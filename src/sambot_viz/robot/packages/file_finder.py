@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from sambot_viz.files import is_below
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
 from sambot_viz.robot.urdf.findings import UrdfFindings
@@ -35,8 +36,15 @@ _DOUBTS = {
 }
 
 
+_OUTSIDE = "it is outside the model's folder and packages, and the model is not trusted"
+
+
 class FileFinder:
-    """Answers mesh and texture names, with a Problem for each doubtful one."""
+    """Answers mesh and texture names, with a Problem for each doubtful one.
+
+    Attributes:
+        roots: the folders that files may be in, resolved; None for no limit.
+    """
 
     def __init__(
         self,
@@ -57,9 +65,9 @@ class FileFinder:
         self._resolver = FileResolver(index, folder)
         self._findings = findings
         self._told: set[str] = set()
-        self._roots: list[Path] | None = None
+        self.roots: tuple[Path, ...] | None = None
         if not trusted:
-            self._roots = [root.resolve() for root in index.own_roots()]
+            self.roots = tuple(root.resolve() for root in index.own_roots())
 
     def mesh(self, filename: str, element: Element) -> Path | None:
         """The file of a <mesh>."""
@@ -73,8 +81,8 @@ class FileFinder:
         if not filename:
             return None
         found = self._resolver.resolve(filename)
-        if found.path is not None and not self._allowed(found.path):
-            found = Resolution(None, ("outside the model's folder and packages",))
+        if self._is_outside(found):
+            found = Resolution(None, (_OUTSIDE,))
         if filename in self._told:
             return found.path
         self._told.add(filename)
@@ -88,12 +96,16 @@ class FileFinder:
             )
         return found.path
 
-    def _allowed(self, path: Path) -> bool:
-        """Whether an untrusted model may name this file."""
-        if self._roots is None:
-            return True
-        real = path.resolve()
-        return any(real.is_relative_to(root) for root in self._roots)
+    def _is_outside(self, found: Resolution) -> bool:
+        """Whether an untrusted model may not name this file, be it there or not."""
+        if self.roots is None:
+            return False
+        if found.path is not None:
+            return not is_below(found.path, self.roots)
+        if found.missing_package is not None:
+            return False
+        tried = [Path(text) for text in found.searched]
+        return any(p.is_absolute() and not is_below(p, self.roots) for p in tried)
 
     def _tell_missing(
         self, kind: str, filename: str, element: Element, found: Resolution
@@ -103,6 +115,9 @@ class FileFinder:
             where = ", ".join(found.searched[:4]) or "nowhere"
             message = f"the package {name} is not known (searched: {where})"
             hint = f"give the folder that holds {name} with --package-path"
+        elif found.searched == (_OUTSIDE,):
+            message = _OUTSIDE
+            hint = "put the file below the model's folder, or open a model you trust"
         else:
             where = ", ".join(found.searched) or "nowhere"
             message = f"there is no such file (tried: {where})"

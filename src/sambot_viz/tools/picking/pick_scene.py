@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -141,7 +142,7 @@ class PickScene:
         if geometry.path is None:
             return
         try:
-            mesh = self._context.meshes.get(geometry.path)
+            mesh = self._context.meshes.get(geometry.path, self._roots())
         except MeshError:
             # What cannot be drawn cannot be met; its display says why.
             return
@@ -154,6 +155,10 @@ class PickScene:
                 known = (part, Triangles(vertices, np.asarray(scaled.faces)))
                 self._meshes[key] = known
             yield known[1]
+
+    def _roots(self) -> tuple[Path, ...] | None:
+        robot = self._context.robot
+        return None if robot is None else robot.file_roots
 
     def _pose(self, frame: str) -> Matrix | None:
         tree, fixed = self._context.tree, self._context.fixed_frame

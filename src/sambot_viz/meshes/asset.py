@@ -1,0 +1,23 @@
+"""What a display asks the mesh cache for: a mesh file or a texture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Asset:
+    """A file that has to be read before a shape can be drawn.
+
+    Attributes:
+        kind: a mesh, or the image of a URDF <texture>.
+        path: the file.
+        roots: resolved folders that it, and the files it names, must be in; None for
+            a trusted model, whose files may be anywhere.
+    """
+
+    kind: Literal["mesh", "texture"]
+    path: Path
+    roots: tuple[Path, ...] | None = None

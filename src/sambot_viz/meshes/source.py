@@ -1,0 +1,117 @@
+"""A mesh file while it is read: its bytes, what it may use, what was found in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from sambot_viz.errors import Findings
+from sambot_viz.meshes.mesh import MeshError, mesh_error
+from sambot_viz.meshes.named_files import NamedFiles
+from sambot_viz.meshes.textures import TextureStore
+
+MOST_NODES = 100_000
+MOST_TRIANGLES = 20_000_000
+MOST_VERTICES = 30_000_000
+MOST_WITHOUT_DATA = 2**20
+"""Meshes that unfold to more than this are refused."""
+MOST_CUTTING = 200_000_000
+"""Work spent on cutting polygons; a polygon of n corners takes n² + 1000."""
+
+
+class MeshBudget:
+    """Counts what a file unfolds to: a few lines can name a shape a million times.
+
+    Attributes:
+        cut_short: there were more polygons to cut than is reasonable.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.cut_short = False
+        self._path = path
+        self._left = {
+            "nodes": MOST_NODES,
+            "triangles": MOST_TRIANGLES,
+            "vertices": MOST_VERTICES,
+            "entries without data": MOST_WITHOUT_DATA,
+        }
+        self._cutting = MOST_CUTTING
+
+    def spend_nodes(self, count: int = 1) -> None:
+        """Count nodes of the scene; raises MeshError when there are too many."""
+        self._spend("nodes", count, MOST_NODES)
+
+    def spend_triangles(self, triangles: int, vertices: int) -> None:
+        """Count what one primitive takes, before memory is taken for it.
+
+        Raises:
+            MeshError: more than a browser can be expected to show.
+        """
+        self._spend("triangles", triangles, MOST_TRIANGLES)
+        self._spend("vertices", vertices, MOST_VERTICES)
+
+    def spend_without_data(self, count: int) -> None:
+        """Count rows that the file announces but does not contain.
+
+        Raises:
+            MeshError: more than any honest file has.
+        """
+        self._spend("entries without data", count, MOST_WITHOUT_DATA)
+
+    def may_cut(self, corners: int) -> bool:
+        """Whether there is time to cut a polygon of so many corners."""
+        self._cutting -= corners * corners + 1000
+        self.cut_short = self.cut_short or self._cutting < 0
+        return self._cutting >= 0
+
+    def _spend(self, what: str, count: int, most: int) -> None:
+        self._left[what] -= count
+        if self._left[what] < 0:
+            raise mesh_error(
+                self._path,
+                "mesh-too-large",
+                f"the mesh has more than {most} {what}, too many for a browser",
+                "reduce its triangles",
+            )
+
+
+class MeshSource:
+    """A mesh file that is being read.
+
+    Args:
+        path: the file.
+        data: its bytes.
+        images: where textures are kept.
+        roots: resolved folders that the files it names must be in; None for no limit.
+
+    Attributes:
+        files: finds and reads the files it names.
+        budget: what may still be taken from it.
+        findings: what is doubtful in it.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        data: bytes,
+        images: TextureStore | None = None,
+        roots: Sequence[Path] | None = None,
+    ) -> None:
+        self.path = path
+        self.data = data
+        self.images = images or TextureStore()
+        self.files = NamedFiles(path, roots)
+        self.budget = MeshBudget(path)
+        self.findings = Findings()
+
+    def warn(self, code: str, message: str, hint: str = "") -> None:
+        """Note something doubtful, unless the same is noted already."""
+        self.findings.add("warning", code, message, hint, str(self.path))
+
+    def broken(
+        self,
+        message: str,
+        hint: str = "export the mesh again, or copy the file again if it was cut off",
+    ) -> MeshError:
+        """The error to raise for a file that contradicts itself or is cut off."""
+        return mesh_error(self.path, "mesh-broken", message, hint)
