@@ -1,8 +1,7 @@
 """The one gate for every string that comes from a file and goes to a browser.
 
-viser checks nothing: a lone surrogate in a label breaks every browser that comes
-later, and a slash in a name makes another level of the scene tree
-(spec/viser.md §4).
+viser checks nothing: one lone surrogate in a label breaks every browser that comes
+later, and direction marks or invisible characters make one name look like another.
 """
 
 from __future__ import annotations
@@ -10,25 +9,32 @@ from __future__ import annotations
 import html
 import re
 
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\ufeff]")
-_BLANKS = re.compile(r"[\t\n\r]+")
+_BLANKS = re.compile("[\t\n\r\x85\u2028\u2029]+")
+_INVISIBLE = re.compile(
+    "[\x00-\x1f\x7f-\x9f"  # control characters
+    "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # direction marks
+    "\xad\u180e\u200b\u2060-\u2065\u206a-\u206f\ufeff\ufff9-\ufffb"  # no width
+    "\U000e0000-\U000e007f]"  # tags
+)
+"""Joiners (U+200C and U+200D) are left: several scripts cannot be written without."""
 
 
 def text(value: object, limit: int = 400) -> str:
     """A string that any browser can show.
 
     Args:
-        value: anything; `str()` is taken of what is no string.
-        limit: longest length in characters; what is longer ends with "…".
+        value: anything; `str()` is taken of what is not a string.
+        limit: longest length [characters]; what is longer ends with "…".
 
     Returns:
-        One line of valid UTF-8 without control characters or direction marks.
+        One line of valid UTF-8 without control characters, direction marks and
+        characters of no width; each is replaced by U+FFFD, a line break by a blank.
     """
-    clean = str(value).encode("utf-8", "replace").decode("utf-8")
-    clean = _CONTROL.sub("\N{REPLACEMENT CHARACTER}", _BLANKS.sub(" ", clean))
+    clean = str(value)[: limit + 1].encode("utf-8", "replace").decode("utf-8")
+    clean = _INVISIBLE.sub("\N{REPLACEMENT CHARACTER}", _BLANKS.sub(" ", clean))
     return clean if len(clean) <= limit else clean[: limit - 1] + "…"
 
 
 def html_text(value: object, limit: int = 2000) -> str:
-    """The same, with HTML's special characters escaped, for `gui.add_html`."""
+    """Like `text`, with HTML's special characters escaped, for `gui.add_html`."""
     return html.escape(text(value, limit), quote=True)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Iterator
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
 import pytest
 import viser
-from websockets.exceptions import InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
-from sambot_viz.server.access import is_welcome, only_this_machine
+from sambot_viz.server.access import framing_policy, is_welcome, only_this_machine
 from sambot_viz.server.bind import close, listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
@@ -41,6 +42,29 @@ def test_only_pages_of_this_server_are_welcome(
     assert is_welcome(host, origin, listening_on) is welcome
 
 
+@pytest.mark.parametrize(
+    ("host", "welcome"),
+    [
+        ("192.0.2.7:8080", True),
+        ("[2001:db8::1]:8080", True),
+        ("localhost:8080", True),
+        (f"{socket.gethostname()}:8080", True),
+        ("lab.example.org", True),
+        ("evil.example:8080", False),
+    ],
+)
+def test_a_server_on_all_networks_with_allowed_origins_takes_no_foreign_name(
+    host: str, welcome: bool
+) -> None:
+    allowed = ["https://lab.example.org"]
+    assert is_welcome(host, f"http://{host}", "0.0.0.0", allowed) is welcome
+    assert is_welcome(host, None, "0.0.0.0", allowed) is welcome
+
+
+def test_an_origin_that_is_not_an_address_is_refused() -> None:
+    assert not is_welcome("127.0.0.1:8080", "http://[", "127.0.0.1")
+
+
 def test_it_is_known_which_addresses_only_this_machine_has() -> None:
     for host in ("127.0.0.1", "127.0.0.2", "::1", "localhost"):
         assert only_this_machine(host)
@@ -48,7 +72,7 @@ def test_it_is_known_which_addresses_only_this_machine_has() -> None:
         assert not only_this_machine(host)
 
 
-def test_a_named_origin_is_welcome_through_a_proxy() -> None:
+def test_an_allowed_origin_is_welcome_through_a_proxy() -> None:
     allowed = ["https://lab.example.org"]
     for host in ("lab.example.org", "127.0.0.1:8080"):
         assert is_welcome(host, "https://lab.example.org", "127.0.0.1", allowed)
@@ -80,3 +104,53 @@ def test_a_foreign_name_for_this_machine_gets_no_page(port: int) -> None:
     with refused.value as answer:
         assert answer.code == 403
         assert b"--allow-origin" in answer.read()
+
+
+def raw_answer(port: int, *headers: str) -> bytes:
+    """The first line that the server answers to a request with these headers."""
+    with socket.create_connection(("127.0.0.1", port), timeout=10.0) as connection:
+        request = "\r\n".join(("GET / HTTP/1.1", *headers, "", ""))
+        connection.sendall(request.encode())
+        return connection.makefile("rb").readline()
+
+
+@pytest.mark.parametrize("name", ["Host", "Origin"])
+def test_a_header_that_is_there_twice_is_refused(port: int, name: str) -> None:
+    host = f"127.0.0.1:{port}"
+    value = host if name == "Host" else f"http://{host}"
+    headers = [f"{name}: {value}"] * 2 + ["Host: " + host] * (name != "Host")
+    assert b" 400 " in raw_answer(port, *headers)
+
+
+def test_a_request_without_a_host_is_refused(port: int) -> None:
+    assert b" 400 " in raw_answer(port)
+
+
+def test_a_path_that_no_file_can_have_is_not_found(port: int) -> None:
+    with pytest.raises(HTTPError) as refused:
+        urlopen(f"http://127.0.0.1:{port}/{'a' * 300}")
+    with refused.value as answer:
+        assert answer.code == 404
+
+
+def test_a_page_of_another_machine_cannot_show_this_one_in_a_frame(port: int) -> None:
+    with urlopen(f"http://127.0.0.1:{port}/") as answer:
+        policy = answer.headers["Content-Security-Policy"]
+    assert policy == "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
+
+
+def test_an_allowed_origin_may_show_the_page_in_a_frame() -> None:
+    policy = framing_policy("0.0.0.0", ["https://lab.example.org"])
+    assert policy == "frame-ancestors 'self' https://lab.example.org"
+
+
+def test_a_page_of_another_version_is_disconnected_and_nothing_is_printed(
+    port: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with connect(
+        f"ws://127.0.0.1:{port}", subprotocols=[Subprotocol("viser-v0.0.1")]
+    ) as old:
+        with pytest.raises(ConnectionClosed):
+            old.recv(timeout=10.0)
+        assert old.close_code == 1002
+    assert capfd.readouterr() == ("", "")
