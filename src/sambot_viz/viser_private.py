@@ -109,9 +109,12 @@ def node_count(scene: viser.SceneApi) -> int:
     return len(scene._handle_from_node_name)  # pyright: ignore[reportPrivateUsage]
 
 
-def is_removed(handle: viser.SceneNodeHandle) -> bool:
-    """Whether a node is gone, itself or with one above it; viser warns then."""
-    return handle._impl.removed  # pyright: ignore[reportPrivateUsage]
+def is_removed(handle: viser.SceneNodeHandle | viser.GuiInputHandle[Any]) -> bool:
+    """Whether a node or widget is gone, itself or with one above it.
+
+    viser warns about what is done with such a node, and raises for such a widget.
+    """
+    return bool(cast(Any, handle)._impl.removed)
 
 
 def set_tab_label(tab: viser.GuiTabHandle, label: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import viser
 
 from sambot_viz import Visualizer
+from sambot_viz.session import Session
 
 
 def viser_server(viz: Visualizer) -> viser.ViserServer:
@@ -19,3 +20,8 @@ def node_of(viz: Visualizer, frame: str) -> str:
     if path is None:
         raise AssertionError(f"no node for frame '{frame}'")
     return path
+
+
+def session_of(viz: Visualizer) -> Session:
+    """The session of all browsers, or of the one that came first."""
+    return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]

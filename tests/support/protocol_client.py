@@ -27,14 +27,15 @@ a text field of its own; the server's answer takes the same way as everything
 that was queued before it, once through the buffer of all browsers and once through the
 buffer of this one. viser keeps the order in both directions, so what was sent before
 `settle` has been handled (as far as its callbacks are `async def` and wait for nothing
-outside the event loop), and every message that came of it has arrived. What a program
-holds back on purpose, such as the later poses of a stream, comes when its timer says
-so: wait for that with `wait_until`. The messages of the fence itself are left out of
-`messages`.
+but the sessions' workers), and every message that came of it has arrived. What a
+program holds back on purpose, such as the later poses of a stream, comes when its timer
+says so: wait for that with `wait_until`. The messages of the fence itself are left out
+of `messages`.
 """
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import weakref
 from collections import Counter
@@ -48,6 +49,8 @@ import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
+
+from sambot_viz.session.worker import Worker
 
 FENCE_REQUEST = "~fence request"
 FENCE_REPLY = "~fence reply"
@@ -309,6 +312,18 @@ def _fill_arrays(value: Any, arrays: list[bytes], used: list[bytes]) -> Any:
     return value
 
 
+def wait_for_workers(timeout: float = 10.0) -> None:
+    """Wait until the sessions' threads have run what was posted so far.
+
+    That goes two rounds deep: what an action of the first round posts is waited for.
+    """
+    for thread in 2 * threading.enumerate():
+        if isinstance(thread, Worker):
+            done = threading.Event()
+            thread.post(done.set)
+            assert done.wait(timeout) or not thread.is_alive()
+
+
 def _build_fence(server: viser.ViserServer) -> None:
     """Put the two text fields of `settle` into the server's page, once."""
     if server in _fenced:
@@ -323,6 +338,7 @@ def _build_fence(server: viser.ViserServer) -> None:
         client, value = event.client, event.target.value
         if client is None or event.client_id is None:
             return
+        await asyncio.to_thread(wait_for_workers)
         reply.value = f"all {value}"
         if event.client_id not in own:
             own[event.client_id] = client.gui.add_text(FENCE_REPLY, "", visible=False)

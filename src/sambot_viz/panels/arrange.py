@@ -46,21 +46,35 @@ class Arrange:
         kind = gui.add_dropdown(
             "Type", names, initial_value=names[0], hint="What the display shows."
         )
-        watch(kind, lambda label: _offered(label, kinds), lambda label: None)
+        watch(
+            self._session,
+            kind,
+            lambda label: _offered(label, kinds),
+            lambda label: None,
+        )
         button = gui.add_button("Add", hint="Add it at the end, switched on.")
-        on_press(button, lambda client: self._add(kinds[kind.value]))
+        on_press(self._session, button, lambda client: self._add(kinds[kind.value]))
 
     def _arrange_rows(self, gui: viser.GuiApi, chosen: DisplayConfig) -> None:
         labels = tuple(self._items)
         which = gui.add_dropdown(
             "Display", labels, initial_value=self._labels[id(chosen)]
         )
-        watch(which, lambda label: _offered(label, self._items), self._choose)
+        watch(
+            self._session,
+            which,
+            lambda label: _offered(label, self._items),
+            self._choose,
+        )
         self._name = add_text(
-            gui, "Name", text(chosen.name), self._rename, hint="How it is called."
+            self._session,
+            "Name",
+            text(chosen.name),
+            self._rename,
+            hint="How it is called.",
         )
         add_buttons(
-            gui,
+            self._session,
             (UP, DOWN, DUPLICATE, REMOVE),
             lambda button, client: self._act(button),
         )
@@ -75,6 +89,7 @@ class Arrange:
                 "In group", options(list(groups), inside), initial_value=inside
             )
             watch(
+                self._session,
                 self._group,
                 lambda label: _offered(label, groups),
                 lambda label: self._regroup(groups[label]),

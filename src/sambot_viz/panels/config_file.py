@@ -39,12 +39,16 @@ class ConfigFile:
         # Who has a session of his own is anybody, and has no business on this disk.
         private = isinstance(session.audience, viser.ClientHandle)
         buttons = (DOWNLOAD,) if private else (SAVE, SAVE_AS, DOWNLOAD)
-        add_buttons(gui, buttons, self._press)
+        add_buttons(self._session, buttons, self._press)
         self._name = add_text(
-            gui, "File name", "", self._take_name, hint="Name of the new file."
+            self._session,
+            "File name",
+            "",
+            self._take_name,
+            hint="Name of the new file.",
         )
         self._confirm = gui.add_button("Save under this name")
-        on_press(self._confirm, lambda client: self._save_as())
+        on_press(self._session, self._confirm, lambda client: self._save_as())
         self._ask(False)
         session.listeners.append(self._hear)
         self._write()

@@ -103,7 +103,7 @@ class DisplaysPanel:
         with self._folder:
             with gui.add_folder("Global Options"):
                 self._options = _ItemRows(
-                    gui,
+                    session,
                     session.config.global_options,
                     session.set_global,
                     self._frame_names(),
@@ -167,13 +167,14 @@ class _ItemRows:
 
     def __init__(
         self,
-        gui: viser.GuiApi,
+        session: Session,
         item: ConfigItem,
         change: Change,
         frames: Sequence[str],
         entries: Mapping[str, EntryFolder] | None = None,
     ) -> None:
-        self._gui = gui
+        self._session = session
+        self._gui = session.audience.gui
         self._item = item
         self._change = change
         self._entries = entries or {}
@@ -202,7 +203,7 @@ class _ItemRows:
             if prop.has_value:
                 value = self._item.get(path)
                 set_it = partial(self._set, path)
-                handle = add_property(self._gui, prop, value, set_it, frames)
+                handle = add_property(self._session, prop, value, set_it, frames)
                 self._inputs[path] = (handle, prop)
                 self._add_all(prop.children, f"{path}/", frames)
             elif not prop.open_keys:
@@ -228,7 +229,7 @@ def _add_box(gui: viser.GuiApi, session: Session, display: Display, label: str) 
     """The box that switches a display on and off."""
     config = display.config
     box = gui.add_checkbox(label, config.enabled, hint=text(display.help))
-    watch(box, bool, partial(session.set_enabled, display))
+    watch(session, box, bool, partial(session.set_enabled, display))
 
 
 class _DisplayRows:
@@ -247,7 +248,7 @@ class _DisplayRows:
             self._status = gui.add_html("")
             change = partial(session.set_property, display)
             folders = {found.title: self._add_entries for found in display.entries()}
-            self.rows = _ItemRows(gui, config, change, frames, folders)
+            self.rows = _ItemRows(session, config, change, frames, folders)
 
     def close(self) -> None:
         """Write nothing any more."""

@@ -16,7 +16,14 @@ import viser
 
 from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
 from sambot_viz.errors import FrameError
-from sambot_viz.panels.widgets import Input, finite, on_click, on_hold, watch
+from sambot_viz.panels.widgets import (
+    Input,
+    finite,
+    on_click,
+    on_hold,
+    show_values,
+    watch,
+)
 from sambot_viz.session import Event, Session
 from sambot_viz.session.drive_control import ODOM
 from sambot_viz.session.motion import HOLD
@@ -52,7 +59,7 @@ class DrivePanel:
         self._commands: list[viser.CommandHandle] = []
         self._pieces: list[viser.LineSegmentsHandle] = []
         self._drawn = 1
-        self._show = Throttle(session.loop, SHOW_PERIOD, self._show_state)
+        self._show = Throttle(session.worker, SHOW_PERIOD, self._show_state)
         with container:
             self._content = self._gui.add_folder(None)
         with self._content:
@@ -89,9 +96,17 @@ class DrivePanel:
             0.0,
             hint="To the left (about z).",
         )
-        watch(linear, partial(_within, MOST_LINEAR), lambda v: self._set((v, drive.w)))
         watch(
-            angular, partial(_within, MOST_ANGULAR), lambda w: self._set((drive.v, w))
+            self._session,
+            linear,
+            partial(_within, MOST_LINEAR),
+            lambda v: self._set((v, drive.w)),
+        )
+        watch(
+            self._session,
+            angular,
+            partial(_within, MOST_ANGULAR),
+            lambda w: self._set((drive.v, w)),
         )
         return linear, angular
 
@@ -105,19 +120,19 @@ class DrivePanel:
             ("▼ back", (-0.5, 0.0)),
         ):
             button = gui.add_button(label, hint="Drives while it is held.")
-            on_hold(button, partial(self._set, direction, HOLD))
+            on_hold(self._session, button, partial(self._set, direction, HOLD))
 
     def _add_buttons(self) -> None:
         stop = self._gui.add_button("Stop", color="red", hint="Key 5.")
-        on_click(stop, self._stop)
+        on_click(self._session, stop, self._stop)
         reset = self._gui.add_button(
             "Reset", hint="Back to the start, without the trail."
         )
-        on_click(reset, self._reset)
+        on_click(self._session, reset, self._reset)
         self._in_odom = self._gui.add_button(
             f"Fixed frame {ODOM}", hint="Let the robot move and the grid stand still."
         )
-        on_click(self._in_odom, self._fix_odom)
+        on_click(self._session, self._in_odom, self._fix_odom)
 
     def _add_keys(self) -> None:
         for key, label, change in (
@@ -134,7 +149,7 @@ class DrivePanel:
 
         async def triggered(event: viser.CommandEvent) -> None:
             if event.client_id is not None:
-                action()
+                self._session.worker.post(action)
 
         command.on_trigger(triggered)
         self._commands.append(command)
@@ -180,9 +195,9 @@ class DrivePanel:
             drive = self._drive
             if drive.wheels is None:
                 return
-            for slider, value in ((self._linear, drive.v), (self._angular, drive.w)):
-                if slider.value != value:
-                    slider.value = value
+            speeds = [(self._linear, drive.v), (self._angular, drive.w)]
+            if any(slider.value != value for slider, value in speeds):
+                show_values(self._session, speeds)
             content = self._state_html()
             if self._pose.content != content:
                 self._pose.content = content

@@ -56,10 +56,10 @@ class EntryRows:
             initial_value=NOBODY,
             hint=f"Choose a {singular}; type to search.",
         )
-        watch(self._list, self._named, self._choose)
+        watch(self._session, self._list, self._named, self._choose)
         self._folder = self._gui.add_folder(None, visible=False)
         self._facts: viser.GuiHtmlHandle | None = None
-        self._pacer = Throttle(session.loop, FACTS_PERIOD, self._follow)
+        self._pacer = Throttle(session.worker, FACTS_PERIOD, self._follow)
         self.offer()
 
     def close(self) -> None:
@@ -121,7 +121,7 @@ class EntryRows:
             for prop in found.properties:
                 shown = replace(prop, name="Enabled") if prop.name == "Value" else prop
                 self._inputs[prop.name] = add_property(
-                    self._gui, shown, prop.default, partial(self._set, prop.name)
+                    self._session, shown, prop.default, partial(self._set, prop.name)
                 )
             self._facts = self._gui.add_html("")
 

@@ -37,7 +37,7 @@ class FramesPanel:
         self._gui = session.audience.gui
         self._search = ""
         self._offered: tuple[str, ...] = ()
-        self._show = Throttle(session.loop, SHOW_PERIOD, self._show_answer)
+        self._show = Throttle(session.worker, SHOW_PERIOD, self._show_answer)
         with container:
             content = self._gui.add_folder(None)
         with content:
@@ -62,7 +62,11 @@ class FramesPanel:
     def _add_choice(self) -> None:
         gui = self._gui
         self._box = add_text(
-            gui, "Search", "", self._look_for, hint="Part of the frames' names."
+            self._session,
+            "Search",
+            "",
+            self._look_for,
+            hint="Part of the frames' names.",
         )
         first = text(self._session.context.fixed_frame)
         self._source = gui.add_dropdown(
@@ -72,7 +76,7 @@ class FramesPanel:
             "To", (first,), hint="The frame to look at: tf2_echo's TARGET."
         )
         for choice in (self._source, self._target):
-            watch(choice, plain_text, lambda _: self._show.request())
+            watch(self._session, choice, plain_text, lambda _: self._show.request())
 
     def _look_for(self, typed: str) -> None:
         self._search = typed.strip().lower()
@@ -114,7 +118,7 @@ class FramesPanel:
         gui = self._gui
         with gui.add_folder("Static transform", expand_by_default=False):
             self._arguments = add_text(
-                gui,
+                self._session,
                 "Arguments",
                 EXAMPLE,
                 lambda _: None,
@@ -122,12 +126,12 @@ class FramesPanel:
                 "QY QZ QW PARENT CHILD, or --x … --frame-id PARENT --child-frame-id "
                 "CHILD: metres, radians.",
             )
-            on_click(gui.add_button("Add transform"), self._add)
+            on_click(self._session, gui.add_button("Add transform"), self._add)
             self._said = gui.add_html("")
             self._added = gui.add_dropdown("Added", options((), NONE_ADDED))
-            watch(self._added, plain_text, lambda _: None)
+            watch(self._session, self._added, plain_text, lambda _: None)
             self._remove_button = gui.add_button("Remove transform", disabled=True)
-            on_click(self._remove_button, self._remove)
+            on_click(self._session, self._remove_button, self._remove)
         self._offer_added()
 
     def _add(self) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import math
 import time
 
@@ -38,10 +37,10 @@ class JointArrow:
         self._joint = ""
         self._moved_at = float("-inf")
         self._nodes: list[viser.ArrowsHandle] = []
-        self._timer: asyncio.TimerHandle | None = None
+        self._waiting = False
 
     def moved(self, joint: Joint) -> None:
-        """A slider was moved; to be called on the event loop."""
+        """A slider was moved."""
         now = time.monotonic()
         again = joint.name == self._joint and now - self._moved_at < SHOWN_FOR
         if joint.name != self._joint:
@@ -49,8 +48,9 @@ class JointArrow:
         self._joint, self._moved_at = joint.name, now
         if again and (not self._nodes or any_gone(self._nodes)):
             self._draw(joint)
-        if self._nodes and self._timer is None:
-            self._timer = self._session.loop.call_later(SHOWN_FOR, self._late)
+        if self._nodes and not self._waiting:
+            self._waiting = True
+            self._session.worker.post_later(SHOWN_FOR, self._late)
 
     def hide(self) -> None:
         """Take it out of the scene."""
@@ -60,9 +60,9 @@ class JointArrow:
 
     def _late(self) -> None:
         left = self._moved_at + SHOWN_FOR - time.monotonic()
-        self._timer = None
-        if left > 0:
-            self._timer = self._session.loop.call_later(left, self._late)
+        self._waiting = left > 0
+        if self._waiting:
+            self._session.worker.post_later(left, self._late)
         else:
             self.hide()
 

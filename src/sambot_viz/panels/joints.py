@@ -20,6 +20,7 @@ from sambot_viz.panels.widgets import (
     finite,
     on_click,
     on_hold,
+    show_values,
     watch,
 )
 from sambot_viz.robot.model import Joint
@@ -63,7 +64,7 @@ class JointsPanel:
         self._rate = 1.0
         self._keep = False
         self._arrow = JointArrow(session)
-        self._mirror = Throttle(session.loop, MIRROR_PERIOD, self._show_positions)
+        self._mirror = Throttle(session.worker, MIRROR_PERIOD, self._show_positions)
         session.listeners.append(self._hear)
         self._build()
 
@@ -99,7 +100,7 @@ class JointsPanel:
             self._add_buttons()
             if len(names) > SEARCH_PAST:
                 add_text(
-                    self._gui,
+                    self._session,
                     "Search",
                     self._search,
                     self._look_for,
@@ -116,11 +117,11 @@ class JointsPanel:
     def _add_buttons(self) -> None:
         gui = self._gui
         center = gui.add_button("Center", hint="All joints to their start values.")
-        on_click(center, self._session.center_joints)
+        on_click(self._session, center, self._session.center_joints)
         randomize = gui.add_button(
             "Randomize", hint="All joints to random values of their ranges."
         )
-        on_click(randomize, self._randomize)
+        on_click(self._session, randomize, self._randomize)
 
     def _randomize(self) -> None:
         seed = self._seed.strip()
@@ -130,19 +131,19 @@ class JointsPanel:
         gui = self._gui
         with gui.add_folder("Options", expand_by_default=False):
             degrees = gui.add_checkbox("Degrees", self._degrees)
-            watch(degrees, bool, self._set_degrees)
+            watch(self._session, degrees, bool, self._set_degrees)
             seed = gui.add_text(
                 "Seed", self._seed, hint="The same whole number gives the same pose."
             )
-            watch(seed, _seed, partial(setattr, self, "_seed"))
+            watch(self._session, seed, _seed, partial(setattr, self, "_seed"))
             rate = gui.add_number(
                 "Turn rate [rad/s]", self._rate, step=0.1, hint="Negative turns back."
             )
-            watch(rate, finite, partial(setattr, self, "_rate"))
+            watch(self._session, rate, finite, partial(setattr, self, "_rate"))
             keep = gui.add_checkbox(
                 "Keep turning", self._keep, hint="A press starts a wheel or stops it."
             )
-            watch(keep, bool, partial(setattr, self, "_keep"))
+            watch(self._session, keep, bool, partial(setattr, self, "_keep"))
 
     def _add_text(self) -> None:
         gui = self._gui
@@ -156,8 +157,8 @@ class JointsPanel:
                     if self._session.joints is not None:
                         shown.value = as_text(self._session.joints, kind)
 
-            on_click(yaml, partial(show, "yaml"))
-            on_click(command, partial(show, "command"))
+            on_click(self._session, yaml, partial(show, "yaml"))
+            on_click(self._session, command, partial(show, "command"))
 
     def _set_degrees(self, degrees: bool) -> None:
         self._degrees = degrees
@@ -216,7 +217,7 @@ class JointsPanel:
             self._session.set_joint_positions({joint.name: exact})
             self._arrow.moved(joint)
 
-        watch(slider, clamp, move)
+        watch(self._session, slider, clamp, move)
         self._sliders[joint.name] = slider
         if joint.type == "continuous":
             turn = self._gui.add_button(
@@ -224,8 +225,8 @@ class JointsPanel:
                 hint="Turns while it is held, at the rate of the options.",
                 color="gray",
             )
-            on_hold(turn, partial(self._hold, joint.name))
-            on_click(turn, partial(self._press, joint.name))
+            on_hold(self._session, turn, partial(self._hold, joint.name))
+            on_click(self._session, turn, partial(self._press, joint.name))
 
     def _hold(self, name: str) -> None:
         if not self._keep:
@@ -242,6 +243,7 @@ class JointsPanel:
             joints = self._session.joints
             if joints is None:
                 return
+            values: list[tuple[Input, float]] = []
             for name, slider in self._sliders.items():
                 joint = joints.joints.get(name)
                 if joint is None:
@@ -250,7 +252,9 @@ class JointsPanel:
                 lower, upper = (end * factor for end in sorted(joint.range))
                 value = min(upper, max(lower, joints.positions[name] * factor))
                 if abs(slider.value - value) > SAME:
-                    slider.value = value
+                    values.append((slider, value))
+            if values:
+                show_values(self._session, values)
             notes = notes_html(joints, self._degrees)
             if self._notes is not None and self._notes.content != notes:
                 self._notes.content = notes

@@ -40,7 +40,12 @@ class PictureRows:
                     max=LONGEST_SIDE,
                     step=1,
                 )
-                watch(number, side, lambda value, i=index: self._set(i, value))
+                watch(
+                    self._session,
+                    number,
+                    side,
+                    lambda value, i=index: self._set(i, value),
+                )
             save = gui.add_button("Save picture", hint="The 3D view as a PNG file.")
             save.on_click(self._save)
 

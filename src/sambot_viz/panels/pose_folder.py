@@ -24,10 +24,10 @@ class PoseFolder:
         where = f"Kept in {path.name}." if path else "Kept until the program ends."
         with gui.add_folder("Poses", expand_by_default=False):
             self._choice = gui.add_dropdown("Pose", self._offered(), hint=text(where))
-            watch(self._choice, str, self._use)
-            self._name = add_text(gui, "Pose name", "", lambda _: None)
-            on_click(gui.add_button("Save pose"), self._save)
-            on_click(gui.add_button("Remove pose"), self._remove)
+            watch(self._session, self._choice, str, self._use)
+            self._name = add_text(self._session, "Pose name", "", lambda _: None)
+            on_click(self._session, gui.add_button("Save pose"), self._save)
+            on_click(self._session, gui.add_button("Remove pose"), self._remove)
             self._said = gui.add_html("")
 
     def _offered(self) -> tuple[str, ...]:

@@ -44,12 +44,16 @@ class SelectionPanel:
         gui = session.audience.gui
         with container:
             self._choice = add_property(
-                gui, self._property, FIXED_FRAME, self._set_frame, self._frames()
+                self._session,
+                self._property,
+                FIXED_FRAME,
+                self._set_frame,
+                self._frames(),
             )
             self._list = gui.add_html(NOTHING)
             for tool in session.tools.tools:
                 self._add_settings(gui, tool.kind)
-        self._pacer = Throttle(session.loop, REFRESH, self._write)
+        self._pacer = Throttle(session.worker, REFRESH, self._write)
         session.listeners.append(self._hear)
 
     def close(self) -> None:
@@ -65,7 +69,7 @@ class SelectionPanel:
             if tool.config is not None and isinstance(prop, ColorProperty):
                 with gui.add_folder(tool.label, expand_by_default=False):
                     add_property(
-                        gui,
+                        self._session,
                         prop,
                         tool.config.get(prop.name),
                         lambda value, t=tool, name=prop.name: tools.set_property(

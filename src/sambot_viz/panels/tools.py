@@ -7,6 +7,7 @@ one is a press of its key, which viser's commands hear; so there is one way to e
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Literal
 
 import viser
@@ -90,7 +91,7 @@ class ToolBar:
 
         async def triggered(event: viser.CommandEvent) -> None:
             if event.client_id is not None:
-                action(event.client_id)
+                self._session.worker.post(partial(action, event.client_id))
 
         command.on_trigger(triggered)
 

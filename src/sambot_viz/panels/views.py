@@ -93,7 +93,7 @@ class ViewsPanel:
         kind = gui.add_dropdown(
             "Type", tuple(labels), initial_value=row_text(view.kind), hint=view.help
         )
-        watch(kind, labels.__getitem__, views.set_kind)
+        watch(self._session, kind, labels.__getitem__, views.set_kind)
         if not views.supported:
             name = html_text(self._session.config.view.class_id)
             gui.add_html(
@@ -102,7 +102,7 @@ class ViewsPanel:
                 "it is in the file.</p>"
             )
         zero = gui.add_button("Zero", hint="Back to where this type starts (key Z).")
-        on_click(zero, views.zero)
+        on_click(self._session, zero, views.zero)
 
     def _add_rows(self) -> None:
         config = self._views.view.config
@@ -111,7 +111,7 @@ class ViewsPanel:
             if prop.support == "none" or not prop.has_value:
                 continue
             handle = add_property(
-                self._gui,
+                self._session,
                 prop,
                 _shown(prop, config.get(path)),
                 partial(self._views.set, path),
@@ -123,7 +123,7 @@ class ViewsPanel:
             self._views.follow_presenter,
             hint="All browsers show what the camera shows that moved last.",
         )
-        watch(follow, bool, self._follow)
+        watch(self._session, follow, bool, self._follow)
 
     def _follow(self, on: bool) -> None:
         self._views.follow_presenter = on
@@ -142,16 +142,20 @@ class ViewsPanel:
                 return saved[labels.index(chosen.value)]
 
             save = gui.add_button("Save", hint="Add the current view to the list.")
-            on_click(save, lambda: void(views.save()))
+            on_click(self._session, save, lambda: void(views.save()))
             if not saved:
                 return
             use = gui.add_button("Use", hint="Make a copy the current view.")
-            on_click(use, lambda: views.use(pick()))
+            on_click(self._session, use, lambda: views.use(pick()))
             name = gui.add_text("Name", "", hint="A new name for the chosen view.")
             rename = gui.add_button("Rename")
-            on_click(rename, lambda: views.rename(pick(), text(name.value, 100)))
+            on_click(
+                self._session,
+                rename,
+                lambda: views.rename(pick(), text(name.value, 100)),
+            )
             remove = gui.add_button("Remove")
-            on_click(remove, lambda: views.remove(pick()))
+            on_click(self._session, remove, lambda: views.remove(pick()))
 
     def _saved_labels(self) -> list[str]:
         views = self._session.config.saved_views

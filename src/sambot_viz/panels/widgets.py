@@ -5,7 +5,9 @@ a disabled one, out of range, NaN or of another type (spec/viser.md §4). Here e
 value goes through its property's own rule before anybody else sees it, and a refused
 one is answered with the value that holds.
 
-Callbacks are coroutines, because plain functions run unordered in viser's pool.
+Callbacks are coroutines, because plain functions run unordered in viser's pool. They
+only post what is to be done to the session's worker, so that the event loop never
+waits for a session.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 import viser
@@ -29,42 +32,74 @@ from sambot_viz.rviz import (
     TfFrameProperty,
     VectorProperty,
 )
+from sambot_viz.session import Session
 from sambot_viz.text import text
+from sambot_viz.viser_private import is_removed
 
 Input = viser.GuiInputHandle[Any]
 OnChange = Callable[[Any], None]
 LONGEST_TEXT = 1000
 
 
-def watch(handle: Input, coerce: Callable[[Any], Any], on_change: OnChange) -> None:
+def watch(
+    session: Session,
+    handle: Input,
+    coerce: Callable[[Any], Any],
+    on_change: OnChange,
+) -> None:
     """Call `on_change` with every good value a browser sets.
 
+    Of values that come faster than they are taken, only the latest is.
+
     Args:
+        session: in whose worker that happens.
         handle: the widget.
         coerce: the rule: returns the value to take, or raises SambotVizError,
             ValueError or TypeError for a value that cannot be meant.
         on_change: takes the value; it may raise SambotVizError to refuse it.
     """
     accepted = [handle.value]
+    newest = taken = object()
 
     async def changed(event: viser.GuiEvent[Any]) -> None:
+        nonlocal newest
         if event.client_id is None:
             # The program set the value itself; nothing is to be done for it.
-            accepted[0] = handle.value
+            if newest is taken:
+                accepted[0] = handle.value
             return
-        if handle.disabled or not handle.visible:
+        newest = object()
+        session.worker.post(partial(take, handle.value, newest), latest_of=handle)
+
+    def take(value: Any, event: object) -> None:
+        if is_removed(handle):
+            return
+        if not handle.disabled and handle.visible:
+            with suppress(SambotVizError, ValueError, TypeError, OverflowError):
+                value = coerce(value)
+                on_change(value)
+                accepted[0] = value
+        session.worker.on_loop(partial(answer, event))
+
+    def answer(event: object) -> None:
+        nonlocal taken
+        taken = event
+        if event is newest and not is_removed(handle):
+            # No newer value waits: show the one that holds.
             handle.value = accepted[0]
-            return
-        try:
-            value = coerce(handle.value)
-            on_change(value)
-        except (SambotVizError, ValueError, TypeError, OverflowError):
-            handle.value = accepted[0]
-            return
-        accepted[0] = value
-        handle.value = value
 
     handle.on_update(changed)
+
+
+def show_values(session: Session, values: Sequence[tuple[Input, Any]]) -> None:
+    """Show values that changed without a browser; what is the same is not sent."""
+
+    def show() -> None:
+        for handle, value in values:
+            if not is_removed(handle):
+                handle.value = value
+
+    session.worker.on_loop(show)
 
 
 def finite(value: Any) -> float:
@@ -80,7 +115,7 @@ def finite(value: Any) -> float:
 
 
 def add_property(
-    gui: viser.GuiApi,
+    session: Session,
     prop: Property,
     value: Any,
     on_change: OnChange,
@@ -89,7 +124,7 @@ def add_property(
     """The input that fits a property's type.
 
     Args:
-        gui: where to add it (to the current container).
+        session: where to add it (to the current container of its GUI).
         prop: the declaration: name, type, range, options, help.
         value: the present value.
         on_change: called with the coerced value after a change in a browser.
@@ -98,8 +133,8 @@ def add_property(
     Returns:
         The widget's handle; set `.value` to show another value.
     """
-    handle = _make(gui, prop, value, frames)
-    watch(handle, prop.coerce, on_change)
+    handle = _make(session.audience.gui, prop, value, frames)
+    watch(session, handle, prop.coerce, on_change)
     return handle
 
 
@@ -157,12 +192,14 @@ def options(offered: Sequence[str], value: object) -> tuple[str, ...]:
     return tuple(unique)
 
 
-def on_click(handle: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
+def on_click(
+    session: Session, handle: viser.GuiButtonHandle, action: Callable[[], None]
+) -> None:
     """Call `action` when a browser presses the button."""
 
     async def pressed(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
         if event.client_id is not None and not handle.disabled:
-            action()
+            session.worker.post(action)
 
     handle.on_click(pressed)
 
@@ -171,18 +208,24 @@ HOLD_RATE = 10.0
 """So often a browser tells that a button is still held [1/s]."""
 
 
-def on_hold(handle: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
+def on_hold(
+    session: Session, handle: viser.GuiButtonHandle, action: Callable[[], None]
+) -> None:
     """Call `action` ten times a second while a browser holds the button.
 
     Args:
+        session: in whose worker that happens.
         handle: the button.
         action: may raise SambotVizError when it cannot do what is asked.
     """
 
     async def held(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
         if event.client_id is not None and not handle.disabled and handle.visible:
-            with suppress(SambotVizError):
-                action()
+            session.worker.post(tried, latest_of=handle)
+
+    def tried() -> None:
+        with suppress(SambotVizError):
+            action()
 
     handle.on_hold(held, callback_hz=HOLD_RATE)  # pyright: ignore[reportUnknownMemberType]
 
@@ -191,39 +234,39 @@ OnPress = Callable[[viser.ClientHandle | None], None]
 """Takes the browser in which a button was pressed."""
 
 
-def on_press(handle: viser.GuiButtonHandle, action: OnPress) -> None:
+def on_press(session: Session, handle: viser.GuiButtonHandle, action: OnPress) -> None:
     """Call `action` with the browser that presses the button."""
 
     async def pressed(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
         # A hidden button cannot be pressed by a hand.
         if event.client_id is not None and not handle.disabled and handle.visible:
-            action(event.client)
+            session.worker.post(partial(action, event.client))
 
     handle.on_click(pressed)
 
 
 def add_buttons(
-    gui: viser.GuiApi,
+    session: Session,
     labels: Sequence[str],
     action: Callable[[str, viser.ClientHandle | None], None],
 ) -> viser.GuiButtonGroupHandle:
     """A row of buttons; `action` is told which one was pressed, and where."""
-    handle = gui.add_button_group("", labels)
+    handle = session.audience.gui.add_button_group("", labels)
 
     async def pressed(event: viser.GuiEvent[viser.GuiButtonGroupHandle]) -> None:
         if event.client_id is not None and handle.value in labels:
-            action(handle.value, event.client)
+            session.worker.post(partial(action, handle.value, event.client))
 
     handle.on_click(pressed)
     return handle
 
 
 def add_text(
-    gui: viser.GuiApi, label: str, value: str, on_change: OnChange, hint: str = ""
+    session: Session, label: str, value: str, on_change: OnChange, hint: str = ""
 ) -> Input:
     """A line of text."""
-    handle = gui.add_text(label, value, hint=hint)
-    watch(handle, plain_text, on_change)
+    handle = session.audience.gui.add_text(label, value, hint=hint)
+    watch(session, handle, plain_text, on_change)
     return handle
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import cast
 
 import viser
@@ -21,6 +22,7 @@ from sambot_viz.server.door import guard
 from sambot_viz.server.mesh_thread import AssetReader
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
+from sambot_viz.session.worker import Worker
 
 MakeConfig = Callable[[], RvizConfig]
 
@@ -60,6 +62,7 @@ class Server:
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self._advice: dict[Session, CheckResults] = {}
         self._private: dict[int, tuple[Session, Layout | None]] = {}
+        self._workers: dict[int | None, Worker] = {}
         self._viser = listening or listen(
             options.host, options.port, options.allowed_origins
         )
@@ -70,7 +73,7 @@ class Server:
         self._layout: Layout | None = None
         if options.session == "shared":
             try:
-                self.shared, self._layout = self._open(self._viser)
+                self.shared, self._layout = self._open(self._viser, self._worker(None))
             except BaseException:
                 self.stop()
                 raise
@@ -158,13 +161,15 @@ class Server:
         self._stopped.set()
         for session in self.sessions():
             session.close()
+        for worker in list(self._workers.values()):
+            worker.close()
         self._reader.close()
         close(self._viser)
 
-    def _open(self, audience: object) -> tuple[Session, Layout | None]:
+    def _open(self, audience: object, worker: Worker) -> tuple[Session, Layout | None]:
         session = Session(
             cast(Audience, audience),
-            self._viser.get_event_loop(),
+            worker,
             self._make_config(),
             self.meshes,
             self._load_file,
@@ -176,7 +181,7 @@ class Server:
         advice = self._advice[session] = CheckResults(session)
         if self._robot is not None:
             session.show_robot(self._robot)
-            session.loop.call_soon_threadsafe(advice.give)
+            worker.post(advice.give)
         for of, problems in self._reload_problems.items():
             session.set_reload_problems(of, problems)
         if not self.options.panels:
@@ -184,22 +189,51 @@ class Server:
         return session, Layout(session, joints=self.options.gui)
 
     async def _join(self, client: viser.ClientHandle) -> None:
-        if self.shared is None:
-            opened = self._open(client)
-            with self._lock:
-                self._private[client.client_id] = opened
-            session = opened[0]
-        else:
-            session = self.shared
+        if self.shared is not None:
+            self.shared.worker.post(partial(self._give_view, self.shared, client))
+            return
+        worker = self._worker(client.client_id)
+        worker.post(partial(self._open_private, client, worker))
+
+    def _worker(self, client_id: int | None) -> Worker:
+        """The thread for one browser's session, or with None for that of all."""
+        worker = self._workers[client_id] = Worker(self._viser.get_event_loop())
+        return worker
+
+    def _give_view(self, session: Session, client: viser.ClientHandle) -> None:
         session.views.join(client)
         with self._joined:
             self._joined.notify_all()
 
-    async def _leave(self, client: viser.ClientHandle) -> None:
+    def _open_private(self, client: viser.ClientHandle, worker: Worker) -> None:
+        """Draw the session of one browser; its worker runs this and has its lock.
+
+        A robot that is shown in all sessions meanwhile waits for that lock once this
+        session is known, and so comes after what is shown here.
+        """
+        opened = self._open(client, worker)
         with self._lock:
-            opened = self._private.pop(client.client_id, None)
+            self._private[client.client_id] = opened
+            robot, problems = self._robot, dict(self._reload_problems)
+        session = opened[0]
+        if robot is not None and robot is not session.robot:
+            session.show_robot(robot)
+        for of, found in problems.items():
+            session.set_reload_problems(of, found)
+        self._give_view(session, client)
+
+    async def _leave(self, client: viser.ClientHandle) -> None:
         if self.shared is not None:
-            self.shared.views.leave(client.client_id)
+            leave = partial(self.shared.views.leave, client.client_id)
+            self.shared.worker.post(leave)
+            return
+        worker = self._workers.pop(client.client_id, None)
+        if worker is not None:
+            worker.post(partial(self._close_private, client.client_id))
+
+    def _close_private(self, client_id: int) -> None:
+        with self._lock:
+            opened = self._private.pop(client_id, None)
         if opened is not None:
             session, layout = opened
             self._advice.pop(session, None)

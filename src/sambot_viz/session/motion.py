@@ -111,23 +111,27 @@ class Motion:
                 return
             self._ticking = True
             self._last = time.monotonic()
-        self._session.loop.call_soon_threadsafe(self._wait)
+        self._wait()
 
     def close(self) -> None:
         """Move nothing any more."""
         self._closed = True
 
     def _wait(self) -> None:
-        self._session.loop.call_later(self._session.period, self._step)
+        self._session.worker.post_later(self._session.period, self._step)
 
     def _step(self) -> None:
-        with self._session.lock:
-            now = time.monotonic()
-            dt, self._last = min(now - self._last, LONGEST_STEP), now
-            if self._closed:
-                return
+        """Take one step, in the session's worker; an error stops all motion."""
+        now = time.monotonic()
+        dt, self._last = min(now - self._last, LONGEST_STEP), now
+        self._ticking = False
+        if self._closed:
+            return
+        try:
             self.advance(dt)
-            if not self.moving:
-                self._ticking = False
-                return
-        self._wait()
+        except Exception:
+            self.stop()
+            raise
+        if self.moving:
+            self._ticking = True
+            self._wait()

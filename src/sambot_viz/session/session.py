@@ -8,8 +8,6 @@ out at once, streams go out at the config's Frame Rate (DESIGN §4.5).
 
 from __future__ import annotations
 
-import asyncio
-import threading
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, Literal, Protocol
@@ -22,7 +20,7 @@ from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.displays.status import Status
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Problem, SambotVizError
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.geometry import Matrix
@@ -38,6 +36,7 @@ from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.session.user_frames import UserFrames
 from sambot_viz.session.view_control import ViewControl
+from sambot_viz.session.worker import Worker, log_error
 
 Event = Literal[
     "robot", "config", "frames", "joints", "status", "problems", "view", "tools"
@@ -65,7 +64,8 @@ class Session:
 
     Args:
         audience: where to draw.
-        loop: viser's event loop, for streams.
+        worker: the thread that browsers, timers and files act in; it is closed with
+            the session.
         config: the .rviz document; the session changes it as the user does.
         meshes: mesh files that are read already (shared by all sessions).
         load_file: reads another model, for a RobotModel from a file.
@@ -80,7 +80,7 @@ class Session:
     def __init__(
         self,
         audience: Audience,
-        loop: asyncio.AbstractEventLoop,
+        worker: Worker,
         config: RvizConfig,
         meshes: MeshStore,
         load_file: Callable[[str], Robot] | None = None,
@@ -89,8 +89,9 @@ class Session:
         poses: Presets | None = None,
     ) -> None:
         self.options = options or Options()
-        self.lock = threading.RLock()
-        self.loop = loop
+        self.worker = worker
+        self.lock = worker.lock
+        worker.on_error = self.report_error
         self.audience = audience
         self.config = config
         self.tree = FrameTree()
@@ -113,7 +114,7 @@ class Session:
             load_file=load_file,
         )
         self.context.assets = SessionAssets(meshes, reader, self._assets_read)
-        self._pacer = Throttle(loop, self.period, self._draw_moved)
+        self._pacer = Throttle(worker, self.period, self._draw_moved)
         self._take_globals()
         self.views = ViewControl(self)
         self.motion = Motion(self)
@@ -320,6 +321,21 @@ class Session:
             with self.change("problems"):
                 self.reload_problems[of] = tuple(problems)
 
+    def report_error(self, error: Exception) -> None:
+        """Show an exception that nobody caught in the page, and log it once."""
+        if isinstance(error, SambotVizError):
+            problem = Problem("error", "refused", str(error))
+        else:
+            text = f"internal error: {type(error).__name__}: {error}"
+            hint = "start the program again, and please report it"
+            problem = Problem("error", "internal-error", text, hint)
+        with self.lock:
+            if self.reload_problems.get("fault") == (problem,):
+                return
+            if not isinstance(error, SambotVizError):
+                log_error(error)
+            self.set_reload_problems("fault", (problem,))
+
     # Asking
 
     def global_status(self) -> Status:
@@ -338,6 +354,7 @@ class Session:
         self.motion.close()
         self.views.close()
         self._pacer.close()
+        self.worker.close()
 
     # Inside
 
@@ -393,7 +410,11 @@ class Session:
 
     def _tell(self, event: Event) -> None:
         for listener in tuple(self.listeners):
-            listener(event)
+            try:
+                listener(event)
+            except Exception as error:
+                # A panel that fails must not take the others, or the picture, along.
+                self.report_error(error)
 
 
 def walk(items: Sequence[DisplayConfig]) -> Iterator[DisplayConfig]:

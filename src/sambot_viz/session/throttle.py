@@ -1,31 +1,32 @@
-"""At once for a single event, at a steady rate for a stream: latest wins."""
+"""At once for a single event, at a steady rate for a stream: the latest wins."""
 
 from __future__ import annotations
 
-import asyncio
 import threading
 import time
 from collections.abc import Callable
+
+from sambot_viz.session.worker import Worker
 
 
 class Throttle:
     """Runs an action at most once per period, and never later than one period.
 
     The first request after a pause runs at once, in the caller's thread. Requests
-    that come sooner are folded into one run at the end of the period, on the event
-    loop; nothing runs when nothing was requested.
+    that come sooner are folded into one run at the end of the period, in the session's
+    worker; nothing runs when nothing was requested.
 
     Args:
-        loop: where late runs happen.
+        worker: where late runs happen.
         period: shortest time between two runs [s].
-        action: what to run; it must take its own lock.
+        action: what to run; it takes its own lock.
     """
 
     def __init__(
-        self, loop: asyncio.AbstractEventLoop, period: float, action: Callable[[], None]
+        self, worker: Worker, period: float, action: Callable[[], object]
     ) -> None:
         self.period = period
-        self._loop = loop
+        self._worker = worker
         self._action = action
         self._lock = threading.Lock()
         self._last = float("-inf")
@@ -40,7 +41,7 @@ class Throttle:
             left = self._last + self.period - time.monotonic()
             if left > 0:
                 self._waiting = True
-                self._loop.call_soon_threadsafe(self._loop.call_later, left, self._late)
+                self._worker.post_later(left, self._late)
                 return
             self._last = time.monotonic()
         self._action()

@@ -8,12 +8,14 @@ is the camera's.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import viser
 import viser.transforms
 
+from sambot_viz.session.worker import Worker
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.pick_scene import PickScene
 from sambot_viz.tools.picking.raycast import Array
@@ -178,12 +180,12 @@ class ToolControl:
         scene = self.scene
         scene.remove_click_callback()  # pyright: ignore[reportUnknownMemberType]
         scene.remove_rect_select_callback()  # pyright: ignore[reportUnknownMemberType]
-        tool = self.current
+        tool, worker = self.current, self._session.worker
         for modifier in MODIFIERS if tool.rectangles else (None,):
             if tool.clicks:
-                scene.on_click(modifier=modifier)(_clicked(tool))
+                scene.on_click(modifier=modifier)(_clicked(tool, worker))
             if tool.rectangles:
-                scene.on_rect_select(modifier=modifier)(_boxed(tool))
+                scene.on_rect_select(modifier=modifier)(_boxed(tool, worker))
 
     def _hear(self, event: Event) -> None:
         if event == "config":
@@ -199,21 +201,23 @@ class ToolControl:
         self._marks.draw({t: box for t, box in boxes.items() if box is not None})
 
 
-def _clicked(tool: Tool) -> Callable[[viser.SceneClickEvent], Any]:
+def _clicked(tool: Tool, worker: Worker) -> Callable[[viser.SceneClickEvent], Any]:
     async def clicked(event: viser.SceneClickEvent) -> None:
         direction = as_vector(event.ray_direction)
         origin = as_vector(event.ray_origin)
         if np.all(np.isfinite([*origin, *direction])) and any(direction):
-            tool.click(Ray(event.client_id, origin, direction, event.modifier))
+            ray = Ray(event.client_id, origin, direction, event.modifier)
+            worker.post(partial(tool.click, ray))
 
     return clicked
 
 
-def _boxed(tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
+def _boxed(tool: Tool, worker: Worker) -> Callable[[viser.SceneRectSelectEvent], Any]:
     async def boxed(event: viser.SceneRectSelectEvent) -> None:
         corners = np.array([event.screen_min, event.screen_max], np.float64)
         if np.all(np.isfinite(corners)):
-            tool.rectangle(_rays(event.client.camera, corners, event.modifier))
+            camera, modifier = event.client.camera, event.modifier
+            worker.post(lambda: tool.rectangle(_rays(camera, corners, modifier)))
 
     return boxed
 

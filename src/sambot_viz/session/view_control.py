@@ -10,6 +10,7 @@ and the document takes it over: it says what the camera that moved last shows. W
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import viser
@@ -47,7 +48,7 @@ class ViewControl:
         self._target = Target()
         self._view: tuple[ViewConfig, View] | None = None
         self._mover: int | None = None
-        self._reader = Throttle(session.loop, READ_PERIOD, self._read)
+        self._reader = Throttle(session.worker, READ_PERIOD, self._read)
         session.listeners.append(self._hear)
 
     def close(self) -> None:
@@ -94,9 +95,11 @@ class ViewControl:
             if browser.is_fresh or browser.is_flat != self.view.orthographic:
                 browser.point(self.camera)
 
+        take_over = partial(self._camera_moved, client.client_id)
+
         async def moved(handle: viser.CameraHandle) -> None:
             del handle
-            self._camera_moved(client.client_id)
+            self._session.worker.post(take_over, latest_of=browser)
 
         client.camera.on_update(moved)
 

@@ -1,0 +1,141 @@
+"""The thread of a session: it runs what browsers, timers and files cause, in order.
+
+viser calls back on its event loop, which serves every browser and must never wait. So
+a callback only posts an action here. The worker runs the actions one after the other
+and holds the session's lock while it does, so that a program's own threads, which take
+the same lock, never see a session that is half changed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import heapq
+import logging
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+
+Action = Callable[[], object]
+
+LONGEST_STOP = 5.0
+"""`close` waits this long for the action that is running [s]."""
+_LOCK_POLL = 0.05
+"""The worker looks this often whether it was closed while it waits for the lock [s]."""
+
+
+class Worker(threading.Thread):
+    """Runs posted actions one at a time; started by the first of them.
+
+    Args:
+        loop: viser's event loop, for `on_loop`.
+
+    Attributes:
+        lock: held while an action runs; threads of the program may take it too.
+        on_error: called with an exception that an action raised; logs it by default.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        super().__init__(name="sambot-viz-session", daemon=True)
+        self.lock = threading.RLock()
+        self.on_error: Callable[[Exception], None] = log_error
+        self._loop = loop
+        self._changed = threading.Condition()
+        self._inbox: deque[tuple[object, Action]] = deque()
+        self._timers: list[tuple[float, int, Action]] = []
+        self._count = 0
+        self._closed = False
+
+    def post(self, action: Action, latest_of: object = None) -> None:
+        """Run an action soon, after those that were posted before; returns at once.
+
+        Args:
+            action: what to run.
+            latest_of: of actions in a row that name the same object here, only the
+                last one runs: a flood of slider values costs one step.
+        """
+        with self._changed:
+            if self._closed:
+                return
+            if latest_of is not None and self._inbox:
+                if self._inbox[-1][0] is latest_of:
+                    self._inbox.pop()
+            self._inbox.append((latest_of, action))
+            self._wake()
+
+    def post_later(self, delay: float, action: Action) -> None:
+        """Run an action after a delay [s]; returns at once."""
+        with self._changed:
+            if self._closed:
+                return
+            self._count += 1
+            due = time.monotonic() + delay
+            heapq.heappush(self._timers, (due, self._count, action))
+            self._wake()
+
+    def on_loop(self, action: Action) -> None:
+        """Run something short on viser's event loop; returns at once.
+
+        The values of widgets are set there: a browser may be setting the same one.
+        """
+        # A loop that has stopped already has nobody to show anything to.
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(action)
+
+    def close(self) -> None:
+        """Drop what was posted, and wait for the action that is running.
+
+        It may be called from anywhere: by the action that is running, or by a thread
+        that holds the lock.
+        """
+        with self._changed:
+            self._closed = True
+            self._inbox.clear()
+            self._timers.clear()
+            self._changed.notify_all()
+        if self.is_alive() and threading.current_thread() is not self:
+            self.join(LONGEST_STOP)
+
+    def run(self) -> None:
+        """Run the actions until `close`; the thread's own method."""
+        while (action := self._next()) is not None:
+            if not self._take_lock():
+                return
+            try:
+                action()
+            except Exception as error:
+                self.on_error(error)
+            finally:
+                self.lock.release()
+
+    def _next(self) -> Action | None:
+        """Wait for the next action; None after `close`."""
+        with self._changed:
+            while not self._closed:
+                wait = None
+                if self._timers:
+                    wait = self._timers[0][0] - time.monotonic()
+                    if wait <= 0:
+                        return heapq.heappop(self._timers)[2]
+                if self._inbox:
+                    return self._inbox.popleft()[1]
+                self._changed.wait(wait)
+            return None
+
+    def _take_lock(self) -> bool:
+        """Take the lock; False when the worker was closed before it was free."""
+        while not self.lock.acquire(timeout=_LOCK_POLL):
+            if self._closed:
+                return False
+        return True
+
+    def _wake(self) -> None:
+        if self.ident is None:
+            self.start()
+        self._changed.notify()
+
+
+def log_error(error: Exception) -> None:
+    """Write an exception that nobody expected to the log, with its traceback."""
+    logging.getLogger("sambot_viz").error("internal error: %s", error, exc_info=error)
