@@ -1,20 +1,25 @@
-"""Which file is meant: the bundled robots and configs, and what a user names.
+"""The bundled robots and configs, and which files a user means.
 
 In a checkout the bundled files are the folders ``assets/`` and ``rviz/`` beside
 ``src/``. A wheel carries both inside the package, in ``sambot_viz/share/`` (see
 force-include in pyproject.toml).
 
-A package folder holds its model in urdf/, description/, robots/ or beside package.xml,
-and its .rviz file in rviz/, config/ or launch/; the bundled robot is the last resort.
+Of a package folder the obvious model is taken, and the .rviz file in rviz/, config/ or
+launch/.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.robot.packages.package_model import (
+    MODEL_ENDINGS,
+    choose_model,
+    models_in,
+)
 
 DEFAULT_MODEL = "sam_bot.urdf.xacro"
 """The robot that is shown when no model is given."""
@@ -22,9 +27,7 @@ DEFAULT_MODEL = "sam_bot.urdf.xacro"
 DEFAULT_CONFIG = "urdf_config.rviz"
 """The config that is used when none is given."""
 
-_MODEL_FOLDERS = ("urdf", "description", "src/description", "robots", "model", ".")
 _CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
-_MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
 
 
 def assets_folder() -> Path:
@@ -73,10 +76,18 @@ def config_names() -> list[str]:
     return sorted(path.name for path in configs_folder().glob("*.rviz"))
 
 
+def is_bundled(config: str | None) -> bool:
+    """Whether a config file is one that comes with the program."""
+    if config is None:
+        return False
+    path = Path(config).absolute()
+    return path.parent.resolve() == configs_folder() and path.name in config_names()
+
+
 def _folder(name: str) -> Path:
     package = Path(__file__).resolve().parent
-    # The wheel's place comes first: an installed package must not pick up a folder
-    # that happens to stand two levels above it.
+    # The wheel's place comes first: an installed package must not use a folder that
+    # happens to be two levels above it.
     places = (package / "share" / name, package.parents[1] / name)
     for place in places:
         if place.is_dir():
@@ -100,8 +111,8 @@ class Found:
 
     Attributes:
         model: the model file.
-        config: the .rviz file, or None when none was named and none belongs to the
-            model; then the bundled one serves, with a fixed frame of the robot.
+        config: the .rviz file, or None when none was given and none belongs to the
+            model; the bundled one is then used, with a fixed frame of the robot.
     """
 
     model: Path
@@ -131,35 +142,20 @@ def find(model: Path | None, config: Path | None = None) -> Found:
 
 
 def _model_in(folder: Path) -> Path:
-    for name in _MODEL_FOLDERS:
-        files = _files(folder / name, _MODEL_ENDINGS)
-        if len(files) == 1:
-            return files[0]
-        if files:
-            return _obvious(folder, files)
+    models = models_in(folder)
+    chosen = choose_model(folder, models)
+    if chosen is not None:
+        return chosen
+    if not models:
+        endings = ", ".join(f"*{ending}" for ending in MODEL_ENDINGS)
+        raise UsageError(
+            f"no model in the folder '{folder}': no {endings} in it has a link; give "
+            "the model file itself"
+        )
+    names = ", ".join(str(path.relative_to(folder)) for path in models[:8])
+    more = f" and {len(models) - 8} more" if len(models) > 8 else ""
     raise UsageError(
-        f"no model in the folder '{folder}': looked for *.urdf.xacro, *.urdf and "
-        f"*.xacro in {', '.join(_MODEL_FOLDERS)}; name the model file itself"
-    )
-
-
-def _obvious(folder: Path, files: Sequence[Path]) -> Path:
-    """The model named like the package, or the only one that is no part of another."""
-    package = folder.resolve().name
-    stems = {package, package.removesuffix("_description"), "robot"}
-    for ending in _MODEL_ENDINGS:
-        for path in files:
-            if path.name.endswith(ending) and path.name.removesuffix(ending) in stems:
-                return path
-    for ending in _MODEL_ENDINGS:
-        matching = [path for path in files if path.name.endswith(ending)]
-        if len(matching) == 1:
-            return matching[0]
-        if matching:
-            break
-    names = ", ".join(str(path.relative_to(folder)) for path in files[:8])
-    raise UsageError(
-        f"several models in the folder '{folder}' ({names}); name the one to show"
+        f"several models in the folder '{folder}' ({names}{more}); give the one to show"
     )
 
 
@@ -185,7 +181,7 @@ def _missing(what: str, path: Path) -> str:
     folder = path.parent
     if not folder.is_dir():
         return f"no {what} '{path}': the folder '{folder}' does not exist"
-    endings = _MODEL_ENDINGS if what == "model" else (".rviz",)
+    endings = MODEL_ENDINGS if what == "model" else (".rviz",)
     names = [p.name for p in _files(folder, endings)]
-    near = did_you_mean(path.name, names) if names else f"'{folder}' holds no {what}"
+    near = did_you_mean(path.name, names) if names else f"'{folder}' has no {what}"
     return f"no {what} '{path}': there is no such file; {near}"

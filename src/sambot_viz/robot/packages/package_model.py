@@ -1,0 +1,205 @@
+"""The model that a package folder is about, when the user names only the folder.
+
+The files are searched as text, not parsed: a model with a mistake in it must be found
+too, so that the mistake can be explained.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
+
+MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
+"""How models are called, the most likely ending first."""
+
+_FOLDERS = ("urdf", "description", "robots", "robot", "model", "models", "xacro")
+_SKIPPED = frozenset({"build", "install", "log", "node_modules"})
+_TESTS = frozenset({"test", "tests"})
+_SUFFIXES = ("", "_description", "_support", "_urdf", "_robot", "_model", "_pkg")
+_MAX_FOLDERS = 500
+_MAX_DEPTH = 7
+_LARGEST = 8_000_000
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_MACRO = re.compile(r"<xacro:macro\b[^>]*(?<!/)>.*?</xacro:macro\s*>", re.DOTALL)
+_INCLUDE = re.compile(r"<(?:xacro:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']+)")
+_LINK = re.compile(r"<link\b")
+_CALL = re.compile(r"<xacro:(?!property|arg\b|include|macro|insert_block|element|attr)")
+_EXPRESSION = re.compile(r"\$[({][^)}]*[)}]")
+
+
+@dataclass(frozen=True, slots=True)
+class _ModelFile:
+    """What a look at the text of a file shows.
+
+    Attributes:
+        path: the file.
+        builds_links: it has links, or calls or includes something that may.
+        includes: the files it includes, as it writes them.
+    """
+
+    path: Path
+    builds_links: bool
+    includes: tuple[str, ...]
+
+
+def models_in(folder: Path) -> list[Path]:
+    """The files of a folder that may be shown by themselves, sorted.
+
+    Files without links, with nothing but macros, or included by another file are
+    left out. Models for tests count only when there are no others.
+    """
+    paths = list(_walk(folder))
+    products = [p for p in paths if not _is_for_tests(p.relative_to(folder))]
+    return _complete_models(products) or _complete_models(paths)
+
+
+def _is_for_tests(path: Path) -> bool:
+    return not _TESTS.isdisjoint(part.lower() for part in path.parts)
+
+
+def _complete_models(paths: Sequence[Path]) -> list[Path]:
+    files = [_look_at(path) for path in paths]
+    names = [file.path.name for file in files]
+    included = {
+        other.path
+        for file in files
+        for include in file.includes
+        for other in files
+        if other is not file and _is_included(other.path, include, names)
+    }
+    return [f.path for f in files if f.builds_links and f.path not in included]
+
+
+def choose_model(folder: Path, models: Sequence[Path]) -> Path | None:
+    """The obvious one of several models, or None when none is.
+
+    It is the only one, the one that is named like the package, the only one that a
+    launch file names, the one whose name the others extend ("arm" beside "arm_gazebo"),
+    or the only one with the most likely ending and folder; the first rule that finds
+    one decides.
+    """
+    models = _without_generated(models)
+    rules: tuple[Callable[[Path, Sequence[Path]], list[Path]], ...] = (
+        lambda _folder, known: list(known),
+        _named_like_package,
+        _named_in_launch_files,
+        _shortest_name,
+        _likeliest_place,
+    )
+    for rule in rules:
+        found = rule(folder, models)
+        if len(found) == 1:
+            return found[0]
+        models = found or models
+    return None
+
+
+def _walk(top: Path) -> Iterator[Path]:
+    """Files with the ending of a model; other packages inside the folder are left out.
+
+    When the folder is no package itself, all packages in it are searched.
+    """
+    in_package = package_name(top) is not None
+    count = 0
+    for place, folders, names in os.walk(top):
+        folder = Path(place)
+        depth = len(folder.relative_to(top).parts)
+        if in_package and depth and not set(names).isdisjoint(MANIFESTS):
+            folders.clear()
+            continue
+        folders[:] = sorted(f for f in folders if _worth_entering(f))
+        if depth >= _MAX_DEPTH or count > _MAX_FOLDERS:
+            folders.clear()
+        count += 1
+        for name in sorted(names):
+            if name.endswith(MODEL_ENDINGS):
+                yield folder / name
+
+
+def _worth_entering(name: str) -> bool:
+    return name not in _SKIPPED and not name.startswith(".")
+
+
+def _look_at(path: Path) -> _ModelFile:
+    try:
+        text = ""
+        if path.stat().st_size <= _LARGEST:
+            text = path.read_text("utf-8", "replace")
+    except OSError:
+        text = ""
+    text = _COMMENT.sub("", text)
+    includes = tuple(_INCLUDE.findall(text))
+    outside = _MACRO.sub("", text)
+    builds = bool(_LINK.search(outside) or _CALL.search(outside) or includes)
+    return _ModelFile(path, builds, includes)
+
+
+def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:
+    """Whether an include means this file, as far as can be known without xacro."""
+    tail = _EXPRESSION.split(include)[-1].lstrip("./")
+    if f"/{path.as_posix()}".endswith(f"/{tail}"):
+        return bool(tail)
+    name = tail.rpartition("/")[2]
+    return path.name == name and names.count(name) == 1
+
+
+def _without_generated(models: Sequence[Path]) -> list[Path]:
+    """Leave out x.urdf beside x.urdf.xacro: it was made from it."""
+    known = set(models)
+    return [
+        path
+        for path in models
+        if not (
+            path.suffix == ".urdf"
+            and known & {path.with_suffix(".urdf.xacro"), path.with_suffix(".xacro")}
+        )
+    ]
+
+
+def _stem(path: Path) -> str:
+    ending = next((e for e in MODEL_ENDINGS if path.name.endswith(e)), "")
+    return path.name.removesuffix(ending)
+
+
+def _named_like_package(folder: Path, models: Sequence[Path]) -> list[Path]:
+    names = {folder.resolve().name, package_name(folder) or ""}
+    stems = [n.removesuffix(s) for n in names for s in _SUFFIXES if n.endswith(s)]
+    wanted = {stem.lower() for stem in stems if stem}
+    found = [path for path in models if _stem(path).lower() in wanted]
+    return found or [path for path in models if _stem(path) == "robot"]
+
+
+def _named_in_launch_files(folder: Path, models: Sequence[Path]) -> list[Path]:
+    texts: list[str] = []
+    for file in sorted(folder.glob("launch/**/*launch*"))[:50]:
+        try:
+            texts.append(file.read_text("utf-8", "replace"))
+        except OSError:
+            continue
+    return [p for p in models if any(_names(p.name, text) for text in texts)]
+
+
+def _names(name: str, text: str) -> bool:
+    return re.search(rf"(?<![\w.-]){re.escape(name)}(?![\w-])", text) is not None
+
+
+def _shortest_name(folder: Path, models: Sequence[Path]) -> list[Path]:
+    stems = [_stem(path) for path in models]
+    return [p for p in models if all(stem.startswith(_stem(p)) for stem in stems)]
+
+
+def _likeliest_place(folder: Path, models: Sequence[Path]) -> list[Path]:
+    def rank(path: Path) -> tuple[int, int]:
+        ending = next(n for n, e in enumerate(MODEL_ENDINGS) if path.name.endswith(e))
+        parts = path.relative_to(folder).parts
+        at = _FOLDERS.index(parts[0]) if parts[0] in _FOLDERS else len(_FOLDERS)
+        return (ending, at)
+
+    best = min((rank(path) for path in models), default=None)
+    return [path for path in models if rank(path) == best]

@@ -1,0 +1,115 @@
+"""The obvious model of a package folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.bundled import find
+from sambot_viz.errors import UsageError
+
+XACRO = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{}</robot>'
+LINKS = XACRO.format('<link name="base_link"/>')
+MACRO = XACRO.format(
+    '<xacro:macro name="arm" params="p"><link name="${p}base"/></xacro:macro>'
+)
+CALLS = XACRO.format('<xacro:include filename="r_macro.xacro"/><xacro:arm p="x"/>')
+
+
+def package(tmp_path: Path, **files: str) -> Path:
+    """A package my_bot with these files; "__" in a name is a folder."""
+    folder = tmp_path / "my_bot"
+    contents = {"package.xml": "<package><name>my_bot</name></package>", **files}
+    for name, text in contents.items():
+        path = folder / name.replace("__", "/")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return folder
+
+
+def model_in(folder: Path) -> str:
+    return find(folder).model.relative_to(folder).as_posix()
+
+
+@pytest.mark.parametrize(
+    "place", ["urdf", "description/urdf", "urdf/arms", "robots", "xacro", "models", "."]
+)
+def test_a_model_is_found_wherever_packages_have_it(tmp_path: Path, place: str) -> None:
+    folder = package(tmp_path, **{f"{place}/r.urdf.xacro": LINKS})
+    assert model_in(folder).endswith("r.urdf.xacro")
+
+
+def test_a_file_with_macros_alone_is_not_the_model(tmp_path: Path) -> None:
+    files = {"urdf/common.xacro": MACRO, "robots/r.urdf.xacro": LINKS}
+    assert model_in(package(tmp_path, **files)) == "robots/r.urdf.xacro"
+
+
+def test_a_file_that_calls_an_included_macro_is_the_model(tmp_path: Path) -> None:
+    files = {"urdf/r.xacro": CALLS, "urdf/r_macro.xacro": MACRO}
+    assert model_in(package(tmp_path, **files)) == "urdf/r.xacro"
+
+
+def test_an_included_file_with_links_is_not_the_model(tmp_path: Path) -> None:
+    top = XACRO.format('<xacro:include filename="$(find my_bot)/urdf/core.xacro"/>')
+    files = {"urdf/core.xacro": LINKS, "urdf/top.xacro": top}
+    assert model_in(package(tmp_path, **files)) == "urdf/top.xacro"
+
+
+def test_links_in_a_comment_do_not_count(tmp_path: Path) -> None:
+    files = {"urdf/a.urdf": f"<!-- {LINKS} --><robot/>", "urdf/b.urdf": LINKS}
+    assert model_in(package(tmp_path, **files)) == "urdf/b.urdf"
+
+
+@pytest.mark.parametrize(
+    ("names", "expected"),
+    [
+        (["my_bot.urdf", "other.urdf"], "my_bot.urdf"),
+        (["robot.urdf", "other.urdf"], "robot.urdf"),
+        (["arm.xacro", "arm_gazebo.xacro", "arm_sim.xacro"], "arm.xacro"),
+        (["x.urdf", "x.urdf.xacro"], "x.urdf.xacro"),
+        (["x.urdf", "y.urdf.xacro"], "y.urdf.xacro"),
+    ],
+)
+def test_the_obvious_one_of_several_models_is_chosen(
+    tmp_path: Path, names: list[str], expected: str
+) -> None:
+    folder = package(tmp_path, **{f"urdf/{name}": LINKS for name in names})
+    assert model_in(folder) == f"urdf/{expected}"
+
+
+def test_the_model_that_a_launch_file_names_is_chosen(tmp_path: Path) -> None:
+    files = {"urdf/a.urdf": LINKS, "urdf/b.urdf": LINKS, "launch/x.launch.py": "b.urdf"}
+    assert model_in(package(tmp_path, **files)) == "urdf/b.urdf"
+
+
+def test_a_model_with_a_mistake_in_it_is_found_too(tmp_path: Path) -> None:
+    folder = package(tmp_path, **{"urdf/r.urdf": LINKS.replace("</robot>", "")})
+    assert model_in(folder) == "urdf/r.urdf"
+
+
+def test_models_for_tests_count_only_when_there_are_no_others(tmp_path: Path) -> None:
+    folder = package(tmp_path, **{"test/rig.urdf": LINKS})
+    assert model_in(folder) == "test/rig.urdf"
+    (folder / "arm.urdf").write_text(LINKS)
+    assert model_in(folder) == "arm.urdf"
+
+
+def test_other_packages_inside_the_folder_are_left_out(tmp_path: Path) -> None:
+    files = {
+        "urdf/a.urdf": LINKS,
+        "sub__package.xml": "<package/>",
+        "sub/b.urdf": LINKS,
+    }
+    assert model_in(package(tmp_path, **files)) == "urdf/a.urdf"
+
+
+def test_several_models_without_an_obvious_one_are_listed(tmp_path: Path) -> None:
+    folder = package(tmp_path, **{f"urdf/{n}.urdf": LINKS for n in "ab"})
+    with pytest.raises(UsageError, match=r"\(urdf/a\.urdf, urdf/b\.urdf\); give the"):
+        find(folder)
+
+
+def test_a_folder_without_a_model_says_what_was_looked_for(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=r"no \*\.urdf\.xacro, \*\.urdf, \*\.xacro"):
+        find(package(tmp_path, **{"urdf/common.xacro": MACRO}))
