@@ -207,6 +207,7 @@ def _robot(
     urdf = read_urdf(
         document, findings, files.mesh, files.texture, expanded is not None
     )
+    files.report()
     problems += findings.problems
     if urdf is None or findings.rejected:
         raise RobotError(problems)

@@ -1,4 +1,4 @@
-"""Finding ROS packages without ROS (spec/real-files.md §3.1).
+"""Finding ROS packages without ROS.
 
 Only the standard library is used here: the xacro child reads this module too and
 must start fast.
@@ -24,7 +24,7 @@ _MAX_UP = 6
 
 @dataclass(frozen=True, slots=True)
 class Lookup:
-    """What became of the question "where is this package?".
+    """The answer to "where is this package?".
 
     Attributes:
         name: the package asked for.
@@ -40,10 +40,10 @@ class Lookup:
 
 
 def package_name(folder: Path) -> str | None:
-    """The name that a package folder gives itself, or None when it is no package.
+    """The name that a package folder gives itself, or None when it is not a package.
 
-    It is the ``<name>`` in package.xml, not the folder's name; the older
-    manifest.xml and Gazebo's model.config count by the folder's name.
+    It is the ``<name>`` in package.xml, not the folder's name; packages with the older
+    manifest.xml or with Gazebo's model.config are named by their folder.
     """
     try:
         text = (folder / "package.xml").read_text("utf-8", "replace")
@@ -56,11 +56,11 @@ def package_name(folder: Path) -> str | None:
 
 
 class PackageIndex:
-    """Answers package names with folders; looks only as far as a question needs.
+    """Finds the folders of packages; searches only as far as each question needs.
 
     The order: ``name=folder`` given by the user, the user's folders, the packages
     around the model, its workspace, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and
-    COLCON_PREFIX_PATH, and last a folder that merely has the package's name.
+    COLCON_PREFIX_PATH, and last a folder that only has the package's name.
     """
 
     def __init__(
@@ -153,8 +153,8 @@ class PackageIndex:
         """The folders to search, from the model's own up to its workspace.
 
         Without a sign of a workspace the search ends three folders above the model's
-        package (the folder of checkouts, when packages stand in groups), or in the
-        model's folder when it belongs to no package: what lies further up has nothing
+        package (the folder of checkouts, when packages come in groups), or in the
+        model's folder when it belongs to no package: folders further up have nothing
         to do with the model.
         """
         folders = list(self.ancestors())
@@ -248,12 +248,12 @@ def _worth_entering(entry: os.DirEntry[str]) -> bool:
 
 
 def _too_broad(folder: Path) -> bool:
-    """Whether a search below this folder would wander through the whole machine."""
+    """Whether a search below this folder would cover the whole machine."""
     return len(folder.parts) <= 2 or folder in (Path.home(), Path.home().parent)
 
 
 def _workspace_root(folder: Path) -> bool:
-    """Whether neighbours end here: a colcon workspace, or a checkout outside one."""
+    """Whether the search ends here: a colcon workspace, or a checkout outside one."""
     if (folder / "src").is_dir() and (
         (folder / "install").is_dir() or (folder / "build").is_dir()
     ):

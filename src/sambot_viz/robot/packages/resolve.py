@@ -1,8 +1,8 @@
 """From a file name as models write it to a file on this machine.
 
-The package's name counts first; the tail of the path is only the last resort
-(spec/real-files.md §2 number 19, §3.1). Only the standard library is used here: the
-xacro child reads this module too.
+The package's name counts first; the end of the path is only the last resort, because
+two packages may have files of the same name. Only the standard library is used here:
+the xacro child reads this module too.
 """
 
 from __future__ import annotations
@@ -16,8 +16,10 @@ from urllib.parse import unquote
 
 from sambot_viz.robot.packages.package_index import PackageIndex
 
-Doubt = Literal["letter-case", "other-machine", "other-layout", "path-only"]
-"""Why a found file deserves a warning: ROS would not find it so."""
+Doubt = Literal[
+    "letter-case", "other-machine", "other-layout", "path-only", "three-slashes"
+]
+"""Why a name deserves a warning although a file was found: ROS would not find it."""
 
 _MAX_FOLDERS = 2000
 
@@ -29,7 +31,7 @@ class Resolution:
     Attributes:
         path: the file, or None.
         searched: what was tried, in order, as text for a message.
-        doubt: set when ROS itself would not find it this way.
+        doubt: set when ROS would not find a file by this name.
         missing_package: the package that was not found, when that is the reason.
     """
 
@@ -80,6 +82,8 @@ class FileResolver:
         return Resolution(None, (f"{scheme} addresses are not fetched",))
 
     def _in_package(self, rest: str, scheme: str) -> Resolution:
+        if rest.startswith("/"):
+            return self._without_package(rest.lstrip("/"))
         package, _, tail = rest.partition("/")
         lookup = self._index.find(package)
         if lookup.path is None:
@@ -88,6 +92,14 @@ class FileResolver:
                 return Resolution(found, lookup.searched, "path-only", package)
             return Resolution(None, lookup.searched, missing_package=package)
         return self._below(lookup.path, tail)
+
+    def _without_package(self, tail: str) -> Resolution:
+        """A file of "package:///tail": the package is the first folder, or missing."""
+        package, _, rest = tail.partition("/")
+        root = self._index.find(package).path if rest else None
+        found = None if root is None else self._below(root, rest).path
+        found = found or self._by_tail(tail)
+        return Resolution(found, ("the folders above the model",), "three-slashes")
 
     def _below(self, root: Path, tail: str) -> Resolution:
         """A file below a package folder, by its path, its case or its layout."""
@@ -119,7 +131,7 @@ class FileResolver:
         return Resolution(found, (str(path),), doubt)
 
     def _other_machine(self, path: Path) -> Resolution:
-        """Cut another machine's absolute path at a package name that is known here."""
+        """The part of another machine's absolute path after a package known here."""
         parts = path.parts
         for position in range(len(parts) - 2, 0, -1):
             lookup = self._index.find(parts[position])
@@ -141,7 +153,7 @@ class FileResolver:
 
 
 def other_letter_case(path: Path) -> Path | None:
-    """The file that has this path but for the case of its letters, if there is one."""
+    """The one file whose path differs only in capital letters, or None."""
     missing: list[str] = []
     folder = path
     while not folder.is_dir():
@@ -170,13 +182,13 @@ def inside_package(
     """A file whose path ends like `relative` somewhere below a package.
 
     A source tree need not be laid out like the installed package: what is installed
-    as ros2_control/x.xacro may stand in description/ros2_control/x.xacro.
+    as ros2_control/x.xacro may be description/ros2_control/x.xacro in the source tree.
 
     Args:
         root: the package folder.
         relative: the path that is missing there.
-        refused: real paths that are no answer (files being included, which would
-            include themselves for ever).
+        refused: real paths that may not be the answer: files being included, which
+            would include themselves without end.
     """
     if ".." in relative.parts or not relative.parts:
         return None

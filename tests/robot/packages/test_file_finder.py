@@ -1,0 +1,83 @@
+"""Files that are not found are reported by cause, not one by one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sambot_viz.errors import Problem
+from sambot_viz.robot import load_robot
+
+CUBE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+def problems_with(folder: Path, *meshes: str) -> tuple[Problem, ...]:
+    """What is reported of a robot with these meshes, one on each line from line 2."""
+    shapes = "\n".join(
+        f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>'
+        for mesh in meshes
+    )
+    file = folder / "urdf" / "r.urdf"
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(f'<robot name="r"><link name="a">\n{shapes}\n</link></robot>')
+    return load_robot(file).problems
+
+
+def test_all_meshes_of_a_missing_package_are_one_problem(tmp_path: Path) -> None:
+    meshes = [f"package://arm/meshes/{n}.stl" for n in range(52)]
+
+    (problem,) = problems_with(tmp_path, *meshes, meshes[0])
+
+    assert problem.code == "mesh-not-found"
+    assert problem.line == 2
+    assert problem.message.startswith(
+        "52 meshes of arm (0.stl, 1.stl, 2.stl, 3.stl, 4.stl, 5.stl and 46 more) "
+        "were not found: the package arm is not known (searched: "
+    )
+    assert problem.hint == "add --package-path FOLDER, the folder that contains arm"
+
+
+def test_two_causes_are_two_problems(tmp_path: Path) -> None:
+    found = problems_with(tmp_path, "package://arm/a.stl", "b.stl", "c.stl")
+
+    assert [problem.line for problem in found] == [2, 3]
+    assert found[0].message.startswith("the mesh package://arm/a.stl was not found: ")
+    assert found[1].message.startswith("2 meshes (b.stl, c.stl) were not found: ")
+    assert all(p.message.endswith("; a stand-in is drawn") for p in found)
+
+
+def test_files_found_by_the_end_of_their_path_are_one_problem(tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    for name in "ab":
+        (tmp_path / "meshes" / f"{name}.obj").write_text(CUBE)
+
+    (problem,) = problems_with(
+        tmp_path, "package://arm/meshes/a.obj", "package://arm/meshes/b.obj"
+    )
+
+    assert problem.code == "file-by-path-only"
+    assert problem.message.startswith("2 meshes of arm (a.obj, b.obj): not found by ")
+
+
+def test_three_slashes_are_explained_and_the_file_is_found(tmp_path: Path) -> None:
+    folder = tmp_path / "robot"
+    (folder / "meshes").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>arm</name></package>")
+    (folder / "meshes" / "a.obj").write_text(CUBE)
+
+    found = problems_with(
+        folder, "package:///meshes/a.obj", "package:///arm/meshes/a.obj"
+    )
+    robot = load_robot(folder / "urdf" / "r.urdf")
+
+    assert {problem.code for problem in found} == {"package-three-slashes"}
+    assert "has three slashes" in found[0].message
+    assert str(folder / "meshes" / "a.obj") in found[0].message
+    paths = [getattr(s.geometry, "path", None) for s in robot.links["a"].visuals]
+    assert paths == [folder / "meshes" / "a.obj"] * 2
+
+
+def test_three_slashes_without_a_file_are_explained_too(tmp_path: Path) -> None:
+    (problem,) = problems_with(tmp_path, "package:///meshes/a.obj")
+
+    assert problem.code == "package-three-slashes"
+    assert "no file was used" in problem.message
