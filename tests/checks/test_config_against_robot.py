@@ -1,14 +1,11 @@
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
-import yaml
 
-from sambot_viz.checks.config_against_robot import check_setup
+from sambot_viz.checks.config_against_robot import check_config
 from sambot_viz.checks.launch_files import (
     check_launch_file,
     check_package,
@@ -17,6 +14,7 @@ from sambot_viz.checks.launch_files import (
 from sambot_viz.errors import Problem
 from sambot_viz.robot import load_robot
 from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import Declarations, RvizConfig
 
 Checked = Callable[[str], list[Problem]]
 
@@ -34,44 +32,6 @@ Visualization Manager:
 """
 
 
-@dataclass
-class Display:
-    """A display as `RvizConfig` has them."""
-
-    raw: Mapping[str, Any]
-
-    @property
-    def class_id(self) -> str:
-        return str(self.raw.get("Class"))
-
-    @property
-    def name(self) -> str:
-        return str(self.raw.get("Name"))
-
-    @property
-    def enabled(self) -> bool:
-        return bool(self.raw.get("Enabled", True))
-
-    @property
-    def displays(self) -> Sequence[Display]:
-        return [Display(raw) for raw in self.raw.get("Displays", [])]
-
-
-@dataclass
-class Config:
-    """A config as `RvizConfig` reads it."""
-
-    file: str
-    displays: Sequence[Display] = ()
-    global_options: dict[str, Any] = field(default_factory=dict[str, Any])
-
-    @classmethod
-    def load(cls, path: Path) -> Config:
-        manager = yaml.safe_load(path.read_text("utf-8"))["Visualization Manager"]
-        displays = [Display(raw) for raw in manager["Displays"]]
-        return cls(str(path), displays, manager["Global Options"])
-
-
 @pytest.fixture
 def robot() -> Robot:
     return load_robot(
@@ -86,7 +46,7 @@ def checked(tmp_path: Path, robot: Robot) -> Checked:
     def run(text: str) -> list[Problem]:
         file = tmp_path / "c.rviz"
         file.write_text(text)
-        return check_setup(robot, Config.load(file))
+        return check_config(robot, RvizConfig.load(file, Declarations()))
 
     return run
 
@@ -100,7 +60,7 @@ def test_a_fixed_frame_that_does_not_exist_is_pointed_at(checked: Checked) -> No
 
     assert problem.code == "setup-fixed-frame"
     assert problem.severity == "warning"
-    assert (problem.line, problem.column) == (10, 5)
+    assert (problem.line, problem.column) == (10, 18)
     assert problem.hint == "choose base_link, the root of this robot"
 
 
@@ -158,9 +118,10 @@ def test_a_config_without_a_robot_model_is_told(
 def test_the_bad_configs_of_the_collection_are_explained(
     shared: Path, robot: Robot, name: str, line: int, word: str
 ) -> None:
-    config = Config.load(shared / "data" / "bad-models" / "launch" / name)
+    folder = shared / "data" / "bad-models" / "launch"
+    config = RvizConfig.load(folder / name, Declarations())
 
-    (problem,) = check_setup(robot, config)
+    (problem,) = check_config(robot, config)
 
     assert problem.severity == "warning"
     assert problem.line is not None

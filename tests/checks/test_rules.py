@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.checks import check, check_robot
-from sambot_viz.checks.mesh_size import mesh_extents
+from sambot_viz.checks.mesh_files import MeshFiles
 from sambot_viz.errors import Problem
 from sambot_viz.robot import load_robot
 
@@ -56,6 +56,7 @@ def visual(inner: str) -> str:
         ("-1.57", "1.57", False),
         ("-6.2832", "6.2832", False),
         ("-12.566", "12.566", False),
+        ("-10", "10", False),
         ("-1e16", "1e16", False),
         ("-10000", "10000", False),
         ("0", "0", False),
@@ -120,6 +121,7 @@ WHEEL = """
     [
         ("-0.15", "-0.05", ""),
         ("-0.15", "-0.052", ""),
+        ("-0.15", "-0.042", ""),
         ("-0.15", "0", "0.05 m above"),
         ("-0.1", "-0.05", "0.05 m below"),
     ],
@@ -132,7 +134,19 @@ def test_a_wheel_has_to_touch_the_ground_of_base_footprint(
     assert [said in p.message for p in found] == ([True] if said else [])
 
 
-def test_a_turning_laser_is_no_wheel(checked: Checked) -> None:
+def test_all_wheels_off_the_ground_are_one_warning(checked: Checked) -> None:
+    second = (
+        '<link name="wheel2"><visual><geometry><sphere radius="0.1"/></geometry>'
+        '</visual></link><joint name="w2" type="continuous"><parent link="base_link"/>'
+        '<child link="wheel2"/><origin xyz="0 -0.2 0"/><axis xyz="0 1 0"/></joint>'
+    )
+    body = WHEEL.format(foot="-0.15", wheel="0.02") + second
+
+    (problem,) = checked(body, "wheel-not-on-ground")
+    assert problem.message.startswith("the wheels wheel and wheel2 end 0.07 m above")
+
+
+def test_a_turning_laser_is_not_a_wheel(checked: Checked) -> None:
     body = WHEEL.format(foot="-0.15", wheel="0.5").replace('"0 1 0"', '"0 0 1"')
 
     assert checked(body, "wheel-not-on-ground") == []
@@ -180,12 +194,59 @@ def test_a_macro_of_an_included_library_may_stay_unused(
     )
 
 
-def test_one_warning_names_every_line_that_stops_a_launch(checked: Checked) -> None:
-    body = '<!-- A: b -->\n<link name="a"/>\n<!-- c #1\n\td -->\n<!-- fine:yes#2 -->'
+BARE = 'Node(parameters=[{"robot_description": Command(["xacro ", "r.urdf"])}])\n'
+BY_NAME = """\
+text = Command(["xacro ", "r.urdf"])
+Node(parameters=[{"robot_description": text}])
+"""
+WRAPPED = BARE.replace("Command(", "ParameterValue(Command(").replace(
+    "])}", "]), value_type=str)}"
+)
 
-    (problem,) = checked(body, "launch-text-as-yaml")
-    assert problem.line == 2
-    assert "(the same on lines 4, 5)" in problem.message
+
+@pytest.fixture
+def launched(checked: Checked, tmp_path: Path) -> Checked:
+    """Checks a robot of a package with a launch file with this text."""
+
+    def run(body: str, launch: str, name: str = "urdf/r.urdf") -> list[Problem]:
+        (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+        for folder in ("urdf", "launch"):
+            (tmp_path / folder).mkdir(exist_ok=True)
+        (tmp_path / "launch/display.launch.py").write_text(launch)
+        return checked(body, "launch-text-as-yaml", name)
+
+    return run
+
+
+TODO = '<link name="a"/>\n<!-- fine:yes#2 -->\n<!-- TODO: b -->\n<!-- c #1 -->'
+
+
+@pytest.mark.parametrize("launch", [BARE, BY_NAME])
+def test_a_bare_command_makes_text_that_yaml_cannot_read_a_warning(
+    launched: Checked, launch: str
+) -> None:
+    (problem,) = launched(TODO, launch)
+
+    assert problem.line == 4
+    assert "display.launch.py line 1" in problem.message
+    assert "“TODO: b”" in problem.message
+    assert "ParameterValue(Command([…]), value_type=str)" in problem.hint
+
+
+@pytest.mark.parametrize("launch", ["", WRAPPED, "no Python at all ("])
+def test_without_a_bare_command_no_text_stops_a_launch(
+    launched: Checked, launch: str
+) -> None:
+    assert launched(TODO, launch) == []
+
+
+@pytest.mark.parametrize(
+    "body", ['<link name="a"/>', '\t<link name="a"/>', '<!-- a:b --><link name="a"/>']
+)
+def test_text_that_yaml_reads_as_text_stops_no_launch(
+    launched: Checked, body: str
+) -> None:
+    assert launched(body, BARE) == []
 
 
 @pytest.mark.parametrize(
@@ -196,8 +257,14 @@ def test_one_warning_names_every_line_that_stops_a_launch(checked: Checked) -> N
         "<xacro:m n=\"${'a: b'[0]}\"/>",
     ],
 )
-def test_what_xacro_takes_away_stops_no_launch(checked: Checked, body: str) -> None:
-    assert checked(MACRO + body, "launch-text-as-yaml", "r.xacro") == []
+def test_what_xacro_takes_away_stops_no_launch(launched: Checked, body: str) -> None:
+    assert launched(MACRO + body, BARE, "urdf/r.xacro") == []
+
+
+def test_many_comments_are_searched_in_one_pass(launched: Checked) -> None:
+    body = "<!-- x -->\n" * 100_000 + '<link name="a"/>'
+
+    assert launched(body, "") == []
 
 
 def test_the_inertia_of_a_real_body_is_accepted(checked: Checked) -> None:
@@ -239,32 +306,62 @@ def stl(*corners: tuple[float, float, float]) -> bytes:
     return bytes(80) + struct.pack("<I", 1) + triangle
 
 
-@pytest.mark.parametrize(
-    ("name", "content"),
-    [
-        ("p.stl", stl((0, 0, 0), (2, 0, 0), (0, 3, 4))),
-        (
-            "p.stl",
-            b"solid p\n vertex 0 0 0\n vertex 2 0 0\n vertex 0 3 4\nendsolid p\n",
-        ),
-        ("p.obj", b"# p\nv 0 0 0\nv 2 0 0\nv 0 3 4\nf 1 2 3\n"),
-    ],
-)
-def test_the_size_of_a_mesh_is_read_without_a_mesh_library(
-    tmp_path: Path, name: str, content: bytes
+BROKEN = {
+    "cut.stl": bytes(80) + struct.pack("<I", 10) + bytes(100),
+    "text.dae": b"not XML",
+    "bad.glb": b"glTF" + bytes(30),
+    "empty.obj": b"",
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_mesh_file_that_cannot_be_read_is_an_error(
+    checked: Checked, tmp_path: Path, name: str
 ) -> None:
-    file = tmp_path / name
-    file.write_bytes(content)
+    (tmp_path / name).write_bytes(BROKEN[name])
 
-    assert mesh_extents(file) == (2, 3, 4)
+    (problem,) = checked(visual(f'<geometry><mesh filename="{name}"/></geometry>'))
+
+    assert problem.severity == "error"
+    assert problem.code in ("mesh-broken", "mesh-empty")
+    assert problem.message.startswith(f"link a: the mesh {name}: ")
+    assert problem.line == 4
+    assert problem.hint
 
 
-@pytest.mark.parametrize("content", [b"", b"solid", b"v x y z", bytes(90)])
-def test_a_broken_mesh_has_no_size(tmp_path: Path, content: bytes) -> None:
-    for name in ("p.stl", "p.obj"):
-        file = tmp_path / name
-        file.write_bytes(content)
-        assert mesh_extents(file) is None
+def test_many_git_lfs_pointers_are_one_warning(
+    checked: Checked, tmp_path: Path
+) -> None:
+    names = [f"{n}.stl" for n in range(9)]
+    for name in names:
+        (tmp_path / name).write_text("version https://git-lfs.github.com/spec/v1\n")
+    shapes = "".join(
+        f'<visual><geometry><mesh filename="{n}"/></geometry></visual>' for n in names
+    )
+
+    (problem,) = checked(f'<link name="a">{shapes}</link>')
+
+    assert (problem.severity, problem.code) == ("warning", "mesh-lfs-pointer")
+    assert problem.message.startswith("9 meshes (0.stl, 1.stl, ")
+    assert "and 3 more)" in problem.message
+
+
+def test_meshes_that_take_too_long_are_named_and_not_read(tmp_path: Path) -> None:
+    (tmp_path / "p.stl").write_bytes(b"broken")
+    file = tmp_path / "r.urdf"
+    body = visual('<geometry><mesh filename="p.stl"/></geometry>')
+    file.write_text(f'<robot name="r">{body}</robot>')
+
+    (problem,) = check_robot(load_robot(file), mesh=MeshFiles(longest=-1))
+
+    assert (problem.severity, problem.code) == ("info", "mesh-not-checked")
+    assert "p.stl" in problem.message
+
+
+def test_a_ground_plane_may_be_large(checked: Checked, tmp_path: Path) -> None:
+    (tmp_path / "p.obj").write_text("v 0 0 0\nv 30 0 0\nv 0 30 0\nf 1 2 3\n")
+
+    assert checked(visual('<geometry><mesh filename="p.obj"/></geometry>')) == []
 
 
 def test_a_mesh_in_millimetres_gets_the_scale_it_needs(

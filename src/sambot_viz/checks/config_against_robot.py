@@ -1,247 +1,131 @@
-"""What keeps a robot out of the picture of an RViz config (spec/ros-nodes.md §7.4).
+"""Settings of an RViz config that keep a robot out of the picture.
 
-The config is right as YAML, and RViz says nothing or too little: a fixed frame that
-nobody publishes, a robot description that RViz will miss.
+Such a config is valid, and RViz reports nothing or too little: a fixed frame that is
+not published, a robot description that RViz will miss.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
-from typing import Any, Protocol
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
-import yaml
-
-from sambot_viz.errors import Problem, did_you_mean
+from sambot_viz.bundled import is_bundled
+from sambot_viz.errors import Place, Problem, did_you_mean
 from sambot_viz.robot.model import Robot
+from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
+
+if TYPE_CHECKING:
+    from sambot_viz.rviz import RvizConfig
+    from sambot_viz.rviz.class_items import DisplayConfig
 
 _DESCRIPTION = "robot_description"
-_MANAGER = "Visualization Manager"
 
 
-class DisplayLike(Protocol):
-    """What is needed of a display of an `RvizConfig`."""
-
-    @property
-    def class_id(self) -> str:
-        """RViz's class name, such as "rviz_default_plugins/RobotModel"."""
-        ...
-
-    @property
-    def name(self) -> str:
-        """The display's name."""
-        ...
-
-    @property
-    def enabled(self) -> bool:
-        """Whether it is switched on."""
-        ...
-
-    @property
-    def raw(self) -> Mapping[str, Any]:
-        """What the file says, as text."""
-        ...
-
-    @property
-    def displays(self) -> Sequence[DisplayLike]:
-        """The members of a group."""
-        ...
-
-
-class ItemLike(Protocol):
-    """What is needed of the Global Options."""
-
-    def get(self, path: str, /) -> Any:
-        """The value of a property."""
-        ...
-
-
-class ConfigLike(Protocol):
-    """What is needed of an `RvizConfig`."""
-
-    @property
-    def displays(self) -> Sequence[DisplayLike]:
-        """The displays at the top."""
-        ...
-
-    @property
-    def global_options(self) -> ItemLike:
-        """The first row of the displays."""
-        ...
-
-    @property
-    def file(self) -> str | None:
-        """The file it was read from."""
-        ...
-
-
-def check_setup(robot: Robot, config: ConfigLike) -> list[Problem]:
-    """Say what of a config will not work with this robot.
+def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
+    """Find what of a config will not work with this robot.
 
     Args:
         robot: the robot to be shown.
-        config: an `RvizConfig`; its file gives the lines.
+        config: the config it is shown with.
 
     Returns:
         Warnings and notes, in the order of the file.
     """
-    lines = _Lines(config.file)
-    problems = list(_fixed_frame(robot, config, lines))
+    problems = list(_fixed_frame(robot, config))
     models = [d for d in _all(config.displays) if _is_robot_model(d)]
-    for display in models:
-        problems += _description(display, lines)
-    if not any(display.enabled for display in models):
-        problems.append(_no_robot_model(lines, switched_off=bool(models)))
+    if not is_bundled(config.file):
+        # A user cannot fix the config that comes with the program.
+        for display in models:
+            problems += _description(display, config.file)
+    if not models:
+        problems.append(_no_robot_model(config.file))
+    elif not any(display.enabled for display in models):
+        problems.append(_switched_off(models[0], config.file))
     return sorted(problems, key=lambda p: p.line or 0)
 
 
-def _no_robot_model(lines: _Lines, *, switched_off: bool) -> Problem:
-    which = "switched off" if switched_off else "missing"
-    return lines.problem(
+def _no_robot_model(file: str | None) -> Problem:
+    return Problem.at(
+        file,
         "info",
         "setup-no-robot-model",
-        f"the RobotModel display is {which}: of the robot only frames can be seen",
-        "switch it on in the Displays panel"
-        if switched_off
-        else "add a display of the class rviz_default_plugins/RobotModel",
-        (_MANAGER, "Displays"),
+        "the RobotModel display is missing: only the frames of the robot are shown",
+        "add a display of the class rviz_default_plugins/RobotModel",
     )
 
 
-def _all(displays: Sequence[DisplayLike]) -> Iterator[DisplayLike]:
+def _switched_off(display: DisplayConfig, file: str | None) -> Problem:
+    return Problem.at(
+        _place(file, display.node.get("Enabled") or display.node),
+        "info",
+        "setup-no-robot-model",
+        "the RobotModel display is switched off: only the frames of the robot are "
+        "shown",
+        "switch it on in the Displays panel",
+    )
+
+
+def _all(displays: Sequence[DisplayConfig]) -> Iterator[DisplayConfig]:
     for display in displays:
         yield display
         yield from _all(display.displays)
 
 
-def _is_robot_model(display: DisplayLike) -> bool:
+def _is_robot_model(display: DisplayConfig) -> bool:
     return display.class_id.rpartition("/")[2] == "RobotModel"
 
 
-def _fixed_frame(robot: Robot, config: ConfigLike, lines: _Lines) -> Iterator[Problem]:
+def _fixed_frame(robot: Robot, config: RvizConfig) -> Iterator[Problem]:
     frame = str(config.global_options.get("Fixed Frame")).lstrip("/")
     if not frame or frame in robot.links:
         return
     near = did_you_mean(frame, robot.links)
     better = f"{near}; " if near.startswith("did you mean") else ""
-    yield lines.problem(
+    yield Problem.at(
+        _place(config.file, config.global_options.node.get("Fixed Frame")),
         "warning",
         "setup-fixed-frame",
-        f"the fixed frame {frame} does not exist: nobody publishes it for a robot "
-        "that stands alone",
+        f"the fixed frame {frame} does not exist: no link of the robot has this name, "
+        "and without ROS nothing else publishes it",
         f"{better}choose {robot.root}, the root of this robot",
-        (_MANAGER, "Global Options", "Fixed Frame"),
     )
 
 
-def _description(display: DisplayLike, lines: _Lines) -> Iterator[Problem]:
-    written = lines.display(display.name, display.class_id)
-    topic = display.raw.get("Description Topic")
-    if topic is None or display.raw.get("Description Source", "Topic") == "File":
+def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
+    topic = display.node.get("Description Topic")
+    if topic is None or display.node.text("Description Source") == "File":
         return
-    fields: Mapping[str, Any] = {"Value": topic} if isinstance(topic, str) else topic
-    name = str(fields.get("Value") or "").strip()
-    durability = fields.get("Durability Policy")
-    where = (*written, "Description Topic")
+    value = topic.get("Value") if isinstance(topic, Map) else topic
+    name = _text(value)
     if name and name.rpartition("/")[2] != _DESCRIPTION:
-        yield lines.problem(
+        yield Problem.at(
+            _place(file, value),
             "warning",
             "setup-description-topic",
             f"the display {display.name} reads the robot from the topic {name}, but "
             f"robot_state_publisher publishes it on /{_DESCRIPTION}",
             f"write Value: /{_DESCRIPTION}",
-            (*where, "Value"),
         )
-    if durability == "Volatile":
-        yield lines.problem(
+    durability = topic.get("Durability Policy") if isinstance(topic, Map) else None
+    if _text(durability) == "Volatile":
+        yield Problem.at(
+            _place(file, durability),
             "warning",
             "setup-description-volatile",
             f"the display {display.name} reads the robot with the Durability Policy "
-            "Volatile: in RViz it misses the description, which is published only "
-            "once, and shows nothing without a word",
+            "Volatile: RViz then misses the description, which is published only "
+            "once, and shows nothing and no error",
             "write Durability Policy: Transient Local",
-            (*where, "Durability Policy"),
         )
 
 
-class _Lines:
-    """Where keys stand in the config's text; everything None without a text."""
-
-    def __init__(self, file: str | None) -> None:
-        self.file = file
-        self._root: Any = None
-        if file is not None:
-            try:
-                text = Path(file).read_text("utf-8", "replace")
-                self._root = _compose(text)
-            except (OSError, yaml.YAMLError):
-                # The reader of configs tells of these; here only lines are lost.
-                self._root = None
-
-    def problem(
-        self,
-        severity: Any,
-        code: str,
-        message: str,
-        hint: str,
-        path: tuple[str | int, ...],
-    ) -> Problem:
-        node = self._find(path)
-        line = node.start_mark.line + 1 if node is not None and path else None
-        column = node.start_mark.column + 1 if node is not None and path else None
-        return Problem(severity, code, message, hint, self.file, line, column)
-
-    def display(self, name: str, class_id: str) -> tuple[str | int, ...]:
-        """The path of the display with that name and class."""
-        return self._display((_MANAGER, "Displays"), name, class_id) or (_MANAGER,)
-
-    def _display(
-        self, path: tuple[str | int, ...], name: str, class_id: str
-    ) -> tuple[str | int, ...] | None:
-        listed = self._value(path)
-        for index in range(len(listed.value) if listed is not None else 0):
-            here = (*path, index)
-            node = self._value((*here, "Class"))
-            label = self._value((*here, "Name"))
-            if node is not None and node.value == class_id:
-                if label is None or label.value == name:
-                    return here
-            inner = self._display((*here, "Displays"), name, class_id)
-            if inner is not None:
-                return inner
-        return None
-
-    def _find(self, path: tuple[str | int, ...]) -> Any:
-        """The node of the last key (or the entry of a list)."""
-        node, key = self._root, self._root
-        for step in path:
-            key, node = _step(node, step)
-            if node is None:
-                return None
-        return key
-
-    def _value(self, path: tuple[str | int, ...]) -> Any:
-        node = self._root
-        for step in path:
-            _, node = _step(node, step)
-            if node is None:
-                return None
-        return node
+def _text(node: Node | None) -> str:
+    return node.text.strip() if isinstance(node, Scalar) else ""
 
 
-def _step(node: Any, step: str | int) -> tuple[Any, Any]:
-    if isinstance(step, int):
-        if isinstance(node, yaml.SequenceNode):
-            return node.value[step], node.value[step]
-        return None, None
-    if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            if key.value == step:
-                return key, value
-    return None, None
-
-
-def _compose(text: str) -> Any:
-    """The tree of a YAML text, with marks; by the C parser where there is one."""
-    module: Any = yaml
-    return module.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+def _place(file: str | None, node: Node | None) -> Place | str | None:
+    """Where a value is written; the file alone when it is not in the file."""
+    span = None if node is None else node.span
+    if file is None or span is None:
+        return file
+    return Place(file, span.line, span.column)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.checks import check_robot, check_unloadable
-from sambot_viz.checks.config_against_robot import check_setup
+from sambot_viz.checks.config_against_robot import check_config
 from sambot_viz.checks.launch_files import check_package
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.robot.model import Robot
@@ -21,7 +21,7 @@ def check_folder(
     package_path: Sequence[Path | str] = (),
     trusted: bool = True,
 ) -> list[Problem]:
-    """Say everything that is wrong with a package.
+    """Find everything that is wrong with a package.
 
     Args:
         folder: the package, with its package.xml.
@@ -32,8 +32,8 @@ def check_folder(
         trusted: as for `check`.
 
     Returns:
-        What `check` says of the model, then the config's problems, then those of the
-        launch files and setup.py.
+        The problems of the model as `check` finds them, then those of the config, then
+        those of the launch files and setup.py.
     """
     from sambot_viz.robot import load_robot
 
@@ -43,7 +43,7 @@ def check_folder(
             model, xacro_args=xacro_args, package_path=package_path, trusted=trusted
         )
     except RobotError as error:
-        problems = check_unloadable(model, error)
+        problems = check_unloadable(error)
     else:
         problems = check_robot(robot, model)
     if config is not None:
@@ -58,5 +58,5 @@ def _check_config(path: Path, robot: Robot | None) -> list[Problem]:
         config = RvizConfig.load(path, Declarations())
     except ConfigError as error:
         return list(error.problems)
-    told = list(config.problems)
-    return told if robot is None else told + check_setup(robot, config)
+    found = list(config.problems)
+    return found if robot is None else found + check_config(robot, config)

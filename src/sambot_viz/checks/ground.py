@@ -1,4 +1,4 @@
-"""Wheels that do not stand on the ground plane of base_footprint."""
+"""Wheels that do not touch the ground plane of base_footprint."""
 
 from __future__ import annotations
 
@@ -6,49 +6,56 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sambot_viz.checks.rule import Finding, Rule, Subject
+from sambot_viz.checks.rule import Subject, listed
+from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Cylinder, Joint, Link, Sphere
 
-_SMALLEST = 0.003
-_SHARE_OF_RADIUS = 0.05
+_SMALLEST_GAP = 0.005
+_SHARE_OF_RADIUS = 0.1
 
 
-def _ground(subject: Subject) -> Iterator[Finding]:
+def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
+    """Wheels above or below height 0 of base_footprint, in one finding.
+
+    Navigation puts base_footprint on the floor, so a wheel above it floats. Gaps up to
+    5 mm or a tenth of the wheel's radius are tolerated: tyres are often modelled so.
+    """
     robot = subject.robot
-    if robot is None:
-        return
     footprint = next((n for n in robot.links if n.endswith("base_footprint")), None)
     if footprint is None:
         return
     poses = robot.forward_kinematics()
     T_footprint_root = np.linalg.inv(poses[footprint])
+    gaps: dict[str, float] = {}
+    first: Joint | None = None
     for joint in robot.joints.values():
         link = robot.links[joint.child]
-        round_part = _wheel(joint, link, T_footprint_root @ poses[link.name])
-        if round_part is None:
-            continue
-        lowest, radius = round_part
-        if abs(lowest) <= max(_SMALLEST, _SHARE_OF_RADIUS * radius):
-            continue
-        where = "above" if lowest > 0 else "below"
-        yield Finding(
-            f"the wheel {link.name} ends {abs(lowest):.3g} m {where} the ground: "
-            f"{footprint} should lie where the wheels touch the floor",
-            f"move {footprint} by {-lowest if lowest < 0 else lowest:.3g} m "
-            f"{'up' if lowest > 0 else 'down'}, or correct the height or radius of the "
-            "wheel",
-            joint.place,
-        )
+        gap = _gap(joint, link, T_footprint_root @ poses[link.name])
+        if gap is not None:
+            gaps[link.name] = gap
+            first = first or joint
+    if first is None:
+        return
+    worst = max(gaps.values(), key=abs)
+    ends, touch = ("ends", "it touches") if len(gaps) == 1 else ("end", "they touch")
+    yield Problem.at(
+        first.place,
+        "warning",
+        "wheel-not-on-ground",
+        f"the wheel{'s' if len(gaps) > 1 else ''} {listed(gaps)} {ends} "
+        f"{abs(worst):.3g} m {'above' if worst > 0 else 'below'} the ground: "
+        f"{footprint} should lie where {touch} the floor",
+        f"move {footprint} by {abs(worst):.3g} m {'up' if worst > 0 else 'down'}, or "
+        "correct the height or radius",
+    )
 
 
-def _wheel(
-    joint: Joint, link: Link, T_footprint_link: Matrix
-) -> tuple[float, float] | None:
-    """Height of the lowest point [m] and radius [m] of a wheel, else None.
+def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
+    """Height of a wheel's lowest point [m]; None for a wheel that is all right.
 
     A wheel turns without end about a level axis, and is a sphere or a cylinder
-    about that axis. Wheels that are meshes are not judged.
+    about that axis. Other links, and wheels that are meshes, are not judged.
     """
     if joint.type != "continuous":
         return None
@@ -58,35 +65,13 @@ def _wheel(
     for shape in (*link.collisions, *link.visuals):
         T = T_footprint_link @ shape.origin.matrix
         geometry = shape.geometry
-        if isinstance(geometry, Sphere):
-            return float(T[2, 3]) - geometry.radius, geometry.radius
-        if isinstance(geometry, Cylinder) and abs(float(T[:3, 2] @ axis)) > 0.99:
-            return float(T[2, 3]) - geometry.radius, geometry.radius
+        along_axis = (
+            isinstance(geometry, Cylinder) and abs(float(T[:3, 2] @ axis)) > 0.99
+        )
+        if isinstance(geometry, Sphere) or (
+            isinstance(geometry, Cylinder) and along_axis
+        ):
+            lowest = float(T[2, 3]) - geometry.radius
+            tolerance = max(_SMALLEST_GAP, _SHARE_OF_RADIUS * geometry.radius)
+            return lowest if abs(lowest) > tolerance else None
     return None
-
-
-WHEEL_NOT_ON_GROUND = Rule(
-    code="wheel-not-on-ground",
-    severity="warning",
-    title="A wheel that does not touch the ground",
-    why="base_footprint is the robot's shadow on the floor: navigation places it at "
-    "height 0. A wheel above it floats, a wheel below it is sunk in the floor.",
-    example="""\
-<robot name="r">
-  <link name="base_footprint"/>
-  <link name="wheel">
-    <visual>
-      <origin rpy="1.5708 0 0"/>
-      <geometry><cylinder radius="0.1" length="0.02"/></geometry>
-    </visual>
-  </link>
-  <joint name="wheel_joint" type="continuous">
-    <parent link="base_footprint"/>
-    <child link="wheel"/>
-    <origin xyz="0 0.2 0.05"/>
-    <axis xyz="0 1 0"/>
-  </joint>
-</robot>
-""",
-    find=_ground,
-)

@@ -1,4 +1,4 @@
-"""Masses and inertias: what KDL and a simulator will say about them."""
+"""Masses and inertias that KDL or a simulator will complain about."""
 
 from __future__ import annotations
 
@@ -6,31 +6,32 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sambot_viz.checks.rule import Finding, Rule, Subject, listed, number
+from sambot_viz.checks.rule import Subject, listed, number
+from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Inertial
 
 
-def _on_root(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
+def inertia_on_root(subject: Subject) -> Iterator[Problem]:
+    """KDL, which robot_state_publisher uses, cannot give the root link an inertia."""
     root = subject.robot.links[subject.robot.root]
     if root.inertial is None or len(subject.robot.links) == 1:
         return
-    yield Finding(
+    yield Problem.at(
+        root.inertial.place or root.place,
+        "info",
+        "inertia-on-root",
         f"the root link {root.name} has an inertia, which KDL ignores with a warning "
         "at every start; the picture is not affected",
         "to silence it, add a link without inertia (such as base_footprint) as the "
         "new root",
-        subject.inside(root.place, "inertial"),
     )
 
 
-def _missing(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
+def missing_inertia(subject: Subject) -> Iterator[Problem]:
+    """A simulator drops links that have a collision shape and no mass."""
     links = subject.robot.links
     if not any(link.inertial for link in links.values()):
-        # Nothing says that this model is meant for a simulator.
+        # No sign that this model is meant for a simulator.
         return
     bare = [
         link
@@ -40,28 +41,31 @@ def _missing(subject: Subject) -> Iterator[Finding]:
     if not bare:
         return
     one = len(bare) == 1
-    yield Finding(
+    yield Problem.at(
+        bare[0].place,
+        "info",
+        "inertia-missing",
         f"{'the link' if one else 'the links'} {listed(link.name for link in bare)} "
         f"{'has a collision shape' if one else 'have collision shapes'} but no "
         "<inertial>: a simulator leaves out what has no mass",
         'add <inertial> with <mass value="…"/> and <inertia …/>',
-        bare[0].place,
     )
 
 
-def _impossible(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
+def impossible_inertia(subject: Subject) -> Iterator[Problem]:
+    """A mass or inertia that no real body has."""
     for link in subject.robot.links.values():
         if link.inertial is None:
             continue
         reason = _why_impossible(link.inertial)
         if reason:
-            yield Finding(
+            yield Problem.at(
+                link.inertial.place or link.place,
+                "warning",
+                "inertia-impossible",
                 f"link {link.name}: {reason}; a simulator refuses it or shakes",
                 "take mass and inertia from the shape: a box of size x y z has "
                 "ixx = m (y² + z²) / 12",
-                subject.inside(link.place, "inertial"),
             )
 
 
@@ -89,90 +93,19 @@ def _why_impossible(inertial: Inertial) -> str:
     return ""
 
 
-def _massless(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
-    zero = [
-        link
+def zero_mass(subject: Subject) -> Iterator[Problem]:
+    """A simulator leaves out or refuses a link without mass."""
+    zero = {
+        link.name: link.inertial.place or link.place
         for link in subject.robot.links.values()
         if link.inertial is not None and link.inertial.mass == 0
-    ]
+    }
     if zero:
-        yield Finding(
-            f"the mass of {listed(link.name for link in zero)} is 0: fine to look at, "
-            "but a simulator leaves such a link out",
+        yield Problem.at(
+            next(iter(zero.values())),
+            "info",
+            "mass-zero",
+            f"the mass of {listed(zero)} is 0: the picture is right, but a simulator "
+            "leaves such a link out",
             "give it a small mass such as 0.001, or delete its <inertial>",
-            subject.inside(zero[0].place, "inertial"),
         )
-
-
-_BODY = """\
-    <inertial>
-      <mass value="{mass}"/>
-      <inertia ixx="{ixx}" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
-    </inertial>
-"""
-
-_JOINT = """\
-  <joint name="j" type="fixed">
-    <parent link="a"/>
-    <child link="b"/>
-  </joint>
-"""
-
-
-def _example(mass: str, ixx: str) -> str:
-    return (
-        '<robot name="r">\n  <link name="a"/>\n  <link name="b">\n'
-        + _BODY.format(mass=mass, ixx=ixx)
-        + f"  </link>\n{_JOINT}</robot>\n"
-    )
-
-
-INERTIA_ON_ROOT = Rule(
-    code="inertia-on-root",
-    severity="info",
-    title="Inertia on the root link",
-    why="KDL, which robot_state_publisher uses, cannot give the root link an inertia "
-    "and says so at every start. An empty root link above it is the usual way.",
-    example='<robot name="r">\n  <link name="a">\n'
-    + _BODY.format(mass="1", ixx="0.01")
-    + f'  </link>\n  <link name="b"/>\n{_JOINT}</robot>\n',
-    find=_on_root,
-)
-
-INERTIA_MISSING = Rule(
-    code="inertia-missing",
-    severity="info",
-    title="No inertia on a link that a simulator needs",
-    why="When some links have an <inertial>, the model is meant for a simulator, and "
-    "the simulator drops links that can be hit but have no mass.",
-    example='<robot name="r">\n  <link name="a"/>\n  <link name="b">\n'
-    + _BODY.format(mass="1", ixx="0.01")
-    + '  </link>\n  <link name="c">\n    <collision>\n      <geometry>'
-    '<box size="1 1 1"/></geometry>\n    </collision>\n  </link>\n'
-    + _JOINT
-    + _JOINT.replace('"j"', '"k"').replace('child link="b"', 'child link="c"')
-    + "</robot>\n",
-    find=_missing,
-)
-
-INERTIA_IMPOSSIBLE = Rule(
-    code="inertia-impossible",
-    severity="warning",
-    title="A mass or inertia that no body can have",
-    why="ROS's parser takes any number here. A simulator refuses a negative mass, and "
-    "an inertia that is no real body's makes it shake or explode.",
-    example=_example("1", "0.5"),
-    find=_impossible,
-)
-
-MASS_ZERO = Rule(
-    code="mass-zero",
-    severity="info",
-    title="A mass of zero",
-    why="It makes no difference to the picture, but a simulator leaves out or refuses "
-    "a link without mass.",
-    example=_example("0", "0.01"),
-    find=_massless,
-)

@@ -1,10 +1,11 @@
-"""Shapes that are there but cannot be seen."""
+"""Shapes that exist but cannot be seen."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.rule import Finding, Rule, Subject, number
+from sambot_viz.checks.rule import Subject, number
+from sambot_viz.errors import Problem
 from sambot_viz.robot.model import (
     Box,
     Capsule,
@@ -36,9 +37,8 @@ def _lengths(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
     return "scale of the mesh", geometry.scale
 
 
-def _sizes(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
+def sizes_not_positive(subject: Subject) -> Iterator[Problem]:
+    """A shape with a length of zero or less; RViz draws nothing or the inside."""
     for link, shape in _shapes(subject.robot):
         what, values = _lengths(shape.geometry)
         mirrored = isinstance(shape.geometry, MeshFile)
@@ -47,66 +47,32 @@ def _sizes(subject: Subject) -> Iterator[Finding]:
             continue
         kind = "zero" if not any(wrong) else "negative"
         written = " ".join(number(v) for v in values)
-        yield Finding(
-            f"link {link.name}: the {what} ({written}) holds a {kind} number, so "
-            "nothing sensible can be drawn",
+        yield Problem.at(
+            shape.geometry_place or shape.place,
+            "warning",
+            "size-not-positive",
+            f"link {link.name}: the {what} ({written}) contains a {kind} number, so "
+            "nothing useful can be drawn",
             "give full lengths in metres, each larger than 0",
-            subject.inside(shape.place, "geometry"),
         )
 
 
-def _invisible(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
-    told: set[str] = set()
+def invisible_materials(subject: Subject) -> Iterator[Problem]:
+    """A material whose opacity is 0; one finding per material."""
+    reported: set[str] = set()
     for link in subject.robot.links.values():
         for shape in link.visuals:
             material = shape.material
             if material is None or material.rgba is None or material.rgba[3] > 0:
                 continue
-            if material.name in told and material.name:
+            if material.name in reported and material.name:
                 continue
-            told.add(material.name)
+            reported.add(material.name)
             named = f"the material {material.name} of " if material.name else ""
-            yield Finding(
+            yield Problem.at(
+                shape.place,
+                "info",
+                "alpha-zero",
                 f"{named}link {link.name} has the alpha 0: it is invisible",
                 'the fourth number of rgba is the opacity: write rgba="… … … 1"',
-                subject.inside(shape.place, "material"),
             )
-
-
-SIZE_NOT_POSITIVE = Rule(
-    code="size-not-positive",
-    severity="warning",
-    title="A size of zero or less",
-    why="ROS's parser accepts it and RViz draws nothing, or the shape inside out.",
-    example="""\
-<robot name="r">
-  <link name="a">
-    <visual>
-      <geometry><box size="1 0 1"/></geometry>
-    </visual>
-  </link>
-</robot>
-""",
-    find=_sizes,
-)
-
-ALPHA_ZERO = Rule(
-    code="alpha-zero",
-    severity="info",
-    title="An invisible material",
-    why="The fourth number of rgba is the opacity. With 0 the shape is there and "
-    "cannot be seen.",
-    example="""\
-<robot name="r">
-  <link name="a">
-    <visual>
-      <geometry><box size="1 1 1"/></geometry>
-      <material name="glass"><color rgba="1 0 0 0"/></material>
-    </visual>
-  </link>
-</robot>
-""",
-    find=_invisible,
-)

@@ -1,6 +1,6 @@
-"""Faults of a package that no model shows: launch files and setup.py.
+"""Mistakes in a package's launch files and setup.py, which no model shows.
 
-They are read as Python text and never run (spec/ros-nodes.md §7.1, §7.4).
+The files are read as Python text and never run.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _TRUE = frozenset({"true", "1"})
 
 
 def check_package(folder: Path | str, robot: Robot | None = None) -> list[Problem]:
-    """Say what of a package's launch files and setup.py will not work in ROS.
+    """Check what of a package's launch files and setup.py will not work in ROS.
 
     Args:
         folder: the package, with its package.xml.
@@ -29,7 +29,7 @@ def check_package(folder: Path | str, robot: Robot | None = None) -> list[Proble
     """
     root = Path(folder)
     problems = check_setup_py(root / "setup.py")
-    for path in sorted(root.glob("launch/*launch.py"))[:50]:
+    for path in launch_files(root):
         problems += check_launch_file(path, package_name(root), robot)
     return problems
 
@@ -37,7 +37,7 @@ def check_package(folder: Path | str, robot: Robot | None = None) -> list[Proble
 def check_launch_file(
     path: Path | str, package: str | None = None, robot: Robot | None = None
 ) -> list[Problem]:
-    """Say what of a Python launch file will not work.
+    """Check what of a Python launch file will not work.
 
     Args:
         path: the launch file.
@@ -45,9 +45,9 @@ def check_launch_file(
         robot: the robot it shows, if known.
 
     Returns:
-        Nothing when the file cannot be read as Python: that is ROS's to say.
+        Nothing when the file cannot be read as Python: ROS reports that.
     """
-    calls = _calls(Path(path))
+    _, calls = calls_in(Path(path))
     return [
         *_no_joint_states(calls, str(path), robot),
         *_unknown_package(calls, str(path), package),
@@ -86,7 +86,7 @@ def _assigned_name(node: ast.AST) -> tuple[str, int] | None:
         if isinstance(target, ast.Name) and target.id == "package_name":
             text = _text(node.value)
             return (text, node.lineno) if text is not None else None
-    if isinstance(node, ast.Call) and _name(node.func) == "setup":
+    if isinstance(node, ast.Call) and call_name(node.func) == "setup":
         for keyword in node.keywords:
             text = _text(keyword.value)
             if keyword.arg == "name" and text is not None:
@@ -101,13 +101,20 @@ def _python(path: Path) -> ast.Module | None:
         return None
 
 
-def _calls(path: Path) -> list[ast.Call]:
+def launch_files(folder: Path) -> list[Path]:
+    """The Python launch files of a package, at most fifty."""
+    return sorted(folder.glob("launch/**/*launch.py"))[:50]
+
+
+def calls_in(path: Path) -> tuple[ast.Module | None, list[ast.Call]]:
+    """A Python file and the calls in it, from top to bottom."""
     tree = _python(path)
     found = [n for n in ast.walk(tree) if isinstance(n, ast.Call)] if tree else []
-    return sorted(found, key=lambda call: (call.lineno, call.col_offset))
+    return tree, sorted(found, key=lambda call: (call.lineno, call.col_offset))
 
 
-def _name(function: ast.expr) -> str:
+def call_name(function: ast.expr) -> str:
+    """The name of what is called: "Node" in ``actions.Node(…)``."""
     if isinstance(function, ast.Attribute):
         return function.attr
     return function.id if isinstance(function, ast.Name) else ""
@@ -126,8 +133,8 @@ def _keyword(call: ast.Call, name: str) -> ast.expr | None:
 def _no_joint_states(
     calls: list[ast.Call], file: str, robot: Robot | None
 ) -> Iterator[Problem]:
-    """A joint state publisher that the default of gui keeps from starting."""
-    nodes = [c for c in calls if _name(c.func) == "Node"]
+    """A joint state publisher that does not start because gui is true by default."""
+    nodes = [c for c in calls if call_name(c.func) == "Node"]
     started = {_text(_keyword(n, "executable")) for n in nodes}
     if "joint_state_publisher_gui" in started:
         return
@@ -143,7 +150,7 @@ def _no_joint_states(
         yield Problem(
             "warning",
             "launch-no-joint-states",
-            f"nobody publishes joint states here: {argument} is true, so "
+            f"no node publishes joint states here: {argument} is true, so "
             "joint_state_publisher does not start, and no joint_state_publisher_gui "
             f"node is listed; {stays} {verb} without a transform",
             f"add the joint_state_publisher_gui node, or run with {argument}:=False",
@@ -157,18 +164,18 @@ def _unless(condition: ast.expr | None) -> str | None:
     """The argument in ``UnlessCondition(LaunchConfiguration("gui"))``."""
     if (
         not isinstance(condition, ast.Call)
-        or _name(condition.func) != "UnlessCondition"
+        or call_name(condition.func) != "UnlessCondition"
     ):
         return None
     inner = condition.args[0] if condition.args else None
-    if isinstance(inner, ast.Call) and _name(inner.func) == "LaunchConfiguration":
+    if isinstance(inner, ast.Call) and call_name(inner.func) == "LaunchConfiguration":
         return _text(inner.args[0]) if inner.args else None
     return None
 
 
 def _is_true_by_default(calls: list[ast.Call], argument: str) -> bool:
     for call in calls:
-        if _name(call.func) != "DeclareLaunchArgument" or not call.args:
+        if call_name(call.func) != "DeclareLaunchArgument" or not call.args:
             continue
         if _text(call.args[0]) == argument:
             default = _text(_keyword(call, "default_value")) or ""
@@ -179,13 +186,13 @@ def _is_true_by_default(calls: list[ast.Call], argument: str) -> bool:
 def _unknown_package(
     calls: list[ast.Call], file: str, package: str | None
 ) -> Iterator[Problem]:
-    """A name that is nearly that of the package, which is asked for nowhere."""
+    """A name like that of the package, in a file that never uses the right name."""
     if package is None:
         return
     asked = [
         (text, call)
         for call in calls
-        if _name(call.func) in _SHARE_CALLS
+        if call_name(call.func) in _SHARE_CALLS
         and call.args
         and (text := _text(call.args[0])) is not None
     ]
@@ -207,7 +214,7 @@ def _unknown_package(
 
 
 def _alike(name: str, package: str) -> bool:
-    """Whether two package names look like one with a slip in it."""
+    """Whether one package name looks like a misspelling of the other."""
     first = re.split(r"[_\-]", name)[0] == re.split(r"[_\-]", package)[0]
     ratio = difflib.SequenceMatcher(None, name, package).ratio()
     return ratio > 0.8 or (first and ratio > 0.5)

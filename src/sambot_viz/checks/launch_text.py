@@ -1,134 +1,124 @@
-"""Text in a model that stops ``ros2 launch`` (spec/ros-nodes.md §7.3).
+"""Text in a model that stops ``ros2 launch``.
 
-A launch file that passes Command([…]) straight as robot_description has the whole
-URDF read as YAML. xacro keeps comments, so a harmless "TODO: …" is enough.
+A launch file that passes Command([…]) straight as robot_description has the whole URDF
+read as YAML. xacro keeps comments, so a harmless "TODO: …" is enough to stop it. The
+rule says nothing unless the model's package has such a launch file.
 """
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from pathlib import Path
 
-from sambot_viz.checks.rule import Finding, Rule, Subject
-from sambot_viz.errors import Place
-from sambot_viz.robot.xml.diagnose.source_text import SourceText
+import yaml
 
+from sambot_viz.checks.launch_files import call_name, calls_in, launch_files
+from sambot_viz.checks.rule import Subject
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.packages.package_index import package_name
+
+_DESCRIPTION = "robot_description"
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
-_SAYING = {":": '": "', "#": '" #"', "\t": "a tab at the start of a line"}
+_BETWEEN_TAGS = re.compile(r">\s+<")
+_MOST_FOLDERS_UP = 4
+_SHORTEST_WORDS = 4
 
 
-@dataclass(frozen=True, slots=True)
-class _Trap:
-    place: Place
-    what: str
-    mark: str
-
-
-def _traps(subject: Subject) -> Iterator[Finding]:
-    traps = [
-        trap
-        for number, (file, source) in enumerate(subject.sources.sources())
-        for trap in _traps_in(source, file, is_main=number == 0)
-        if _survives(subject, source, trap)
-    ]
-    if not traps:
+def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
+    """The first text that YAML cannot read, when a launch file makes YAML of it."""
+    if not subject.files:
         return
-    first = traps[0]
-    lines = [
-        str(t.place.line)
-        for t in traps[1:]
-        if t.place.file == first.place.file and t.place.line != first.place.line
-    ]
-    lines = list(dict.fromkeys(lines))
-    also = f" (the same on lines {', '.join(lines[:5])})" if lines else ""
-    also = also.replace("lines", "line") if len(lines) == 1 else also
-    also = also.replace(")", f" and {len(lines) - 5} more)") if len(lines) > 5 else also
-    yield Finding(
-        f"{first.what} contains {_SAYING[first.mark]}{also}: the model is fine, but a "
-        "launch file that gives the text to robot_state_publisher as it is has it "
-        "read as YAML, and nothing starts",
-        "in the launch file write ParameterValue(Command([…]), value_type=str), or "
-        "change the text here",
-        first.place,
+    model = Path(subject.files[0])
+    launch = next(_bare_launch_files(model.absolute().parent), None)
+    words = None if launch is None else _words_that_stop_yaml(subject.robot.urdf)
+    if launch is None or words is None:
+        return
+    yield Problem.at(
+        _place(subject.files, words) or str(model),
+        "warning",
+        "launch-text-as-yaml",
+        f"the model is fine, but {launch[0].name} line {launch[1]} passes its text to "
+        'robot_state_publisher as YAML, where a ": ", a " #" or a tab at the start of '
+        f"a line is an error: “{words[:60]}”; nothing starts",
+        "in the launch file write ParameterValue(Command([…]), value_type=str)",
     )
 
 
-def _survives(subject: Subject, source: SourceText, trap: _Trap) -> bool:
-    """Whether these words are still there after xacro."""
-    if subject.robot is None:
-        return False
-    line = source.line_text(trap.place.line)
-    at = trap.place.column - 1 if trap.place.column else 0
-    inside = line.rfind("${", 0, at) > line.rfind("}", 0, at)
-    words = re.split(r"\$[{(]|[})]|<!--|-->", line)
+def _bare_launch_files(folder: Path) -> Iterator[tuple[Path, int]]:
+    """Launch files of the model's package with a bare Command, and the line of it.
+
+    The package is the nearest folder with a package.xml; without one, the folder of
+    the model and the folder above it are searched.
+    """
+    above = [folder, *folder.parents][: _MOST_FOLDERS_UP + 1]
+    package = next((n for n, f in enumerate(above) if package_name(f)), 1)
+    for root in above[: package + 1]:
+        for file in launch_files(root):
+            for line in bare_commands(file):
+                yield file, line
+
+
+def bare_commands(launch_file: Path) -> list[int]:
+    """Lines where robot_description is a Command without a ParameterValue around it."""
+    tree, _ = calls_in(launch_file)
+    commands: dict[str, int] = {}
+    lines: list[int] = []
+    for node in ast.walk(tree) if tree is not None else ():
+        if isinstance(node, ast.Assign) and _is_command(node.value):
+            names = (t.id for t in node.targets if isinstance(t, ast.Name))
+            commands.update(dict.fromkeys(names, node.value.lineno))
+    for node in ast.walk(tree) if tree is not None else ():
+        if not isinstance(node, ast.Dict):
+            continue
+        for key, value in zip(node.keys, node.values, strict=True):
+            if not isinstance(key, ast.Constant) or key.value != _DESCRIPTION:
+                continue
+            if _is_command(value):
+                lines.append(value.lineno)
+            elif isinstance(value, ast.Name) and value.id in commands:
+                lines.append(commands[value.id])
+    return lines
+
+
+def _is_command(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and call_name(node.func) == "Command"
+
+
+def _words_that_stop_yaml(urdf: str) -> str | None:
+    """The words at which YAML fails, without tags; None when it reads a plain text."""
+    # xacro writes its own line breaks and indentation between tags.
+    urdf = _BETWEEN_TAGS.sub(">\n<", urdf)
+    try:
+        if isinstance(yaml.safe_load(urdf), str):
+            return None
+    except yaml.YAMLError:
+        pass
+    trap = _TRAP.search(urdf)
+    if trap is None:
+        return ""
+    start = urdf.rfind("\n", 0, trap.start()) + 1
+    line = urdf[start:].split("\n", 1)[0]
     reached = 0
-    for word in words:
-        reached = line.find(word, reached) + len(word)
-        if reached > at:
-            return not inside and word.strip() in subject.robot.urdf
-    return not inside
+    for part in re.split(r"<!--|-->|[<>\"]", line):
+        reached = line.find(part, reached) + len(part)
+        if reached >= trap.start() - start:
+            return part.strip()
+    return line.strip()
 
 
-def _traps_in(source: SourceText, file: str, *, is_main: bool) -> Iterator[_Trap]:
-    tokens = source.tokens
-    root = source.first("robot")
-    for index, token in enumerate(tokens):
-        outside = root is None or token.start < root.start
-        if outside and not is_main:
+def _place(files: tuple[str, ...], words: str) -> Place | None:
+    """Where the words are in the files that the user wrote."""
+    if len(words) < _SHORTEST_WORDS:
+        return None
+    for file in files:
+        try:
+            text = Path(file).read_text("utf-8", "replace")
+        except OSError:
             continue
-        if token.kind == "comment":
-            if not _before_xacro(source, index):
-                what = "the comment"
-                yield from _found(source, file, token.start + 4, token.end - 3, what)
-        elif token.kind == "text":
-            if source.text[token.start : token.end].strip():
-                yield from _found(source, file, token.start, token.end, "the text")
-        elif token.name and not token.name.startswith("xacro:"):
-            for attribute in token.attributes:
-                start = source.text.find(attribute.value, attribute.offset)
-                end = start + len(attribute.value)
-                if start >= 0 and attribute.value:
-                    what = f"the attribute {attribute.name}"
-                    yield from _found(source, file, start, end, what)
-
-
-def _before_xacro(source: SourceText, index: int) -> bool:
-    """Whether xacro drops this comment: it stands directly before its own tag."""
-    for token in source.tokens[index + 1 :]:
-        if token.kind == "comment":
-            continue
-        if token.kind == "text" and not source.text[token.start : token.end].strip():
-            continue
-        return token.name.startswith("xacro:") and not token.closes
-    return False
-
-
-def _found(
-    source: SourceText, file: str, start: int, end: int, what: str
-) -> Iterator[_Trap]:
-    for match in _TRAP.finditer(source.text, start, end):
-        mark = match[0]
-        if what.startswith("the attribute") and mark == "\t":
-            # XML turns a tab in a value into a blank.
-            continue
-        at = match.start()
-        yield _Trap(Place(file, source.line(at), source.column(at)), what, mark)
-
-
-LAUNCH_TEXT_AS_YAML = Rule(
-    code="launch-text-as-yaml",
-    severity="warning",
-    title="Text that stops ros2 launch",
-    why="A launch file that passes Command([…]) straight as robot_description has the "
-    "URDF read as YAML; a colon with a blank, a # after a blank or a tab at the start "
-    "of a line is then an error, and nothing starts. "
-    "ParameterValue(…, value_type=str) around it avoids that for good.",
-    example="""\
-<robot name="r">
-  <!-- TODO: measure the arm -->
-  <link name="a"/>
-</robot>
-""",
-    find=_traps,
-)
+        at = text.find(words)
+        if at >= 0:
+            line = text.count("\n", 0, at) + 1
+            return Place(file, line, at - text.rfind("\n", 0, at))
+    return None

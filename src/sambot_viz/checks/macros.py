@@ -5,66 +5,60 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.rule import Finding, Rule, Subject
-from sambot_viz.robot.xacro.diagnose.source_files import named_things
+from sambot_viz.checks.rule import Subject
+from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot.model_source import read_source
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.parse import Element, parse_xml
+
+_EXPRESSION = re.compile(r"\$\{[^}]*\}")
 
 
-def _unused(subject: Subject) -> Iterator[Finding]:
-    """Only the main file is judged: a library may hold more than one needs."""
-    source = subject.sources.get(subject.main_file)
-    if source is None or "macro" not in source.text:
+def unused_macros(subject: Subject) -> Iterator[Problem]:
+    """Xacro drops a macro that is never called, with its links and joints.
+
+    Only the main file is judged: a library may hold more macros than a model needs.
+    """
+    documents = [d for d in map(_document, subject.files) if d is not None]
+    if not documents:
         return
-    called = set(_called(subject))
-    for thing in named_things(source, subject.main_file):
-        if thing.kind != "macro" or not thing.prefixed or not thing.name:
-            continue
-        if thing.name.removeprefix("xacro:") not in called:
-            yield Finding(
-                f"the macro {thing.name} is defined but never called, so nothing of "
-                "it is in the robot",
-                f"call it with <xacro:{thing.name} …/>, or delete it",
-                thing.place,
+    macros = [e.get("name") or "" for d in documents for e in _macros(d)]
+    called = {name for d in documents for name in _called(d, macros)}
+    for macro in _macros(documents[0]):
+        name = macro.get("name") or ""
+        if name and name.removeprefix("xacro:") not in called:
+            yield Problem.at(
+                macro.place,
+                "warning",
+                "unused-macro",
+                f"the macro {name} is defined but never called, so nothing of it is "
+                "in the robot",
+                f"call it with <xacro:{name} …/>, or delete it",
             )
 
 
-def _called(subject: Subject) -> Iterator[str]:
-    """Names that are called anywhere, whatever namespace they are called through."""
-    for _, source in subject.sources.sources():
-        for token in source.tags:
-            prefix, _, name = token.name.rpartition(":")
-            if prefix == "xacro" and name == "call":
-                # A name that is put together cannot be known: any letters fit.
-                wanted = token.get("macro") or ""
-                yield from _fitting(subject, wanted)
-            elif prefix == "xacro" and name != "macro":
-                yield name.rpartition(".")[2]
-            elif not prefix:
-                # A call without its prefix is told by the xacro reader.
-                yield token.name
+def _document(file: str) -> Element | None:
+    """The tree of a xacro file, before it is expanded."""
+    try:
+        text = read_source(file).text
+        return parse_xml(text, file) if "xacro" in text else None
+    except (RobotError, XmlFault):
+        return None
 
 
-def _fitting(subject: Subject, wanted: str) -> Iterator[str]:
-    pattern = ".*".join(re.escape(part) for part in re.split(r"\$\{[^}]*\}", wanted))
-    for _, source in subject.sources.sources():
-        for thing in named_things(source, ""):
-            if thing.kind == "macro" and re.fullmatch(pattern, thing.name):
-                yield thing.name
+def _macros(document: Element) -> list[Element]:
+    return [e for e in document.iter() if e.tag == "xacro:macro"]
 
 
-UNUSED_MACRO = Rule(
-    code="unused-macro",
-    severity="warning",
-    title="A macro that is never called",
-    why="xacro only remembers a macro until it is called. A forgotten call leaves its "
-    "links and joints out without a word.",
-    example="""\
-<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
-  <link name="a"/>
-  <xacro:macro name="wheel" params="side">
-    <link name="${side}_wheel"/>
-  </xacro:macro>
-</robot>
-""",
-    find=_unused,
-    example_name="robot.urdf.xacro",
-)
+def _called(document: Element, macros: list[str]) -> Iterator[str]:
+    """Names that are called, whatever namespace they are called through."""
+    for element in document.iter():
+        prefix, _, name = element.tag.rpartition(":")
+        if element.tag == "xacro:call":
+            # The name may hold expressions, which can become any text.
+            parts = map(re.escape, _EXPRESSION.split(element.get("macro") or ""))
+            pattern = re.compile(".*".join(parts))
+            yield from (macro for macro in macros if pattern.fullmatch(macro))
+        elif prefix in ("", "xacro"):
+            # A call without its prefix is reported by the xacro reader.
+            yield name.rpartition(".")[2]

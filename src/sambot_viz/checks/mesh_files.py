@@ -1,82 +1,125 @@
-"""Mesh files that are there but hold no mesh; only their first bytes are read."""
+"""Mesh files that cannot be drawn, or not as they were meant."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from sambot_viz.checks.rule import Finding, Rule, Subject
-from sambot_viz.robot.model import MeshFile
+from sambot_viz.checks.rule import Subject, listed
+from sambot_viz.errors import Problem, Severity
+from sambot_viz.robot.model import Link, MeshFile, Robot, Shape
 
-_POINTER = b"version https://git-lfs"
+if TYPE_CHECKING:
+    from sambot_viz.meshes.mesh import Mesh
+
+_LONGEST = 10.0
+_LARGEST_FILE = 60_000_000
 
 
-def _beginning(path: Path) -> bytes | None:
+class MeshFiles:
+    """Reads mesh files, each once, for at most ten seconds altogether."""
+
+    def __init__(self, longest: float = _LONGEST) -> None:
+        """Prepare.
+
+        Args:
+            longest: files that are asked for later than this [s] are not read.
+        """
+        self._read: dict[Path, Mesh | Problem | None] = {}
+        self._longest = longest
+        self._spent = 0.0
+
+    def __call__(self, path: Path) -> Mesh | Problem | None:
+        """The mesh, why it cannot be drawn, or None when it was not read."""
+        if path not in self._read:
+            start = time.perf_counter()
+            self._read[path] = self._open(path)
+            self._spent += time.perf_counter() - start
+        return self._read[path]
+
+    def _open(self, path: Path) -> Mesh | Problem | None:
+        # Robots without meshes must not wait for these to be imported.
+        from sambot_viz.meshes.mesh import MeshError
+        from sambot_viz.meshes.read_mesh import read_mesh
+
+        if self._spent > self._longest or _size(path) > _LARGEST_FILE:
+            return None
+        try:
+            return read_mesh(path)
+        except MeshError as error:
+            return error.problem
+
+
+def _size(path: Path) -> int:
     try:
-        with path.open("rb") as file:
-            return file.read(len(_POINTER))
+        return path.stat().st_size
     except OSError:
-        return None
+        return 0
 
 
-def _meshes(
-    subject: Subject, is_wrong: Callable[[bytes], bool], what: str, mend: str
-) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
-    told: set[Path] = set()
-    for link in subject.robot.links.values():
+def meshes_of(robot: Robot) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
+    """The shapes that are meshes and whose file was found, with their links."""
+    for link in robot.links.values():
         for shape in (*link.visuals, *link.collisions):
             mesh = shape.geometry
-            if not isinstance(mesh, MeshFile) or mesh.path is None:
-                continue
-            beginning = None if mesh.path in told else _beginning(mesh.path)
-            if beginning is None or not is_wrong(beginning):
-                continue
-            told.add(mesh.path)
-            place = subject.inside(shape.place, "geometry", "mesh")
-            name = mesh.filename.rpartition("/")[2]
-            yield Finding(f"link {link.name}: the mesh {name} {what}", mend, place)
+            if isinstance(mesh, MeshFile) and mesh.path is not None:
+                yield link, shape, mesh, mesh.path
 
 
-def _pointers(subject: Subject) -> Iterator[Finding]:
-    what = "is a git-LFS pointer, not the mesh itself"
-    mend = "run git lfs pull in its repository"
-    return _meshes(subject, lambda b: b.startswith(_POINTER), what, mend)
+def unusable_meshes(subject: Subject) -> Iterator[Problem]:
+    """What reading the mesh files says; files with the same problem in one finding."""
+    users: dict[Path, tuple[Link, Shape]] = {}
+    for link, shape, _, path in meshes_of(subject.robot):
+        users.setdefault(path, (link, shape))
+    same: dict[tuple[str, str, str], list[tuple[Path, Problem]]] = {}
+    skipped: list[Path] = []
+    for path in users:
+        found = subject.mesh(path)
+        if found is None:
+            skipped.append(path)
+            continue
+        problems = (found,) if isinstance(found, Problem) else found.problems
+        for problem in problems:
+            key = (problem.code, problem.message, problem.hint)
+            same.setdefault(key, []).append((path, problem))
+    for found_in in same.values():
+        first, problem = found_in[0]
+        link, shape = users[first]
+        names = [path.name for path, _ in found_in]
+        yield Problem.at(
+            shape.geometry_place or shape.place,
+            _severity(problem),
+            problem.code,
+            f"{_owner(link, names)}: {problem.message}",
+            problem.hint or "export the mesh again",
+        )
+    if skipped:
+        yield _not_read(skipped)
 
 
-def _empty(subject: Subject) -> Iterator[Finding]:
-    mend = "copy or export it again"
-    return _meshes(subject, lambda b: not b, "is an empty file", mend)
+def _severity(problem: Problem) -> Severity:
+    """Of a problem with a mesh as one with the model."""
+    if problem.code == "mesh-lfs-pointer":
+        # The model is fine; the clone lacks its large files.
+        return "warning"
+    # What is not an error is drawn, as RViz draws it.
+    return "error" if problem.severity == "error" else "info"
 
 
-_EXAMPLE = """\
-<robot name="r">
-  <link name="a">
-    <visual>
-      <geometry><mesh filename="part.stl"/></geometry>
-    </visual>
-  </link>
-</robot>
-"""
+def _owner(link: Link, names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return f"link {link.name}: the mesh {names[0]}"
+    return f"{len(names)} meshes ({listed(names)})"
 
-MESH_LFS_POINTER = Rule(
-    code="mesh-lfs-pointer",
-    severity="warning",
-    title="A git-LFS pointer instead of a mesh",
-    why="The repository was cloned without git-LFS: a text of three lines lies where "
-    "the mesh should be, and nothing is drawn.",
-    example=_EXAMPLE,
-    find=_pointers,
-    example_files=(("part.stl", "version https://git-lfs.github.com/spec/v1\n"),),
-)
 
-MESH_EMPTY = Rule(
-    code="mesh-empty",
-    severity="warning",
-    title="An empty mesh file",
-    why="The file is there, so that nothing says it is missing, and nothing is drawn.",
-    example=_EXAMPLE,
-    find=_empty,
-    example_files=(("part.stl", ""),),
-)
+def _not_read(paths: Sequence[Path]) -> Problem:
+    some = f"{len(paths)} meshes were" if len(paths) > 1 else "one mesh was"
+    return Problem(
+        "info",
+        "mesh-not-checked",
+        f"{some} not checked, because reading takes too long: "
+        f"{listed(path.name for path in paths)}",
+        "open the robot with sambot-viz; the Problems panel lists what cannot be drawn",
+    )

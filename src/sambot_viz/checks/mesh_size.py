@@ -2,129 +2,76 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
-from sambot_viz.checks.rule import Finding, Rule, Subject, number
-from sambot_viz.robot.model import Link, MeshFile, Shape
+from sambot_viz.checks.mesh_files import meshes_of
+from sambot_viz.checks.rule import Subject, listed, number
+from sambot_viz.errors import Place, Problem
+from sambot_viz.geometry import Vector3
+from sambot_viz.robot.model import MeshFile
 
+_WITHOUT_UNIT = (".stl", ".stlb", ".obj", ".ply")
 _TOO_LARGE = 15.0
 _TOO_SMALL = 0.0005
-_LARGEST_FILE = 60_000_000
-_OBJ_VERTEX = re.compile(rb"^v[ \t]+(\S+)[ \t]+(\S+)[ \t]+(\S+)", re.MULTILINE)
-_STL_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
-_TRIANGLE = np.dtype([("points", "<f4", (4, 3)), ("attribute", "<u2")])
-
-Points = npt.NDArray[np.float64]
-Extents = tuple[float, float, float]
+_FLAT = 0.002
+"""A mesh that is thinner than this share of its size is a floor or a wall."""
 
 
-def mesh_extents(path: Path) -> Extents | None:
-    """The size of the bounding box in the file's own unit, along x, y and z.
+def meshes_of_wrong_size(subject: Subject) -> Iterator[Problem]:
+    """Meshes drawn in millimetres, one finding for those with the same scale.
 
-    STL and OBJ only: they have no unit, so that a wrong one can hide. None for
-    everything else and for what cannot be read cheaply.
+    Only formats without a unit are judged: in the others a wrong unit is written down.
     """
-    try:
-        if path.stat().st_size > _LARGEST_FILE:
-            return None
-        ending = path.suffix.lower()
-        if ending == ".stl":
-            points = _stl_points(path.read_bytes())
-        elif ending == ".obj":
-            points = _text_points(_OBJ_VERTEX, path.read_bytes())
-        else:
-            return None
-    except (OSError, ValueError):
-        return None
-    if points is None or not len(points) or not np.isfinite(points).all():
-        return None
-    size = points.max(axis=0) - points.min(axis=0)
-    return (float(size[0]), float(size[1]), float(size[2]))
-
-
-def _stl_points(data: bytes) -> Points | None:
-    if len(data) >= 84:
-        count = int.from_bytes(data[80:84], "little")
-        if len(data) == 84 + 50 * count:
-            triangles = np.frombuffer(data, _TRIANGLE, count, 84)
-            corners: npt.NDArray[np.float32] = triangles["points"][:, 1:, :]
-            return np.reshape(corners, (-1, 3)).astype(np.float64)
-    if data[:5] == b"solid":
-        return _text_points(_STL_VERTEX, data)
-    return None
-
-
-def _text_points(pattern: re.Pattern[bytes], data: bytes) -> Points | None:
-    words = pattern.findall(data)
-    return np.array(words, dtype=np.bytes_).astype(np.float64) if words else None
-
-
-def _shapes(subject: Subject) -> Iterator[tuple[Link, Shape, MeshFile]]:
-    if subject.robot is None:
-        return
-    for link in subject.robot.links.values():
-        for shape in (*link.visuals, *link.collisions):
-            if isinstance(shape.geometry, MeshFile):
-                yield link, shape, shape.geometry
-
-
-def _sizes(subject: Subject) -> Iterator[Finding]:
-    known: dict[Path, Extents | None] = {}
-    told: set[tuple[Path, tuple[float, ...]]] = set()
-    for link, shape, mesh in _shapes(subject):
-        if mesh.path is None or (mesh.path, mesh.scale) in told:
+    seen: set[tuple[Path, Vector3]] = set()
+    wrong: dict[tuple[str, str], list[tuple[str, str, float]]] = {}
+    places: dict[tuple[str, str], Place | None] = {}
+    for link, shape, mesh, path in meshes_of(subject.robot):
+        if path.suffix.lower() not in _WITHOUT_UNIT or (path, mesh.scale) in seen:
             continue
-        if mesh.path not in known:
-            known[mesh.path] = mesh_extents(mesh.path)
-        extents = known[mesh.path]
-        if extents is None:
+        seen.add((path, mesh.scale))
+        size = _size(subject, mesh, path)
+        advice = None if size is None else _advice(size, mesh.scale)
+        if size is None or advice is None:
             continue
-        told.add((mesh.path, mesh.scale))
-        size = max(abs(e * s) for e, s in zip(extents, mesh.scale, strict=True))
-        saying = _saying(size, mesh)
-        if saying:
-            place = subject.inside(shape.place, "geometry", "mesh")
-            yield Finding(f"link {link.name}: {saying[0]}", saying[1], place)
+        wrong.setdefault(advice, []).append((link.name, path.name, size))
+        places.setdefault(advice, shape.geometry_place or shape.place)
+    for (cause, hint), found in wrong.items():
+        link_name, name, size = max(found, key=lambda entry: entry[2])
+        one = len(found) == 1
+        yield Problem.at(
+            places[cause, hint],
+            "warning",
+            "mesh-size",
+            f"link {link_name}: the mesh {name} is {size:.3g} m large: it {cause}"
+            if one
+            else f"{len(found)} meshes ({listed(name for _, name, _ in found)}) are up "
+            f"to {size:.3g} m large: each {cause}",
+            hint,
+        )
 
 
-def _saying(size: float, mesh: MeshFile) -> tuple[str, str] | None:
-    name = mesh.filename.rpartition("/")[2]
+def _size(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
+    """The longest side of the scaled bounding box [m]; None for floors and walls."""
+    found = subject.mesh(path)
+    if found is None or isinstance(found, Problem):
+        return None
+    low, high = found.bounds
+    sides = np.abs((high - low) * mesh.scale)
+    size = float(sides.max())
+    return None if sides.min() < _FLAT * size else size
+
+
+def _advice(size: float, scale: Vector3) -> tuple[str, str] | None:
+    """What is probably wrong, and what to do about it."""
     if size > _TOO_LARGE:
-        factors = " ".join(number(s / 1000) for s in mesh.scale)
+        factors = " ".join(number(factor / 1000) for factor in scale)
         return (
-            f"the mesh {name} is {size:.3g} m large: it is probably drawn in "
-            "millimetres",
+            "is probably drawn in millimetres",
             f'write scale="{factors}", or export it in metres',
         )
-    if 0 < size < _TOO_SMALL and max(abs(s) for s in mesh.scale) < 0.1:
-        return (
-            f"the mesh {name} is only {size:.3g} m large: it is probably in metres "
-            "already",
-            "delete the scale",
-        )
+    if 0 < size < _TOO_SMALL and max(abs(factor) for factor in scale) < 0.1:
+        return "is probably in metres already", "delete the scale"
     return None
-
-
-MESH_SIZE = Rule(
-    code="mesh-size",
-    severity="warning",
-    title="A mesh in millimetres",
-    why="STL and OBJ files have no unit; ROS takes metres. A mesh in millimetres is a "
-    'thousand times too large until it gets scale="0.001 0.001 0.001".',
-    example="""\
-<robot name="r">
-  <link name="a">
-    <visual>
-      <geometry><mesh filename="part.obj"/></geometry>
-    </visual>
-  </link>
-</robot>
-""",
-    find=_sizes,
-    example_files=(("part.obj", "v 0 0 0\nv 250 0 0\nv 0 120 40\nf 1 2 3\n"),),
-)

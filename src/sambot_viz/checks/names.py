@@ -1,72 +1,48 @@
-"""Names that will be mixed up or cannot be typed."""
+"""Names that are easily mixed up or hard to type."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from sambot_viz.checks.rule import Finding, Rule, Subject
+from sambot_viz.checks.rule import Subject
+from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Joint, Link
 
 
-def _case(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
+def names_that_differ_in_case(subject: Subject) -> Iterator[Problem]:
+    """Two links, or two joints, such as "arm" and "Arm"."""
     yield from _case_among("link", subject.robot.links.values())
     yield from _case_among("joint", subject.robot.joints.values())
 
 
-def _case_among(kind: str, things: Iterable[Link | Joint]) -> Iterator[Finding]:
+def _case_among(kind: str, named: Iterable[Link | Joint]) -> Iterator[Problem]:
     seen: dict[str, Link | Joint] = {}
-    for thing in things:
-        other = seen.setdefault(thing.name.lower(), thing)
-        if other is not thing:
-            where = f" (line {other.place.line})" if other.place else ""
-            yield Finding(
-                f"the {kind} names {other.name}{where} and {thing.name} differ only "
-                "in capital letters: they are two different things to ROS",
-                "rename one of them, or join them if one is a typing error",
-                thing.place,
-            )
+    for item in named:
+        other = seen.setdefault(item.name.lower(), item)
+        if other is item:
+            continue
+        where = f" (line {other.place.line})" if other.place else ""
+        yield Problem.at(
+            item.place,
+            "warning",
+            "names-differ-in-case",
+            f"the {kind} names {other.name}{where} and {item.name} differ only "
+            "in capital letters; ROS treats them as two different names",
+            "rename one of them, or use one name if the other is a typing error",
+        )
 
 
-def _blanks(subject: Subject) -> Iterator[Finding]:
-    if subject.robot is None:
-        return
-    things = (*subject.robot.links.values(), *subject.robot.joints.values())
-    for thing in things:
-        if any(c.isspace() for c in thing.name):
-            kind = "link" if isinstance(thing, Link) else "joint"
-            yield Finding(
-                f'the {kind} name "{thing.name}" contains a blank: it works, but '
+def names_with_spaces(subject: Subject) -> Iterator[Problem]:
+    """A link or joint such as "left wheel"."""
+    robot = subject.robot
+    for item in (*robot.links.values(), *robot.joints.values()):
+        if any(c.isspace() for c in item.name):
+            kind = "link" if isinstance(item, Link) else "joint"
+            yield Problem.at(
+                item.place,
+                "info",
+                "name-with-blank",
+                f'the {kind} name "{item.name}" contains a space: it works, but '
                 "commands and launch files split it in two",
-                f'write "{"_".join(thing.name.split())}"',
-                thing.place,
+                f'write "{"_".join(item.name.split())}"',
             )
-
-
-NAMES_DIFFER_IN_CASE = Rule(
-    code="names-differ-in-case",
-    severity="warning",
-    title="Names that differ only in capital letters",
-    why="base_link and Base_Link are two links to ROS. Usually one is a typing error.",
-    example="""\
-<robot name="r">
-  <link name="arm"/>
-  <link name="Arm"/>
-  <joint name="j" type="fixed">
-    <parent link="arm"/>
-    <child link="Arm"/>
-  </joint>
-</robot>
-""",
-    find=_case,
-)
-
-NAME_WITH_BLANK = Rule(
-    code="name-with-blank",
-    severity="info",
-    title="A blank in a name",
-    why="ROS accepts it, but every command line and launch file splits it in two.",
-    example='<robot name="r">\n  <link name="left wheel"/>\n</robot>\n',
-    find=_blanks,
-)

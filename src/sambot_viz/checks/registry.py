@@ -1,38 +1,37 @@
-"""All rules, in the order in which they look."""
+"""All rules, in the order in which they run."""
 
 from __future__ import annotations
 
-from sambot_viz.checks.angles import LIMIT_IN_DEGREES, RPY_IN_DEGREES
-from sambot_viz.checks.ground import WHEEL_NOT_ON_GROUND
+from sambot_viz.checks.angles import limits_in_degrees, rpy_in_degrees
+from sambot_viz.checks.ground import wheels_off_the_ground
 from sambot_viz.checks.inertia import (
-    INERTIA_IMPOSSIBLE,
-    INERTIA_MISSING,
-    INERTIA_ON_ROOT,
-    MASS_ZERO,
+    impossible_inertia,
+    inertia_on_root,
+    missing_inertia,
+    zero_mass,
 )
-from sambot_viz.checks.invisible_shapes import ALPHA_ZERO, SIZE_NOT_POSITIVE
-from sambot_viz.checks.launch_text import LAUNCH_TEXT_AS_YAML
-from sambot_viz.checks.macros import UNUSED_MACRO
-from sambot_viz.checks.mesh_files import MESH_EMPTY, MESH_LFS_POINTER
-from sambot_viz.checks.mesh_size import MESH_SIZE
-from sambot_viz.checks.names import NAME_WITH_BLANK, NAMES_DIFFER_IN_CASE
+from sambot_viz.checks.invisible_shapes import invisible_materials, sizes_not_positive
+from sambot_viz.checks.launch_text import launch_text_as_yaml
+from sambot_viz.checks.macros import unused_macros
+from sambot_viz.checks.mesh_files import unusable_meshes
+from sambot_viz.checks.mesh_size import meshes_of_wrong_size
+from sambot_viz.checks.names import names_that_differ_in_case, names_with_spaces
 from sambot_viz.checks.rule import Rule
 
 RULES: tuple[Rule, ...] = (
-    LIMIT_IN_DEGREES,
-    RPY_IN_DEGREES,
-    SIZE_NOT_POSITIVE,
-    MESH_LFS_POINTER,
-    MESH_EMPTY,
-    MESH_SIZE,
-    WHEEL_NOT_ON_GROUND,
-    NAMES_DIFFER_IN_CASE,
-    NAME_WITH_BLANK,
-    UNUSED_MACRO,
-    LAUNCH_TEXT_AS_YAML,
-    INERTIA_ON_ROOT,
-    INERTIA_MISSING,
-    INERTIA_IMPOSSIBLE,
-    MASS_ZERO,
-    ALPHA_ZERO,
+    limits_in_degrees,
+    rpy_in_degrees,
+    sizes_not_positive,
+    unusable_meshes,
+    meshes_of_wrong_size,
+    wheels_off_the_ground,
+    names_that_differ_in_case,
+    names_with_spaces,
+    unused_macros,
+    launch_text_as_yaml,
+    inertia_on_root,
+    missing_inertia,
+    impossible_inertia,
+    zero_mass,
+    invisible_materials,
 )

@@ -36,6 +36,7 @@ class Origin:
 
     xyz: Vector3 = (0.0, 0.0, 0.0)
     rpy: Vector3 = (0.0, 0.0, 0.0)
+    place: Place | None = field(default=None, compare=False)
 
     @cached_property
     def matrix(self) -> Matrix:
@@ -122,7 +123,8 @@ class Shape:
         material: None means RViz's default red. For a collision it is the visual
             material that RViz gives it (spec/rviz-core.md §5.6).
         name: the optional name attribute.
-        place: where the element stands.
+        place: where the element is.
+        geometry_place: where its <box>, <mesh>, … is.
     """
 
     geometry: Geometry
@@ -130,6 +132,7 @@ class Shape:
     material: Material | None = None
     name: str = ""
     place: Place | None = field(default=None, compare=False)
+    geometry_place: Place | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +147,7 @@ class Inertial:
     iyy: float
     iyz: float
     izz: float
+    place: Place | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,6 +169,7 @@ class Limit:
     upper: float = 0.0
     effort: float = 0.0
     velocity: float = 0.0
+    place: Place | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

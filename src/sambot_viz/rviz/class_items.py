@@ -60,11 +60,6 @@ class ClassItem(ConfigItem):
         """What it is called in messages."""
         return f"'{self.name}' ({self.kind})"
 
-    @property
-    def node(self) -> Map:
-        """Its map in the document."""
-        return self._node
-
     def rename(self, name: str) -> None:
         """Give it another label.
 

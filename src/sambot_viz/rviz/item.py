@@ -95,6 +95,11 @@ class ConfigItem:
         self._findings.add("config-value", node, message, hint)
 
     @property
+    def node(self) -> Map:
+        """Its map in the document."""
+        return self._node
+
+    @property
     def label(self) -> str:
         """What it is called in messages."""
         return "this item"

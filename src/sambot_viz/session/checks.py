@@ -1,15 +1,17 @@
-"""What the checks say of the robot and the config that a session shows.
+"""Problems of the robot and the config that a session shows.
 
-The rules look once the robot is drawn, so that the picture never waits for them; what
-they find joins what was met while loading, in the Problems panel.
+The rules run after the robot is drawn, so that the picture never waits for them. What
+they find joins what was found while loading, in the Problems panel.
 """
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz import bundled
 from sambot_viz.errors import Problem
+from sambot_viz.meshes.mesh import Mesh
+from sambot_viz.robot.shape_files import Asset
 
 if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
@@ -17,17 +19,16 @@ if TYPE_CHECKING:
 
 
 class CheckResults:
-    """Follows one session; `give` lets the checks look.
+    """Keeps the problems of one session up to date.
 
     Args:
-        session: whose robot and config are looked at.
+        session: whose robot and config are checked.
     """
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._robot: Robot | None = None
         self._of_robot: tuple[Problem, ...] = ()
-        self._looked_at: tuple[object, ...] | None = None
+        self._checked: tuple[object, ...] | None = None
         session.listeners.append(self._hear)
 
     def give(self) -> None:
@@ -37,43 +38,50 @@ class CheckResults:
             robot, joints = session.robot, session.joints
             if robot is None or joints is None:
                 return
-            self._looked_at = self._state()
+            before, self._checked = self._checked, self._state()
             of_joints, of_config = joints.problems, self._of_config(robot)
-        if robot is not self._robot:
-            # Only now: the first page must not wait for the rules to be imported.
+        if before is None or before[:2] != self._checked[:2]:
+            # The import is late so that the first page does not wait for the rules.
             from sambot_viz.checks import check_robot
 
-            self._of_robot, self._robot = tuple(check_robot(robot)), robot
+            self._of_robot = tuple(check_robot(robot, mesh=self._mesh))
         problems = (*self._of_robot, *of_joints, *of_config)
         with session.lock:
             if session.robot is robot and session.problems != problems:
                 with session.change():
                     session.set_problems(problems)
 
+    def _mesh(self, path: Path) -> Mesh | None:
+        """A mesh that has been read for the picture; the rules read none themselves.
+
+        Meshes that cannot be drawn are reported by the display that draws them.
+        """
+        found = self._session.context.assets.known(Asset("mesh", path))
+        return found if isinstance(found, Mesh) else None
+
     def _state(self) -> tuple[object, ...]:
-        """What the findings of the config depend on."""
+        """The robot with what is known of its meshes, then the rest that is checked."""
         session = self._session
         fixed = session.context.fixed_frame
+        read = session.context.assets.read_count
         config = session.config
-        return (id(session.robot), id(config), fixed, fixed in session.tree)
+        return (id(session.robot), read, id(config), fixed, fixed in session.tree)
 
     def _hear(self, event: Event) -> None:
-        """A fixed frame that was chosen, or published, may mend what was found."""
-        if event in ("config", "frames") and self._looked_at is not None:
-            if self._looked_at[0] == id(self._session.robot):
-                if self._looked_at != self._state():
-                    self.give()
+        """Check again after a change that may fix, or bring, a problem."""
+        if event not in ("config", "frames", "status") or self._checked is None:
+            return
+        if self._checked[0] == id(self._session.robot):
+            if self._checked != self._state():
+                self.give()
 
     def _of_config(self, robot: Robot) -> list[Problem]:
-        from sambot_viz.checks.config_against_robot import check_setup
+        from sambot_viz.checks.config_against_robot import check_config
 
         session = self._session
-        if session.config.file == str(bundled.config_path()):
-            # Nobody can mend the config that comes with the program.
-            return []
-        frame_is_there = session.context.fixed_frame in session.tree
+        frame_exists = session.context.fixed_frame in session.tree
         return [
             problem
-            for problem in check_setup(robot, session.config)
-            if not (frame_is_there and problem.code == "setup-fixed-frame")
+            for problem in check_config(robot, session.config)
+            if not (frame_exists and problem.code == "setup-fixed-frame")
         ]

@@ -37,6 +37,7 @@ class SessionAssets:
     Attributes:
         generation: grows when files may have changed; what was drawn in an earlier one
             is compared with its file again.
+        read_count: how many files have been read in the background so far.
     """
 
     def __init__(
@@ -46,6 +47,7 @@ class SessionAssets:
         on_read: Callable[[], None] | None = None,
     ) -> None:
         self.generation = 0
+        self.read_count = 0
         self._meshes = meshes
         self._reader = reader
         self._on_read = on_read
@@ -90,6 +92,10 @@ class SessionAssets:
             text = f"the texture {asset.path.name} cannot be used: {error}"
             return Problem("warning", "texture-unreadable", text, _MEND, place)
 
+    def known(self, asset: Asset) -> AssetContent:
+        """What is in a file, if it has been read already; nothing is read for it."""
+        return self.take(asset) if self._meshes.is_read(asset) else None
+
     def wait(self, timeout: float) -> bool:
         """Wait until everything that was asked for is read and drawn.
 
@@ -107,6 +113,7 @@ class SessionAssets:
     def _arrived(self, assets: frozenset[Asset]) -> None:
         with self._changed:
             self._pending -= assets
+            self.read_count += len(assets)
             if not self._pending:
                 self._total = 0
             self._drawing = True

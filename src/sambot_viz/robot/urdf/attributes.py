@@ -145,7 +145,8 @@ class AttributeReader:
             )
         element = found[0]
         xyz = self.vector(element, "xyz", (0.0, 0.0, 0.0))
-        return Origin(xyz, self.vector(element, "rpy", (0.0, 0.0, 0.0)))
+        rpy = self.vector(element, "rpy", (0.0, 0.0, 0.0))
+        return Origin(xyz, rpy, element.place)
 
     def _bounded(
         self, element: Element, name: str, values: tuple[float, ...]

@@ -47,6 +47,7 @@ class LimitReader:
                 self._reader.optional(element, "upper", 0.0),
                 self._reader.optional(element, "effort", 0.0),
                 self._reader.optional(element, "velocity", 0.0),
+                element.place,
             )
         except Unreadable:
             return Limit()

@@ -85,7 +85,8 @@ class LinkReader:
                 f"add {' '.join(f'{key}=…' for key in missing)}".replace("…", '"0"'),
                 inertia,
             )
-        return Inertial(value, origin, *(reader.number(inertia, k) for k in _INERTIA))
+        moments = (reader.number(inertia, key) for key in _INERTIA)
+        return Inertial(value, origin, *moments, place=element.place)
 
     def _child(
         self, parent: Element, tag: str, example: str, reader: AttributeReader
@@ -157,7 +158,10 @@ class LinkReader:
         reader = AttributeReader(self._findings, self._findings.error, owner, loss)
         origin = reader.origin(element)
         geometry = self._geometry(element, owner, loss, reader)
-        return Shape(geometry, origin, None, element.get("name") or "", element.place)
+        inner = element.find("geometry")
+        solid = inner.children[0].place if inner and inner.children else None
+        name = element.get("name") or ""
+        return Shape(geometry, origin, None, name, element.place, solid)
 
     def _geometry(
         self, shape: Element, owner: str, loss: str, reader: AttributeReader

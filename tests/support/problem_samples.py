@@ -1,25 +1,26 @@
 """Every code of the program, with the smallest model that gives it.
 
-A code stands either with its rule (`registry.py`) or in `samples.yaml`. The page of
-rules is made by checking these models, so that it shows what is really said; for what
-no small model can show (a full disk, an RViz config) the words stand in the list.
+They are listed in tests/data/problems.yaml. The page docs/problems.md is made by
+checking these models, so that it shows what the program really says; for what a small
+model cannot show (a full disk, an RViz config) the list has the words.
 """
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from sambot_viz.checks import check
-from sambot_viz.checks.registry import RULES
 from sambot_viz.errors import Problem
+
+LIST = Path(__file__).parents[1] / "data" / "problems.yaml"
+"""The list of the samples."""
 
 
 @dataclass(frozen=True)
@@ -29,25 +30,34 @@ class Sample:
     Attributes:
         code: the code it must give.
         title: what is wrong, a few words.
+        why: what will happen; only for what ROS accepts.
         name: file name of the model.
-        files: file name → content; empty when no model can show it.
+        files: file name → content; empty when a model cannot show it.
         trusted: False when the model is checked as one of unknown origin.
-        said: what is said of it, for codes without a model.
-        why: for a rule: what will happen.
+        stated: what is said of it, for codes without a model.
     """
 
     code: str
     title: str
+    why: str = ""
     name: str = "robot.urdf"
     files: Mapping[str, str | bytes] = field(default_factory=dict[str, "str | bytes"])
     trusted: bool = True
-    said: Problem | None = None
-    why: str = ""
+    stated: Problem | None = None
 
-    def problems(self) -> list[Problem]:
+    @property
+    def problem(self) -> Problem:
+        """The problem with this code."""
+        return next(p for p in self.problems() if p.code == self.code)
+
+    def problems(self) -> tuple[Problem, ...]:
         """What `check` says about it; files are named without their folder."""
-        if self.said is not None:
-            return [self.said]
+        return _problems(self.code)
+
+    def find_problems(self) -> list[Problem]:
+        """The same, checked again."""
+        if self.stated is not None:
+            return [self.stated]
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder).resolve() / "model"
             root.mkdir()
@@ -73,37 +83,25 @@ def _without_folder(problem: Problem, folder: str) -> Problem:
 
 @cache
 def all_samples() -> tuple[Sample, ...]:
-    """One for every code: the rules first, then in the order of a model's way."""
-    return (*_of_rules(), *_written())
+    """One for every code, in the order of the list."""
+    entries: list[dict[str, Any]] = yaml.safe_load(LIST.read_text("utf-8"))
+    return tuple(_sample(entry) for entry in entries)
 
 
 @cache
-def problems_of(code: str) -> tuple[Problem, ...]:
-    """What is said about the sample of a code; it is checked once."""
+def _problems(code: str) -> tuple[Problem, ...]:
     sample = next(sample for sample in all_samples() if sample.code == code)
-    return tuple(sample.problems())
-
-
-def _of_rules() -> Iterator[Sample]:
-    for rule in RULES:
-        files = {rule.example_name: rule.example, **dict(rule.example_files)}
-        yield Sample(rule.code, rule.title, rule.example_name, files, why=rule.why)
-
-
-def _written() -> Iterator[Sample]:
-    written = resources.files("sambot_viz.checks") / "samples.yaml"
-    entries: list[dict[str, Any]] = yaml.safe_load(written.read_text("utf-8"))
-    for entry in entries:
-        yield _sample(entry)
+    return tuple(sample.find_problems())
 
 
 def _sample(entry: dict[str, Any]) -> Sample:
     code, title = str(entry["code"]), str(entry["title"])
-    if "mend" in entry:
-        said = Problem(entry["severity"], code, title, str(entry["mend"]))
-        return Sample(code, title, said=said)
+    if "hint" in entry:
+        stated = Problem(entry["severity"], code, title, str(entry["hint"]))
+        return Sample(code, title, stated=stated)
     name = str(entry.get("name", "robot.urdf"))
     files: dict[str, str | bytes] = dict(entry.get("files", {}))
     if "model" in entry:
         files[name] = str(entry["model"]).encode(entry.get("encoding", "utf-8"))
-    return Sample(code, title, name, files, bool(entry.get("trusted", True)))
+    trusted = bool(entry.get("trusted", True))
+    return Sample(code, title, str(entry.get("why", "")), name, files, trusted)
