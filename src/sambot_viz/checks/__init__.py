@@ -73,7 +73,7 @@ def check_robot(
     files = [str(file) for file in robot.files]
     if path is not None and Path(path).is_file():
         files[:1] = [os.fspath(path)]
-    subject = Subject(robot, tuple(files), mesh or MeshFiles())
+    subject = Subject(robot, tuple(files), mesh or MeshFiles(robot.file_roots))
     found = [problem for rule in RULES for problem in rule(subject)]
     return _in_order([*robot.problems, *found])
 

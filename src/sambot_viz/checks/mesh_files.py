@@ -21,12 +21,16 @@ _LARGEST_FILE = 60_000_000
 class MeshFiles:
     """Reads mesh files, each once, for at most ten seconds altogether."""
 
-    def __init__(self, longest: float = _LONGEST) -> None:
+    def __init__(
+        self, roots: Sequence[Path] | None = None, longest: float = _LONGEST
+    ) -> None:
         """Prepare.
 
         Args:
+            roots: the folders that files may be in; None for no limit.
             longest: files that are asked for later than this [s] are not read.
         """
+        self._roots = roots
         self._read: dict[Path, Mesh | Problem | None] = {}
         self._longest = longest
         self._spent = 0.0
@@ -47,7 +51,7 @@ class MeshFiles:
         if self._spent > self._longest or _size(path) > _LARGEST_FILE:
             return None
         try:
-            return read_mesh(path)
+            return read_mesh(path, roots=self._roots)
         except MeshError as error:
             return error.problem
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
-from sambot_viz.robot.shape_files import Asset
 
 if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
