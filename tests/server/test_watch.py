@@ -64,7 +64,7 @@ def vanishing(path: Path, content: str) -> None:
 
 
 @pytest.mark.parametrize("save", [Path.write_text, replace, in_two_steps, vanishing])
-def test_a_save_is_told_once_whichever_way_the_editor_saves(
+def test_a_save_is_reported_once_whichever_way_the_editor_saves(
     tmp_path: Path,
     follow: Callable[..., Changes],
     save: Callable[[Path, str], None],
@@ -89,7 +89,7 @@ def test_folders_with_blanks_and_korean_letters_are_watched(
     assert changes.get(timeout=10) == {path}
 
 
-def test_a_link_tells_of_a_save_of_its_target_and_of_another_target(
+def test_a_save_behind_a_link_and_another_target_of_it_are_reported(
     tmp_path: Path, follow: Callable[..., Changes]
 ) -> None:
     (tmp_path / "here").mkdir()
@@ -107,7 +107,7 @@ def test_a_link_tells_of_a_save_of_its_target_and_of_another_target(
     assert changes.get(timeout=10) == {link}
 
 
-def test_a_folder_made_anew_is_watched_again(
+def test_a_folder_that_was_created_again_is_watched_again(
     tmp_path: Path, follow: Callable[..., Changes]
 ) -> None:
     path = tmp_path / "urdf" / "model.urdf"
@@ -123,7 +123,7 @@ def test_a_folder_made_anew_is_watched_again(
     assert changes.get(timeout=10) == {path}
 
 
-def test_without_the_systems_help_files_are_looked_at_and_that_is_said_once(
+def test_without_the_systems_help_files_are_polled_and_that_is_reported_once(
     tmp_path: Path, follow: Callable[..., Changes], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*paths: Path, **options: object) -> Iterator[object]:
@@ -139,6 +139,39 @@ def test_without_the_systems_help_files_are_looked_at_and_that_is_said_once(
     path.write_text("newer", "utf-8")
     assert changes.get(timeout=10) == {path}
     assert troubles == ["OS file watch limit reached."]
+
+
+def test_an_error_while_looking_does_not_end_the_watching(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(watch, "LOOK_PERIOD", 0.05)
+    path = tmp_path / "model.urdf"
+    path.write_text("old", "utf-8")
+    changes: Changes = queue.Queue()
+    failed = threading.Event()
+    errors = [PermissionError("no permission"), RuntimeError("a ring of links")]
+
+    def folders() -> list[Path]:
+        if errors:
+            raise errors.pop()
+        failed.set()
+        return []
+
+    def changed(files: frozenset[Path], reported: frozenset[Path]) -> None:
+        del reported
+        changes.put(files)
+        raise ZeroDivisionError("an error of the callback")
+
+    watcher = FileWatcher(lambda: [path], folders, changed, lambda _: None)
+    watcher.start()
+    try:
+        assert failed.wait(10)
+        for content in ("new", "newer"):
+            path.write_text(content, "utf-8")
+            assert changes.get(timeout=10) == {path}
+    finally:
+        watcher.close()
+    assert [r.levelname for r in caplog.records] == ["ERROR"] * 3
 
 
 class Followed:
@@ -201,7 +234,7 @@ def test_a_saved_model_is_shown_and_joints_keep_their_values(
     assert sam_bot.viz.joint_positions[LEFT] == 1.25
 
 
-def test_a_mistake_keeps_the_robot_and_is_told_until_it_is_mended(
+def test_a_mistake_keeps_the_robot_and_is_shown_until_it_is_fixed(
     sam_bot: Followed,
 ) -> None:
     sam_bot.save("</robot>", "</rob>")
@@ -240,7 +273,7 @@ def test_a_saved_config_is_shown(sam_bot: Followed) -> None:
     assert sam_bot.failed == []
 
 
-def test_a_broken_config_keeps_the_old_one_until_it_is_mended(
+def test_a_broken_config_keeps_the_old_one_until_it_is_fixed(
     sam_bot: Followed,
 ) -> None:
     content = sam_bot.config.read_text("utf-8")
@@ -317,7 +350,7 @@ def test_a_mesh_that_was_missing_is_found_as_soon_as_it_is_there(
         client.wait_until(lambda: client.types()["MeshMessage"] > 0)
 
 
-def test_each_private_session_follows_and_a_later_one_hears_of_the_mistake(
+def test_each_private_session_follows_and_a_later_one_shows_the_mistake(
     tmp_path: Path, protocol: Callable[[int], ProtocolClient]
 ) -> None:
     shutil.copytree(bundled.assets_folder(), tmp_path, dirs_exist_ok=True)
@@ -352,7 +385,7 @@ def test_without_watch_nothing_is_followed(tmp_path: Path) -> None:
     assert "sambot-viz-watch" not in now - before
 
 
-def test_a_fault_of_ours_is_told_and_ends_nothing(
+def test_an_internal_error_is_shown_and_does_not_end_the_watching(
     sam_bot: Followed, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(robot: object) -> None:
@@ -365,3 +398,52 @@ def test_a_fault_of_ours_is_told_and_ends_nothing(
     sam_bot.save("rear_caster", "last_caster")
     sam_bot.wait_for(lambda: "last_caster" in sam_bot.viz.frames.frames)
     sam_bot.wait_for(lambda: sam_bot.failed == [])
+
+
+def ring(path: Path) -> None:
+    path.symlink_to(path)
+
+
+def pipe(path: Path) -> None:
+    os.mkfifo(path)
+
+
+@pytest.mark.parametrize("replace_by", [ring, pipe, Path.mkdir])
+def test_what_is_not_a_file_in_place_of_the_model_ends_nothing(
+    sam_bot: Followed, replace_by: Callable[[Path], None]
+) -> None:
+    content = sam_bot.model.read_text("utf-8")
+    sam_bot.model.unlink()
+    replace_by(sam_bot.model)
+    sam_bot.wait_for(lambda: sam_bot.failed)
+    sam_bot.model.rmdir() if sam_bot.model.is_dir() else sam_bot.model.unlink()
+    replace(sam_bot.model, content.replace("front_caster", "rear_caster"))
+    sam_bot.wait_for(lambda: "rear_caster" in sam_bot.viz.frames.frames)
+    sam_bot.wait_for(lambda: sam_bot.failed == [])
+
+
+def test_a_session_that_fails_does_not_keep_the_others_from_a_save(
+    tmp_path: Path,
+    protocol: Callable[[int], ProtocolClient],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shutil.copytree(bundled.assets_folder(), tmp_path, dirs_exist_ok=True)
+    model = tmp_path / "sam_bot.urdf.xacro"
+
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError("it happens")
+
+    with Visualizer(model, watch=True, session="private") as viz:
+        clients = [protocol(viz.viser.get_port()) for _ in range(2)]
+        for client in clients:
+            client.wait_until(lambda c=client: c.types()["BoxMessage"] > 0)
+        first = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        for name in ("show_robot", "set_reload_problems", "refresh"):
+            monkeypatch.setattr(first, name, fail)
+        marks = [client.mark() for client in clients]
+        content = model.read_text("utf-8")
+        for size in ("0.5", "0.6"):
+            replace(model, content.replace('value="0.42"', f'value="{size}"'))
+            clients[1].wait_until(lambda: clients[1].types(marks[1])["BoxMessage"] > 0)
+            marks[1] = clients[1].mark()
+        assert clients[0].types(marks[0])["BoxMessage"] == 0

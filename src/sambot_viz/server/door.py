@@ -23,13 +23,20 @@ import math
 import time
 from collections.abc import Sequence
 from functools import partial
-from typing import Annotated, Any, Literal, cast
+from typing import Any, cast
 
-import msgspec
 import viser
 from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
+from sambot_viz.server.browser_messages import (
+    Camera,
+    HoldButton,
+    Picture,
+    Point,
+    SetValue,
+    decode,
+)
 
 LARGEST_MESSAGE = 64 * 1024
 """A longer message ends its connection [bytes]."""
@@ -51,73 +58,6 @@ _LARGEST_INT = 2**53
 """Integers beyond this one are not exact in a browser."""
 
 _log = logging.getLogger(__name__)
-
-_Number = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
-_Vector = tuple[_Number, _Number, _Number]
-_Pixels = Annotated[int, msgspec.Meta(ge=0, le=2**15)]
-_Id = Annotated[str, msgspec.Meta(max_length=100)]
-
-
-class _Message(msgspec.Struct, tag_field="type", forbid_unknown_fields=True):
-    """A message that a browser may send."""
-
-
-class Camera(_Message, tag="ViewerCameraMessage"):
-    """Where a browser's camera is."""
-
-    wxyz: tuple[_Number, _Number, _Number, _Number]
-    position: _Vector
-    fov: _Number
-    near: _Number
-    far: _Number
-    image_height: _Pixels
-    image_width: _Pixels
-    look_at: _Vector
-    up_direction: _Vector
-
-
-class SetValue(_Message, tag="GuiUpdateMessage"):
-    """A widget was moved, or a button pressed."""
-
-    uuid: _Id
-    updates: dict[str, Any]
-
-
-class HoldButton(_Message, tag="GuiButtonHoldMessage"):
-    """A button is still held."""
-
-    uuid: _Id
-    frequency: _Number
-
-
-class RunCommand(_Message, tag="CommandTriggerMessage"):
-    """A key of a command was pressed."""
-
-    uuid: _Id
-
-
-class Point(_Message, tag="ScenePointerMessage"):
-    """A click or a rectangle in the 3D view."""
-
-    event_type: Literal["click", "rect-select"]
-    ray_origin: _Vector | None
-    ray_direction: _Vector | None
-    screen_pos: Annotated[
-        list[tuple[_Number, _Number]], msgspec.Meta(min_length=1, max_length=2)
-    ]
-    modifier: _Id | None
-
-
-class Picture(_Message, tag="GetRenderResponseMessage"):
-    """The picture that the server has asked this browser for."""
-
-    payload: bytes
-    render_uuid: _Id
-
-
-_DECODER = msgspec.msgpack.Decoder(
-    Camera | SetValue | HoldButton | RunCommand | Point | Picture
-)
 
 
 def guard(server: viser.ViserServer) -> None:
@@ -167,9 +107,8 @@ class Door:
 
     def _reason_against(self, raw: object) -> str | None:
         """Why a message is refused; None when it may be handled."""
-        try:
-            message = _DECODER.decode(cast(bytes, raw))
-        except (msgspec.MsgspecError, UnicodeDecodeError, TypeError, RecursionError):
+        message = decode(raw) if isinstance(raw, bytes) else None
+        if message is None:
             return "not one of the messages that a page of this server sends"
         if isinstance(message, Camera):
             self._known = True

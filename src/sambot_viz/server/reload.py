@@ -1,11 +1,14 @@
 """Showing what was saved: the model, its meshes and textures, the config.
 
-A save with a mistake never takes the robot away: the last good one stays, marked as
-such, until a save mends it (DESIGN §4.4).
+A save with a mistake never takes the robot away: the last good one stays, with a note
+that says so, until a save fixes it.
 """
 
 from __future__ import annotations
 
+import logging
+import os.path
+import stat
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,20 +20,23 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.shape_files import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
+from sambot_viz.server import reload_problems
 from sambot_viz.server.server import Server
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 
+_log = logging.getLogger(__name__)
+
 _MANAGER = "Visualization Manager"
 MOST_FOLDERS = 200
-"""Of a package in which something is missing, so many folders are watched at most."""
+"""Upper bound of the watched folders of a package in which a file is missing."""
 
 
 class Documents:
     """The .rviz document of the server: one for all browsers, or a copy for each.
 
     Args:
-        document: as it was read, with the program's own settings made.
+        document: as it was read, with the options of the command line applied.
         copy: makes a copy for a private session; None shares the document itself.
     """
 
@@ -69,9 +75,9 @@ class Reloader:
         load: reads the model from its file.
         config: the .rviz file, or None when there is none to follow.
         documents: where sessions take their document from.
-        prepare: makes the program's own settings in a document that was read anew.
-        report: told what is wrong with the model whenever that has changed, and what is
-            wrong with a config that was saved.
+        prepare: applies the options of the command line to a document that was read.
+        report: called with the problems of the model whenever they have changed, and
+            with those of a config that was saved.
     """
 
     def __init__(
@@ -93,14 +99,14 @@ class Reloader:
         self._report = report
         self._shown = _Content.of(documents.current)
         self._suspects: tuple[Path, ...] = ()
-        self._told = () if robot is None else robot.problems
+        self._reported = () if robot is None else robot.problems
         self._watcher = FileWatcher(
             self._files, self._folders, self._changed, self._cannot_watch
         )
         self._watcher.start()
 
     def close(self) -> None:
-        """Follow the files no longer."""
+        """Stop following the files."""
         self._watcher.close()
 
     # What is watched
@@ -120,16 +126,16 @@ class Reloader:
 
     def _folders(self) -> list[Path]:
         """Where a file that is missing now may appear."""
-        if self._model is None or not self._hoping:
+        if self._model is None or not self._waiting_for_files:
             return []
-        for folder in self._model.resolve().parents:
-            if (folder / "package.xml").is_file():
+        for folder in Path(os.path.realpath(self._model)).parents:
+            if os.path.isfile(folder / "package.xml"):
                 return list(_folders_in(folder))
         return []
 
     @property
-    def _hoping(self) -> bool:
-        """Whether a file that nobody knows yet may mend something."""
+    def _waiting_for_files(self) -> bool:
+        """Whether a file that does not exist yet could fix a problem."""
         robot = self._server.robot
         return bool(self._suspects) or (robot is not None and something_missing(robot))
 
@@ -139,8 +145,9 @@ class Reloader:
         try:
             self._show_changed(changed, appeared)
         except Exception as error:
-            # A fault of ours must not end the watching; the page says what it was.
-            self._server.set_reload_problems("fault", (_our_fault(error),))
+            _log.exception("internal error while reloading")
+            problem = reload_problems.internal_error(error)
+            self._server.set_reload_problems("fault", (problem,))
 
     def _show_changed(
         self, changed: frozenset[Path], appeared: frozenset[Path]
@@ -148,22 +155,24 @@ class Reloader:
         model, assets = self._model_files(), self._asset_files()
         if self._config is not None and self._config in changed:
             self._reload_config(self._config)
-        gone = any(not path.is_file() for path in changed & assets)
+        gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return
-        if changed & model or gone or (appeared and self._hoping):
+        if changed & model or gone or (appeared and self._waiting_for_files):
             self._reload_model(self._model)
         elif changed & assets:
             self._server.refresh()
 
     def _reload_model(self, path: Path) -> None:
         try:
+            if _is_pipe(path):
+                raise RobotError([reload_problems.unreadable("model-unreadable", path)])
             robot = self._load(path)
         except RobotError as error:
             files = (Path(p.file) for p in error.problems if p.file is not None)
             self._suspects = (path, *files)
             self._server.set_reload_problems("model", error.problems)
-            self._tell(error.problems)
+            self._report_changed(error.problems)
         else:
             if self._watcher.closed:
                 return
@@ -171,16 +180,20 @@ class Reloader:
             self._server.set_reload_problems("model", ())
             self._server.show_robot(robot)
             self._server.set_reload_problems("fault", ())
-            self._tell(robot.problems)
+            self._report_changed(robot.problems)
 
-    def _tell(self, problems: tuple[Problem, ...]) -> None:
-        """Report what is wrong with the model, unless that was told already."""
-        if self._report is not None and problems != self._told:
+    def _report_changed(self, problems: tuple[Problem, ...]) -> None:
+        """Report the problems of the model if they are not those reported last."""
+        if self._report is not None and problems != self._reported:
             self._report(problems)
-        self._told = problems
+        self._reported = problems
 
     def _reload_config(self, path: Path) -> None:
         try:
+            if _is_pipe(path):
+                raise ConfigError(
+                    [reload_problems.unreadable("config-unreadable", path)]
+                )
             document = load_config(path)
         except ConfigError as error:
             self._server.set_reload_problems("config", error.problems)
@@ -191,19 +204,29 @@ class Reloader:
         self._prepare(document)
         self._documents.current = document
         before, self._shown = self._shown, _Content.of(document)
-        sessions = self._server.sessions()
-        kept = [s for s in sessions if not self._take(s, text, before)]
-        self._server.set_reload_problems("config", (_kept(path),) if kept else ())
+        kept: list[Session] = []
+
+        def take(session: Session) -> None:
+            if not self._take(session, text, before):
+                kept.append(session)
+
+        self._server.for_each_session(take)
+        self._server.set_reload_problems(
+            "config", (reload_problems.kept(path),) if kept else ()
+        )
 
     def _take(self, session: Session, text: str, before: _Content) -> bool:
         """Show the file, unless that would throw away what a user has changed.
 
-        A camera that was moved is no change to be asked about: it stays where it is,
-        unless the file was given another view.
+        A camera that was moved does not count as a change: it stays where it is,
+        unless the file has another view than before.
+
+        Returns:
+            False when the changes of a user were kept and the file is not shown.
         """
         with session.lock:
             if session.config.to_yaml() == text:
-                # The page itself has saved it.
+                # The page itself saved the file.
                 return True
             if _Content.of(session.config).rest != before.rest:
                 return False
@@ -216,13 +239,13 @@ class Reloader:
             return True
 
     def _cannot_watch(self, reason: str) -> None:
-        self._server.set_reload_problems("watch", (_unwatched(reason),))
+        self._server.set_reload_problems("watch", (reload_problems.unwatched(reason),))
         if self._report is not None:
-            self._report((_unwatched(reason),))
+            self._report((reload_problems.unwatched(reason),))
 
 
 def _folders_in(folder: Path) -> Iterator[Path]:
-    """A folder and those in it, hidden ones left out, the nearest first."""
+    """A folder and those below it without hidden ones, the nearest first."""
     pending, count = [folder], 0
     while pending and count < MOST_FOLDERS:
         folder = pending.pop(0)
@@ -235,32 +258,10 @@ def _folders_in(folder: Path) -> Iterator[Path]:
             continue
 
 
-def _kept(path: Path) -> Problem:
-    return Problem(
-        "warning",
-        "config-changes-kept",
-        f"{path.name} was saved elsewhere, but the page has unsaved changes; "
-        "they are kept, and the new version of the file is not shown",
-        "save the config from the page, or load the file again",
-        str(path),
-    )
-
-
-def _our_fault(error: Exception) -> Problem:
-    return Problem(
-        "error",
-        "reload-failed",
-        "what was saved could not be shown, by a fault of ours: "
-        f"{type(error).__name__}: {error}",
-        "start the program again, and please report it",
-    )
-
-
-def _unwatched(reason: str) -> Problem:
-    return Problem(
-        "warning",
-        "watch-limited",
-        f"the system does not watch the files for us ({reason}); they are looked at "
-        "once a second instead",
-        "raise fs.inotify.max_user_watches, or start with --no-watch",
-    )
+def _is_pipe(path: Path) -> bool:
+    """Whether a path is a pipe or a device: reading it could take for ever."""
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -23,6 +24,8 @@ from sambot_viz.server.mesh_thread import AssetReader
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
 from sambot_viz.session.worker import Worker
+
+_log = logging.getLogger(__name__)
 
 MakeConfig = Callable[[], RvizConfig]
 
@@ -101,26 +104,48 @@ class Server:
             private = [session for session, _ in self._private.values()]
         return [*private] if self.shared is None else [self.shared, *private]
 
+    def for_each_session(self, action: Callable[[Session], object]) -> None:
+        """Call an action with every session; one that fails does not stop the others.
+
+        Raises:
+            Exception: the first error of the action, after the last session.
+        """
+        errors: list[Exception] = []
+        for session in self.sessions():
+            try:
+                action(session)
+            except Exception as error:
+                errors.append(error)
+        if errors:
+            raise errors[0]
+
     def show_robot(self, robot: Robot) -> None:
         """Show a robot in every session, present and to come."""
         with self._lock:
             self._robot = robot
-        for session in self.sessions():
-            session.show_robot(robot)
-        for advice in list(self._advice.values()):
+        try:
+            self.for_each_session(lambda session: session.show_robot(robot))
+        finally:
+            self.for_each_session(self._check)
+
+    def _check(self, session: Session) -> None:
+        advice = self._advice.get(session)
+        if advice is not None:
             advice.give()
 
     def refresh(self) -> None:
-        """Draw anew what comes from mesh files and textures that have changed."""
-        for session in self.sessions():
-            session.refresh()
+        """Draw again what comes from mesh files and textures that have changed."""
+        self.for_each_session(Session.refresh)
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
-        """Tell every session, present and to come, why a save is not shown."""
+        """Show in every session, present and to come, why a save is not shown."""
         with self._lock:
             self._reload_problems[of] = tuple(problems)
-        for session in self.sessions():
-            session.set_reload_problems(of, problems)
+        try:
+            self.for_each_session(lambda s: s.set_reload_problems(of, problems))
+        except Exception:
+            # What was saved is shown to the others all the same.
+            _log.exception("a session could not show the problems of a save")
 
     def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
         """The browser that came last, as soon as there is one.

@@ -2,13 +2,16 @@
 
 One thread looks at the files when the system says that something happened in their
 folders, and once a second in any case: that finds what the system does not report
-(network drives, a link that points elsewhere, a folder that was made anew), and takes
-over when it cannot watch at all. What counts is the state of the files: how an editor
-saves, in place, by renaming or in two steps, makes no difference.
+(network drives, a link that points elsewhere, a folder that was created again), and
+takes over when the system cannot watch at all. What counts is the state of the files:
+how an editor saves, in place, by renaming or in two steps, makes no difference. An
+error, of the file system or of a callback, is logged and ends nothing.
 """
 
 from __future__ import annotations
 
+import logging
+import os.path
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -19,29 +22,31 @@ from watchfiles import Change, watch
 from sambot_viz.files import Stamp, stamp
 
 QUIET = 30
-"""Changes are looked at when nothing more has come for so long [ms] …"""
+"""Changes are looked at when nothing more has come for this long [ms] …"""
 LONGEST_WAIT = 200
-"""… and after so long in any case [ms]."""
+"""… and after this long in any case [ms]."""
 LOOK_PERIOD = 1.0
 """How often the files are looked at when nothing was reported [s]."""
 SETTLE = 0.3
-"""A file that is gone or empty is given so long to come back [s]: some editors empty
+"""A file that is gone or empty is given this long to come back [s]: some editors empty
 or remove the old file before they write the new one."""
 _RETRY = 0.02
 _LONGEST_CLOSE = 5.0
 _CLOCK_STEP = 10_000_000
-"""Times of files may be so much [ns] behind the clock."""
+"""Times of files may be this much [ns] behind the clock."""
+
+_log = logging.getLogger(__name__)
 
 _Changes = set[tuple[Change, str]]
 OnChange = Callable[[frozenset[Path], frozenset[Path]], None]
 
 
 class FileWatcher:
-    """Calls back when files change; see the module.
+    """Calls back when files change.
 
     Args:
         files: the files that count; asked at every look, so it may change.
-        folders: more folders in which new files are told.
+        folders: more folders in which new files are reported.
         on_change: takes the files that have changed, and everything that has newly
             appeared in the folders; it runs in the watcher's thread, one call at a
             time.
@@ -71,24 +76,33 @@ class FileWatcher:
         self._thread.start()
 
     def close(self) -> None:
-        """Stop watching, and wait a while for a call that is under way."""
+        """Stop watching, and wait a few seconds for a callback that is running."""
         self._stop.set()
         if threading.current_thread() is not self._thread:
             self._thread.join(_LONGEST_CLOSE)
 
     @property
     def closed(self) -> bool:
-        """Whether nobody waits for changes any more."""
+        """Whether watching has been stopped."""
         return self._stop.is_set()
 
     def _run(self) -> None:
-        try:
-            while not self._stop.is_set():
-                self._watch(self._folders())
-        except _CannotWatchError as error:
-            self._on_trouble(str(error))
-        while not self._stop.wait(LOOK_PERIOD):
-            self._look(frozenset())
+        system_watches, reported = True, ""
+        while not self._stop.is_set():
+            try:
+                if system_watches:
+                    self._watch(self._folders())
+                elif not self._stop.wait(LOOK_PERIOD):
+                    self._look(frozenset())
+            except _CannotWatchError as error:
+                system_watches = False
+                self._on_trouble(str(error))
+            except Exception as error:
+                # Without this thread no save is shown any more.
+                if repr(error) != reported:
+                    reported = repr(error)
+                    _log.exception("error while watching the files")
+                self._stop.wait(LOOK_PERIOD)
 
     def _watch(self, folders: Mapping[Path, int]) -> None:
         """Watch these folders until others are to be watched."""
@@ -105,7 +119,7 @@ class FileWatcher:
             recursive=False,
             ignore_permission_denied=True,
         )
-        for reported in _told_apart(changes):
+        for reported in _batches(changes):
             new = (path for change, path in reported if change == Change.added)
             self._look(frozenset(map(Path, new)))
             if self._stop.is_set() or self._folders() != folders:
@@ -113,7 +127,7 @@ class FileWatcher:
 
     def _look(self, appeared: frozenset[Path]) -> None:
         """Compare the files with what they were, and call back if they differ."""
-        self._wait_for_hollow_files()
+        self._wait_for_empty_files()
         before, self._known = self._known, self._stamps()
         since, self._looked = self._looked, time.time_ns() - _CLOCK_STEP
         changed = frozenset(
@@ -124,12 +138,12 @@ class FileWatcher:
         if (changed or appeared) and not self._stop.is_set():
             self._on_change(changed, appeared)
 
-    def _wait_for_hollow_files(self) -> None:
-        """Give files that are gone or empty, and were not, time to come back."""
+    def _wait_for_empty_files(self) -> None:
+        """Give files that have just become empty or vanished time to come back."""
         end = time.monotonic() + SETTLE
-        full = [path for path, before in self._known.items() if not _hollow(before)]
+        full = [path for path, before in self._known.items() if not _is_empty(before)]
         while time.monotonic() < end:
-            full = [path for path in full if _hollow(stamp(path))]
+            full = [path for path in full if _is_empty(stamp(path))]
             if not full or self._stop.wait(_RETRY):
                 return
 
@@ -137,13 +151,13 @@ class FileWatcher:
         return {path: stamp(path) for path in self._files()}
 
     def _folders(self) -> dict[Path, int]:
-        """The folders to watch, with their numbers: a folder made anew has another."""
+        """The folders to watch, with their numbers: a new one has another number."""
         wanted: dict[Path, None] = dict.fromkeys(self._more_folders())
         for path in self._files():
             wanted[path.parent] = None
-            if path.is_symlink():
-                # A save is reported where the file lies, a new link where the link is.
-                wanted[path.resolve().parent] = None
+            if os.path.islink(path):
+                # A save is reported where the file is, a new link where the link is.
+                wanted[Path(os.path.realpath(path)).parent] = None
         found = {folder: stamp(folder) for folder in wanted}
         return {folder: now[2] for folder, now in found.items() if now is not None}
 
@@ -152,8 +166,11 @@ class _CannotWatchError(Exception):
     """The system does not watch, for example because too much is watched already."""
 
 
-def _told_apart(changes: Iterator[_Changes]) -> Iterator[_Changes]:
-    """The same, with errors of the watching as such; callbacks may raise others."""
+def _batches(changes: Iterator[_Changes]) -> Iterator[_Changes]:
+    """Yield watchfiles' batches; its own failures become _CannotWatchError.
+
+    Errors of callbacks, which run between two batches, pass through.
+    """
     while True:
         try:
             reported = next(changes)
@@ -165,9 +182,10 @@ def _told_apart(changes: Iterator[_Changes]) -> Iterator[_Changes]:
 
 
 def _saved_since(now: Stamp | None, since: int) -> bool:
-    """Whether a file that is new among ours was saved after it may have been read."""
+    """Whether a newly tracked file changed after it may have been read."""
     return now is not None and now[0] > since
 
 
-def _hollow(found: Stamp | None) -> bool:
+def _is_empty(found: Stamp | None) -> bool:
+    """Whether there is no file, or nothing in it."""
     return found is None or found[1] == 0

@@ -1,0 +1,84 @@
+"""The messages that a browser may send: their fields, with types and limits.
+
+The names are viser's own; what is not in this list is not a message.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+_Number = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+_Vector = tuple[_Number, _Number, _Number]
+_Pixels = Annotated[int, msgspec.Meta(ge=0, le=2**15)]
+_Id = Annotated[str, msgspec.Meta(max_length=100)]
+
+
+class _Message(msgspec.Struct, tag_field="type", forbid_unknown_fields=True):
+    """A message that a browser may send."""
+
+
+class Camera(_Message, tag="ViewerCameraMessage"):
+    """Where a browser's camera is."""
+
+    wxyz: tuple[_Number, _Number, _Number, _Number]
+    position: _Vector
+    fov: _Number
+    near: _Number
+    far: _Number
+    image_height: _Pixels
+    image_width: _Pixels
+    look_at: _Vector
+    up_direction: _Vector
+
+
+class SetValue(_Message, tag="GuiUpdateMessage"):
+    """A widget was moved, or a button pressed."""
+
+    uuid: _Id
+    updates: dict[str, Any]
+
+
+class HoldButton(_Message, tag="GuiButtonHoldMessage"):
+    """A button is still held."""
+
+    uuid: _Id
+    frequency: _Number
+
+
+class RunCommand(_Message, tag="CommandTriggerMessage"):
+    """A key of a command was pressed."""
+
+    uuid: _Id
+
+
+class Point(_Message, tag="ScenePointerMessage"):
+    """A click or a rectangle in the 3D view."""
+
+    event_type: Literal["click", "rect-select"]
+    ray_origin: _Vector | None
+    ray_direction: _Vector | None
+    screen_pos: Annotated[
+        list[tuple[_Number, _Number]], msgspec.Meta(min_length=1, max_length=2)
+    ]
+    modifier: _Id | None
+
+
+class Picture(_Message, tag="GetRenderResponseMessage"):
+    """The picture that the server has asked this browser for."""
+
+    payload: bytes
+    render_uuid: _Id
+
+
+BrowserMessage = Camera | SetValue | HoldButton | RunCommand | Point | Picture
+_DECODER = msgspec.msgpack.Decoder(BrowserMessage)
+
+
+def decode(raw: bytes) -> BrowserMessage | None:
+    """The message in a frame from a browser; None when it is not one of these."""
+    try:
+        return _DECODER.decode(raw)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        return None

@@ -1,0 +1,51 @@
+"""Why a file that was saved is not shown, as Problems for the page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sambot_viz.errors import Problem
+
+
+def unreadable(code: str, path: Path) -> Problem:
+    """The file was replaced by something that is not a file."""
+    return Problem(
+        "error",
+        code,
+        "the file cannot be read: it is not a regular file any more",
+        "save it as a file again",
+        str(path),
+    )
+
+
+def kept(path: Path) -> Problem:
+    """The config was saved elsewhere, and a user has changed it in the page."""
+    return Problem(
+        "warning",
+        "config-changes-kept",
+        f"{path.name} was saved elsewhere, but the page has unsaved changes; "
+        "they are kept, and the new version of the file is not shown",
+        "save the config from the page, or load the file again",
+        str(path),
+    )
+
+
+def internal_error(error: Exception) -> Problem:
+    """The program failed while it showed what was saved."""
+    return Problem(
+        "error",
+        "reload-failed",
+        f"internal error while reloading: {type(error).__name__}: {error}",
+        "start the program again, and please report this error",
+    )
+
+
+def unwatched(reason: str) -> Problem:
+    """The system reports no changes of files."""
+    return Problem(
+        "warning",
+        "watch-limited",
+        f"file watching is not available ({reason}); the files are checked once a "
+        "second instead",
+        "raise fs.inotify.max_user_watches, or start with --no-watch",
+    )
