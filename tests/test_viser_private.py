@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 import viser
+from protocol_client import ProtocolClient
 
 from sambot_viz import viser_private
 from sambot_viz.server.bind import close, listen
@@ -64,3 +65,11 @@ def test_the_types_of_a_kind_of_node_are_found_out_once(
     assert "axes_length" in first._prop_hints
     assert first._prop_hints is second._prop_hints
     assert first._prop_hints is not server.scene.add_label("/c", "c")._prop_hints
+
+
+def test_a_command_has_the_name_that_the_page_is_sent(
+    server: viser.ViserServer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    command = server.gui.add_command("Measure")
+    sent = protocol(server.get_port()).uuid_of("Measure")
+    assert viser_private.command_uuid(command) == sent

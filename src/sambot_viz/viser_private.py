@@ -117,6 +117,11 @@ def is_removed(handle: viser.SceneNodeHandle | viser.GuiInputHandle[Any]) -> boo
     return bool(cast(Any, handle)._impl.removed)
 
 
+def command_uuid(command: viser.CommandHandle) -> str:
+    """The name by which a page triggers a command."""
+    return command._impl.uuid  # pyright: ignore[reportPrivateUsage]
+
+
 def set_tab_label(tab: viser.GuiTabHandle, label: str) -> None:
     """Write something else on a tab; viser only changes its icon."""
     if tab._label != label:  # pyright: ignore[reportPrivateUsage]

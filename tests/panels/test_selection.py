@@ -9,10 +9,10 @@ import pytest
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.picture import on_background, side
-from sambot_viz.panels.selection import facts, geometry_text, thing_html
+from sambot_viz.panels.selection import facts, geometry_text, item_html
 from sambot_viz.robot.model import Box, Cylinder, MeshFile, Sphere
 from sambot_viz.session import Session
-from sambot_viz.tools.tool import Thing
+from sambot_viz.tools.tool import Selectable
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def session() -> Iterator[Session]:
 def test_a_link_tells_its_pose_in_any_frame_and_where_it_is_written(
     session: Session,
 ) -> None:
-    wheel = Thing("link", "drivewhl_l_link")
+    wheel = Selectable("link", "drivewhl_l_link")
     rows = dict(facts(session, wheel, "base_link"))
     assert rows["Parent"] == "base_link"
     assert rows["Position"] == "-0.12; 0.18; -0.05"
@@ -37,12 +37,12 @@ def test_a_link_tells_its_pose_in_any_frame_and_where_it_is_written(
 
 
 def test_a_frame_that_is_gone_says_so(session: Session) -> None:
-    rows = dict(facts(session, Thing("frame", "nowhere"), "base_link"))
+    rows = dict(facts(session, Selectable("frame", "nowhere"), "base_link"))
     assert "nowhere" in rows["Pose"]
 
 
 def test_names_cannot_be_markup() -> None:
-    html = thing_html(Thing("link", "<b>x</b>"), [("<i>", "<u>")])
+    html = item_html(Selectable("link", "<b>x</b>"), [("<i>", "<u>")])
     assert "<b>x" not in html and "<u>" not in html
 
 

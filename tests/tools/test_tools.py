@@ -1,135 +1,433 @@
-"""The tools of a session: what clicks do to a robot, without a page."""
+"""The tools of a session: what clicks, rectangles and keys of a browser do."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 import yaml
+from inside import viser_server
+from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer, bundled, load_config
+from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
-from sambot_viz.tools.measure import MeasureTool
-from sambot_viz.tools.tool import Ray, Rays, Thing
+from sambot_viz.tools.registry import TOOLS
+from sambot_viz.tools.tool import Selectable
 
 PREFIX = "rviz_default_plugins/"
+LABELS = [tool.label for tool in TOOLS.values()]
+BESIDE = (0.3, 0.3)
+"""A place of the grid with nothing of the robot above or below it."""
 
 
-@pytest.fixture
-def session(tmp_path: Path) -> Iterator[Session]:
-    """sam_bot without the axes of its frames, which stand in front of its links."""
+@dataclass
+class Browser:
+    """A browser that clicks and presses keys, without a page."""
+
+    viz: Visualizer
+    session: Session
+    client: ProtocolClient
+
+    def settle(self) -> None:
+        self.client.settle(viser_server(self.viz))
+
+    def click(
+        self, origin: Any, direction: Any = (0.0, 0.0, -1.0), modifier: Any = None
+    ) -> None:
+        """Click along a ray of the fixed frame."""
+        self.client.send(
+            "ScenePointerMessage",
+            event_type="click",
+            ray_origin=origin,
+            ray_direction=direction,
+            screen_pos=((0.5, 0.5),),
+            modifier=modifier,
+        )
+        self.settle()
+
+    def click_down(self, x: float, y: float, modifier: str | None = None) -> None:
+        """Click from 5 m above."""
+        self.click((x, y, 5.0), modifier=modifier)
+
+    def look_down(self, **wrong: Any) -> None:
+        """Put the camera 5 m above the origin, with x to the right."""
+        camera = {
+            "wxyz": (0.0, 1.0, 0.0, 0.0),
+            "position": (0.0, 0.0, 5.0),
+            "fov": 0.785,
+            "near": 0.01,
+            "far": 1000.0,
+            "image_height": 480,
+            "image_width": 640,
+            "look_at": (0.0, 0.0, 0.0),
+            "up_direction": (0.0, 1.0, 0.0),
+        }
+        self.client.send("ViewerCameraMessage", **camera | wrong)
+        self.settle()
+
+    def rectangle(self, low: Any, high: Any) -> None:
+        """Draw a rectangle, given from 0 to 1 of the picture."""
+        self.client.send(
+            "ScenePointerMessage",
+            event_type="rect-select",
+            ray_origin=None,
+            ray_direction=None,
+            screen_pos=(low, high),
+            modifier=None,
+        )
+        self.settle()
+
+    def trigger(self, command: str) -> None:
+        """Trigger a command, as a button, a key or the command palette does."""
+        self.client.send("CommandTriggerMessage", uuid=self.uuid_of(command))
+        self.settle()
+
+    def uuid_of(self, command: str) -> str:
+        """The name by which a page triggers a command."""
+        commands = (
+            m.fields for m in self.client.messages if m.type == "RegisterCommandMessage"
+        )
+        return next(c["uuid"] for c in commands if c["props"]["label"] == command)
+
+    def press_key_of(self, label: str) -> None:
+        key = next(tool.key for tool in TOOLS.values() if tool.label == label)
+        self.trigger(f"{label}, as key {key}")
+
+    @property
+    def current(self) -> str:
+        return self.session.tools.current.label
+
+    @property
+    def selected(self) -> list[str]:
+        return [item.name for item in self.session.tools.selection]
+
+
+def document(path: Path, *displays: str, color: str = "1; 2; 3") -> Path:
+    """The bundled config with only some of its displays, and three tools."""
     config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     manager = config["Visualization Manager"]
     manager["Displays"] = [
-        d for d in manager["Displays"] if not d["Class"].endswith("/TF")
+        d for d in manager["Displays"] if d["Class"].rpartition("/")[2] in displays
     ]
     manager["Global Options"]["Fixed Frame"] = "base_link"
     manager["Tools"] = [
         {"Class": f"{PREFIX}MoveCamera"},
         {"Class": f"{PREFIX}Select"},
-        {"Class": f"{PREFIX}Measure", "Line color": "1; 2; 3"},
+        {"Class": f"{PREFIX}Measure", "Line color": color},
     ]
-    path = tmp_path / "tools.rviz"
     path.write_text(yaml.safe_dump(config), "utf-8")
-    with Visualizer(config=path, port=0) as viz:
-        shared = viz._server.shared  # pyright: ignore[reportPrivateUsage]
-        assert shared is not None
-        yield shared
+    return path
 
 
-def down(x: float, y: float, modifier: str | None = None) -> Ray:
-    """A click from straight above."""
-    return Ray(0, (x, y, 5.0), (0.0, 0.0, -1.0), modifier)
+@pytest.fixture
+def open_browser(
+    tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> Iterator[Callable[..., Browser]]:
+    """Show sam_bot with some displays: ``open_browser("RobotModel", "Grid")``."""
+    opened: list[Visualizer] = []
+
+    def start(*displays: str, camera: bool = True) -> Browser:
+        viz = Visualizer(config=document(tmp_path / "t.rviz", *displays), port=0)
+        opened.append(viz)
+        session = viz._server.shared  # pyright: ignore[reportPrivateUsage]
+        assert session is not None
+        client = protocol(urlsplit(viz.url).port or 0, camera=camera)
+        browser = Browser(viz, session, client)
+        if camera:
+            browser.settle()
+        return browser
+
+    yield start
+    for viz in opened:
+        viz.stop()
 
 
-def choose(session: Session, name: str) -> None:
-    session.tools.choose(PREFIX + name)
+@pytest.fixture
+def browser(open_browser: Callable[..., Browser]) -> Browser:
+    """sam_bot and a grid, without the axes of frames."""
+    return open_browser("RobotModel", "Grid")
 
 
-def selected(session: Session) -> set[str]:
-    return {thing.name for thing in session.tools.selection}
+# Choosing tools.
 
 
-def test_the_first_tool_of_the_file_is_current(session: Session) -> None:
-    assert session.tools.current.label == "Move Camera"
-    assert len(session.tools.tools) == 5
+def test_the_first_tool_of_the_file_is_current(browser: Browser) -> None:
+    assert browser.current == "Move Camera"
+    assert len(browser.session.tools.tools) == len(TOOLS)
 
 
-def test_a_click_selects_adds_and_removes(session: Session) -> None:
-    choose(session, "Select")
-    tool = session.tools.current
-    tool.click(down(0.0, 0.0))
-    assert list(session.tools.selection) == [Thing("link", "base_link")]
-    tool.click(down(-0.12, 0.18, "shift"))
-    assert selected(session) == {"base_link", "drivewhl_l_link"}
-    tool.click(down(0.0, 0.0, "shift"))
-    assert len(session.tools.selection) == 2
-    tool.click(down(0.0, 0.0, "cmd/ctrl"))
-    assert selected(session) == {"drivewhl_l_link"}
-    tool.click(down(3.0, 3.0))
-    assert selected(session) == set()
+@pytest.mark.parametrize("before", LABELS)
+def test_a_button_chooses_its_tool_whichever_is_current(
+    browser: Browser, before: str
+) -> None:
+    for after in LABELS:
+        browser.trigger(before)
+        browser.trigger(after)
+        assert browser.current == after, f"{before} to {after}"
 
 
-def test_a_rectangle_selects_what_can_be_seen_in_it(session: Session) -> None:
-    choose(session, "Select")
-    xs, ys = np.meshgrid(np.linspace(-0.3, 0.3, 24), np.linspace(-0.25, 0.25, 24))
-    origins = np.stack([xs.ravel(), ys.ravel(), np.full(576, 5.0)], axis=1)
-    rays = Rays(origins, np.tile((0.0, 0.0, -1.0), (576, 1)))
-    session.tools.current.rectangle(rays)
-    # The caster is below the base.
-    assert {"base_link", "drivewhl_l_link", "drivewhl_r_link"} <= selected(session)
-    assert "front_caster" not in selected(session)
+def test_a_key_chooses_its_tool_except_from_select(browser: Browser) -> None:
+    for before, after in itertools.permutations(LABELS, 2):
+        browser.trigger(before)
+        browser.press_key_of(after)
+        kept = before == "Select"
+        assert browser.current == (before if kept else after), f"{before} to {after}"
 
 
-def test_measuring_tells_the_distance_of_two_points(session: Session) -> None:
-    choose(session, "Measure")
-    tool = session.tools.current
-    assert isinstance(tool, MeasureTool)
-    tool.click(Ray(0, (1.0, 1.0, 5.0), (0.0, 0.0, -1.0)))
-    assert tool.length is None
-    tool.click(Ray(0, (2.0, 1.0, 5.0), (0.0, 0.0, -1.0)))
-    assert tool.length == pytest.approx(1.0)
-    assert session.tools.status == "[Length: 1m]"
-    tool.click(Ray(0, (200.0, 1.0, 5.0), (0.0, 0.0, -1.0)))
-    assert tool.length == pytest.approx(1.0), "a click beside everything is nothing"
-    tool.click(Ray(0, (3.0, 1.0, 5.0), (0.0, 0.0, -1.0)))
-    assert tool.length is None
-    session.tools.escape()
-    assert session.tools.current.label == "Move Camera"
+@pytest.mark.parametrize("label", LABELS)
+def test_the_key_of_the_current_tool_leaves_it_and_so_does_escape(
+    browser: Browser, label: str
+) -> None:
+    browser.trigger(label)
+    browser.press_key_of(label)
+    assert browser.current == "Move Camera"
+    browser.trigger(label)
+    browser.trigger("Default tool")
+    assert browser.current == "Move Camera"
 
 
-def test_focus_looks_at_the_point_and_goes_back(session: Session) -> None:
-    choose(session, "FocusCamera")
-    session.tools.current.click(down(0.05, 0.05))
-    focal = session.views.view.config.get("Focal Point")
+def test_the_buttons_of_the_toolbar_trigger_the_commands(browser: Browser) -> None:
+    html = "".join(
+        str(message.fields.get("props", {}).get("content", ""))
+        for message in browser.client.messages
+    )
+    for label in (*LABELS, "Zero the view", "Reset"):
+        assert browser.uuid_of(label) in html, label
+
+
+def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
+    for act in (browser.session.tools.choose, browser.session.tools.press):
+        with pytest.raises(UsageError, match=r"there is no tool 'x/Y'; there are "):
+            act("x/Y")
+    with pytest.raises(UsageError, match=r"there is no view type 'x/Y'; there are "):
+        browser.session.views.set_kind("x/Y")
+
+
+# Selecting.
+
+
+def test_a_click_selects_adds_and_removes(browser: Browser) -> None:
+    browser.trigger("Select")
+    browser.click_down(0.0, 0.0)
+    assert list(browser.session.tools.selection) == [Selectable("link", "base_link")]
+    browser.click_down(-0.12, 0.18, "shift")
+    assert browser.selected == ["base_link", "drivewhl_l_link"]
+    browser.click_down(0.0, 0.0, "shift")
+    assert len(browser.selected) == 2
+    browser.click_down(0.0, 0.0, "cmd/ctrl")
+    assert browser.selected == ["drivewhl_l_link"]
+    browser.click_down(3.0, 3.0)
+    assert browser.selected == []
+
+
+def test_a_rectangle_selects_what_can_be_seen_in_it(browser: Browser) -> None:
+    browser.trigger("Select")
+    browser.look_down()
+    browser.rectangle((0.4, 0.4), (0.6, 0.6))
+    assert set(browser.selected) == {"base_link", "drivewhl_l_link", "drivewhl_r_link"}
+    # The same rectangle, from the other corner, around the left wheel alone.
+    browser.rectangle((0.481, 0.459), (0.475, 0.454))
+    assert browser.selected == ["drivewhl_l_link"]
+
+
+def test_a_grid_hides_nothing_that_is_behind_it(browser: Browser) -> None:
+    browser.trigger("Select")
+    # The grid is in the middle of the base; from below the base is behind it.
+    browser.click((-0.12, 0.5, -0.08), (0.0, -1.0, 0.0))
+    assert browser.selected == ["drivewhl_l_link"]
+    browser.click((0.0, 0.18, -5.0), (-0.12 / 5, 0.0, 1.0))
+    assert browser.selected == ["drivewhl_l_link"]
+    browser.click((0.6, 0.0, 0.3), (-0.6, 0.0, -0.38))
+    assert browser.selected == ["base_link"]
+
+
+def test_a_click_into_a_frame_selects_it_around_its_origin(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("TF")
+    browser.trigger("Select")
+    browser.click((-0.12, 0.19, 5.0))
+    assert browser.session.tools.selection.keys() == {
+        Selectable("frame", "drivewhl_l_link")
+    }
+
+
+@pytest.mark.parametrize(
+    ("origin", "direction"),
+    [
+        ((float("nan"), 0.0, 5.0), (0.0, 0.0, -1.0)),
+        ((0.0, 0.0, 5.0), (0.0, 0.0, float("inf"))),
+        ((0.0, 0.0, 5.0), (0.0, 0.0, 0.0)),
+        (None, None),
+    ],
+)
+def test_a_click_that_is_not_a_ray_is_ignored(
+    browser: Browser, capfd: pytest.CaptureFixture[str], origin: Any, direction: Any
+) -> None:
+    browser.trigger("Select")
+    browser.click_down(0.0, 0.0)
+    browser.click(origin, direction)
+    assert browser.selected == ["base_link"]
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
+def test_a_rectangle_that_is_not_one_is_ignored(
+    browser: Browser, capfd: pytest.CaptureFixture[str]
+) -> None:
+    browser.trigger("Select")
+    browser.look_down()
+    browser.rectangle((0.4, 0.4), (0.6, 0.6))
+    before = browser.selected
+    nan = float("nan")
+    browser.rectangle((nan, 0.4), (0.6, 0.6))
+    assert browser.selected == before
+    browser.look_down(fov=nan)
+    browser.rectangle((0.4, 0.4), (0.6, 0.6))
+    assert browser.selected == before
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
+def test_selection_boxes_move_with_their_links(browser: Browser) -> None:
+    browser.trigger("Select")
+    browser.click_down(-0.12, 0.18)
+    mark = browser.client.mark()
+    browser.viz.set_joint_positions({"drivewhl_l_joint": 0.4})
+    browser.settle()
+    names = [m.fields.get("name") for m in browser.client.since(mark)]
+    assert "/~selected1" in names
+    browser.click_down(3.0, 3.0)
+    assert browser.client.types(mark)["RemoveSceneNodeMessage"] == 1
+
+
+# Measuring and focusing.
+
+
+def test_measure_shows_the_distance_of_two_points(browser: Browser) -> None:
+    tools = browser.session.tools
+    browser.trigger("Measure")
+    browser.click_down(1.0, 1.0)
+    assert tools.status == "Click on the second point."
+    browser.click_down(2.0, 1.0)
+    assert tools.status == "[Length: 1m]"
+    browser.click_down(200.0, 1.0)
+    assert tools.status == "[Length: 1m]", "a click on the background does nothing"
+    browser.click_down(3.0, 1.0)
+    assert tools.status == "Click on the second point."
+    browser.trigger("Default tool")
+    assert browser.current == "Move Camera"
+    assert tools.status == ""
+
+
+def test_measure_is_the_same_with_and_without_a_grid_in_between(
+    open_browser: Callable[..., Browser],
+) -> None:
+    lengths: list[str] = []
+    for displays in (("RobotModel", "Grid"), ("RobotModel",)):
+        browser = open_browser(*displays)
+        browser.trigger("Measure")
+        # Two points of the base's front, the second below the plane of the grid.
+        browser.click((1.0, 0.0, 0.5), (-0.79, 0.0, -0.45))
+        browser.click((1.0, 0.0, 0.5), (-0.79, 0.0, -0.55))
+        lengths.append(browser.session.tools.status)
+    assert lengths[0] == lengths[1] != ""
+    assert lengths[0].startswith("[Length: 0.1")
+
+
+def test_measure_takes_points_of_what_is_drawn_near_a_frame(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("Grid", "TF")
+    browser.trigger("Measure")
+    # Beside the axes of the wheel, though within the sphere that selects the frame.
+    browser.click((-0.12 + 0.03, 0.18 + 0.03, 5.0))
+    browser.click((-0.12 + 0.03, 2.21, 5.0))
+    assert browser.session.tools.status == "[Length: 2m]"
+
+
+def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
+    browser.trigger("Focus Camera")
+    browser.click_down(0.05, 0.05)
+    focal = browser.session.views.view.config.get("Focal Point")
     assert focal == pytest.approx((0.05, 0.05, 0.09), abs=1e-3)
-    assert session.tools.current.label == "Move Camera"
+    assert browser.current == "Move Camera"
 
 
-def test_over_the_background_focus_looks_one_metre_ahead(session: Session) -> None:
-    choose(session, "FocusCamera")
-    up = Ray(0, session.views.camera.position, (0.0, 0.0, 1.0))
-    session.tools.current.click(up)
-    assert session.views.view.config.get("Distance") == pytest.approx(1.0)
+def test_over_the_background_focus_looks_one_metre_ahead(browser: Browser) -> None:
+    browser.trigger("Focus Camera")
+    browser.click((3.0, 0.0, 0.5), (0.0, 0.0, 1.0))
+    config = browser.session.views.view.config
+    assert config.get("Focal Point") == pytest.approx((3.0, 0.0, 1.5))
 
 
-def test_a_key_chooses_a_tool_and_leaves_it_again(session: Session) -> None:
-    tools = session.tools
-    tools.press(f"{PREFIX}Measure")
-    assert tools.current.label == "Measure"
-    tools.press(f"{PREFIX}Measure")
-    assert tools.current.label == "Move Camera"
-    tools.press(f"{PREFIX}Select")
-    tools.press(f"{PREFIX}Measure")
-    assert tools.current.label == "Select", "Select keeps the keys, as in RViz"
-    tools.escape()
-    assert tools.current.label == "Move Camera"
+def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
+    browser: Browser,
+) -> None:
+    config = browser.session.views.view.config
+    browser.trigger("Focus on the selection")
+    assert config.get("Focal Point")[2] == pytest.approx(0.09, abs=0.2)
+    browser.trigger("Select")
+    browser.click_down(-0.12, 0.18)
+    browser.trigger("Focus on the selection")
+    assert config.get("Focal Point") == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
 
 
-def test_settings_come_from_the_file_and_go_back(session: Session) -> None:
-    tool = next(t for t in session.tools.tools if isinstance(t, MeasureTool))
-    assert tool.config is not None and tool.config.get("Line color") == (1, 2, 3)
-    session.tools.set_property(tool, "Line color", (4, 5, 6))
-    assert "4; 5; 6" in session.config.to_yaml()
+# Settings.
+
+
+def test_settings_come_from_the_file_and_go_back(browser: Browser) -> None:
+    tools = browser.session.tools
+    tools.set_property(f"{PREFIX}Measure", "Line color", (4, 5, 6))
+    assert "4; 5; 6" in browser.session.config.to_yaml()
+    with pytest.raises(UsageError, match="the config has no tool"):
+        tools.set_property(f"{PREFIX}Interact", "Hide Inactive Objects", False)
+
+
+def test_settings_go_into_the_document_that_was_read_last(
+    browser: Browser, tmp_path: Path
+) -> None:
+    path = document(tmp_path / "new.rviz", "Grid", color="7; 8; 9")
+    browser.session.set_config(load_config(path))
+    browser.settle()
+    assert list(browser.client.value_of("Line color")) == [7, 8, 9]
+    browser.client.set_value(browser.client.uuid_of("Line color"), (4, 5, 6))
+    browser.settle()
+    assert "4; 5; 6" in browser.session.config.to_yaml()
+
+
+def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
+    """A mesh that is not read yet is not under the cursor yet; nobody waits for it."""
+    from sambot_viz import load_robot
+
+    mesh = tmp_path / "m.stl"
+    mesh.write_text("solid m\n" + FACET + "endsolid m\n", "utf-8")
+    model = tmp_path / "m.urdf"
+    model.write_text(
+        '<robot name="m"><link name="base_link"><visual><geometry>'
+        f'<mesh filename="file://{mesh}"/></geometry></visual></link></robot>',
+        "utf-8",
+    )
+    browser.session.show_robot(load_robot(model))
+    browser.viz._server.wait_for_meshes(30.0)  # pyright: ignore[reportPrivateUsage]
+    browser.trigger("Select")
+    browser.click_down(0.0, 0.0)
+    assert browser.selected == ["base_link"]
+    mesh.unlink()
+    browser.click_down(0.0, 0.0)
+    assert np.isfinite(browser.session.views.camera.position).all()
+
+
+FACET = """facet normal 0 0 1
+outer loop
+vertex -1 -1 0
+vertex 1 -1 0
+vertex 0 1 0
+endloop
+endfacet
+"""

@@ -1,4 +1,4 @@
-"""The five views: poses, and back (spec/rviz-views-tools.md §1.3–1.10)."""
+"""The five views: from properties to cameras and back, as in RViz 14."""
 
 from __future__ import annotations
 
@@ -9,9 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sambot_viz.views.camera import ORTHO_FIELD_OF_VIEW, Camera, add, times
+from sambot_viz.views.camera import (
+    ORTHO_FIELD_OF_VIEW,
+    Camera,
+    angles_of,
+    on_sphere,
+    vector,
+)
 from sambot_viz.views.registry import VIEWS
-from sambot_viz.views.view import Target, Values, View
+from sambot_viz.views.view import WORLD, Target, Values, View
 
 MakeView = Callable[..., View]
 ALL = [kind.rpartition("/")[2] for kind in VIEWS]
@@ -39,7 +45,7 @@ def same_picture(one: Camera, two: Camera) -> bool:
     )
 
 
-def test_orbit_stands_where_the_worked_values_say(make_view: MakeView) -> None:
+def test_orbit_puts_the_camera_where_rviz_does(make_view: MakeView) -> None:
     camera = make_view("Orbit").camera()
     assert camera.position == pytest.approx((5, 5, 7.0711), abs=1e-4)
     assert camera.forward == pytest.approx((-0.5, -0.5, -0.7071), abs=1e-4)
@@ -52,11 +58,11 @@ def test_orbit_stands_where_the_worked_values_say(make_view: MakeView) -> None:
     assert camera.position == pytest.approx((10, 0, 0))
 
 
-def test_an_inverted_orbit_stands_below_with_its_head_down(make_view: MakeView) -> None:
+def test_an_inverted_orbit_is_below_and_upside_down(make_view: MakeView) -> None:
     view = make_view("Orbit", Yaw=0.3, Pitch=0.5, Invert_Z_Axis=True)
     camera = view.camera()
     assert camera.position[2] == pytest.approx(-10 * math.sin(0.5))
-    assert camera.up == (0.0, 0.0, -1.0)
+    assert tuple(camera.up) == (0.0, 0.0, -1.0)
 
 
 def test_xy_orbit_is_raised_by_a_fifth_of_the_distance(make_view: MakeView) -> None:
@@ -67,7 +73,7 @@ def test_xy_orbit_is_raised_by_a_fifth_of_the_distance(make_view: MakeView) -> N
 
 def test_the_ortho_view_looks_down_with_its_angle(make_view: MakeView) -> None:
     camera = make_view("TopDownOrtho", X=-2.0, Y=2.0).camera()
-    assert camera.position == (-2, 2, 500)
+    assert tuple(camera.position) == (-2, 2, 500)
     assert camera.right == pytest.approx((1, 0, 0))
     assert camera.image_up == pytest.approx((0, 1, 0))
     turned = make_view("TopDownOrtho", Angle=-1.615, Scale=127.9).camera()
@@ -77,7 +83,7 @@ def test_the_ortho_view_looks_down_with_its_angle(make_view: MakeView) -> None:
 
 def test_fps_looks_down_for_a_positive_pitch(make_view: MakeView) -> None:
     camera = make_view("FPS", Yaw=0.4, Pitch=0.3, Position=(1, 2, 3)).camera()
-    assert camera.position == (1, 2, 3)
+    assert tuple(camera.position) == (1, 2, 3)
     c = math.cos(0.3)
     wanted = (math.cos(0.4) * c, math.sin(0.4) * c, -math.sin(0.3))
     assert camera.forward == pytest.approx(wanted)
@@ -97,7 +103,7 @@ def test_a_camera_is_read_back_as_the_properties_it_came_from(
         {"Yaw": 4.0, "Pitch": -0.4, "Distance": 3.0, "Focal Point": (1.0, 2.0, 0.5)},
     )
     put(view, values)
-    target = Target((2.0, 3.0, -1.0), 0.8)
+    target = Target(vector(2.0, 3.0, -1.0), 0.8)
     read = view.read(view.camera(target), target)
     for path, wanted in values.items():
         assert read[path] == pytest.approx(wanted), path
@@ -110,34 +116,34 @@ def test_an_inverted_orbit_is_read_back(make_view: MakeView) -> None:
 
 
 @pytest.mark.parametrize("height", [600, 1080])
-def test_the_stand_in_of_the_ortho_view_is_right_in_the_target_plane(
+def test_the_perspective_picture_of_the_ortho_view_is_exact_in_the_target_plane(
     make_view: MakeView, height: int
 ) -> None:
     camera = make_view("TopDownOrtho", Scale=37.0, X=1.0).camera()
     for fov in (None, ORTHO_FIELD_OF_VIEW):
-        drawn = camera.in_perspective(height, fov)
+        drawn = camera.as_perspective(height, fov)
         half = drawn.distance * math.tan(drawn.fov / 2)
         assert height / (2 * half) == pytest.approx(37.0)
-        assert drawn.in_parallel(height).scale == pytest.approx(37.0)
-        assert drawn.look_at == camera.look_at
+        assert drawn.as_orthographic(height).scale == pytest.approx(37.0)
+        assert drawn.look_at == pytest.approx(camera.look_at)
         assert drawn.near < drawn.distance < drawn.far
-    assert camera.in_perspective(height).distance == pytest.approx(500)
+    assert camera.as_perspective(height).distance == pytest.approx(500)
 
 
 def test_a_target_moves_the_view_but_does_not_turn_it(make_view: MakeView) -> None:
     view = make_view("Orbit", Yaw=0.0, Pitch=0.0)
-    camera = view.camera(Target((1.0, 2.0, 3.0), 1.5))
+    camera = view.camera(Target(vector(1.0, 2.0, 3.0), 1.5))
     assert camera.position == pytest.approx((11, 2, 3))
     assert camera.look_at == pytest.approx((1, 2, 3))
 
 
 def test_the_follower_turns_with_its_target(make_view: MakeView) -> None:
     view = make_view("ThirdPersonFollower", Yaw=math.pi, Pitch=0.5)
-    behind = view.camera(Target((1.0, 0.0, 0.0), math.pi / 2))
+    behind = view.camera(Target(vector(1.0, 0.0, 0.0), math.pi / 2))
     assert behind.position[0] == pytest.approx(1.0)
     assert behind.position[1] < -5
     assert behind.forward[1] > 0.8
-    moved = view.moved(behind, Target((1.0, 0.0, 0.0), math.pi / 2), Target())
+    moved = view.moved(behind, Target(vector(1.0, 0.0, 0.0), math.pi / 2), WORLD)
     assert same_picture(moved, view.camera())
 
 
@@ -157,29 +163,29 @@ def test_zero_is_what_rviz_resets_to(make_view: MakeView) -> None:
     assert (value(ortho, "Scale"), value(ortho, "X")) == (10, 0)
 
 
-def test_orbit_turns_where_it_stands_to_look_at_a_point(make_view: MakeView) -> None:
+def test_orbit_turns_in_place_to_look_at_a_point(make_view: MakeView) -> None:
     view = make_view("Orbit")
     before = view.camera().position
-    put(view, view.look_at((1.0, 2.0, 3.0)))
+    put(view, view.look_at(vector(1.0, 2.0, 3.0)))
     assert view.camera().position == pytest.approx(before)
     assert value(view, "Focal Point") == pytest.approx((1, 2, 3))
 
 
 def test_the_others_look_at_a_point_in_their_own_way(make_view: MakeView) -> None:
     xy = make_view("XYOrbit")
-    put(xy, xy.look_at((1.0, 2.0, 3.0)))
+    put(xy, xy.look_at(vector(1.0, 2.0, 3.0)))
     assert value(xy, "Focal Point") == pytest.approx((1, 2, 0))
     ortho = make_view("TopDownOrtho", Scale=20.0)
-    put(ortho, ortho.look_at((1.0, 2.0, 3.0), Target((1.0, 1.0, 1.0))))
+    put(ortho, ortho.look_at(vector(1.0, 2.0, 3.0), Target(vector(1.0, 1.0, 1.0))))
     assert (value(ortho, "X"), value(ortho, "Y")) == (0, 1)
     assert value(ortho, "Scale") == 20
     fps = make_view("FPS")
-    put(fps, fps.look_at((5.0, 9.0, 10.0)))
+    put(fps, fps.look_at(vector(5.0, 9.0, 10.0)))
     assert value(fps, "Yaw") == pytest.approx(math.pi / 2)
     assert value(fps, "Pitch") == pytest.approx(0.0)
 
 
-# Switching types (§1.9).
+# Switching types.
 
 
 @pytest.mark.parametrize("name", ["Orbit", "XYOrbit", "ThirdPersonFollower"])
@@ -220,7 +226,7 @@ def test_fps_takes_over_the_camera_of_any_orbit(make_view: MakeView, name: str) 
     assert same_picture(new.camera(), old.camera())
 
 
-def test_fps_hangs_over_the_ortho_view(make_view: MakeView) -> None:
+def test_fps_takes_the_height_of_the_ortho_view(make_view: MakeView) -> None:
     new = make_view("FPS")
     put(new, new.mimic(make_view("TopDownOrtho", X=3.0)))
     assert value(new, "Position") == (3, 0, 500)
@@ -233,7 +239,7 @@ def test_the_ortho_view_comes_over_what_the_old_one_looked_at(
     old = make_view("Orbit", Focal_Point=(10.0, 12.0, 1.0))
     new = make_view("TopDownOrtho")
     put(new, new.mimic(old))
-    assert new.camera().position == (10, 12, 500)
+    assert tuple(new.camera().position) == (10, 12, 500)
     put(new, new.mimic(make_view("FPS", Position=(1.0, 2.0, 3.0))))
     assert (value(new, "X"), value(new, "Y")) == (1, 2)
 
@@ -260,17 +266,9 @@ def test_a_view_of_the_sky_leaves_xy_orbit_its_defaults(make_view: MakeView) -> 
 
 def dragged(camera: Camera, yaw: float, pitch: float) -> Camera:
     """The camera after it was turned about the point in the middle."""
-    away = np.subtract(camera.position, camera.look_at)
-    distance = float(np.linalg.norm(away))
-    azimuth = math.atan2(away[1], away[0]) + yaw
-    elevation = math.asin(away[2] / distance) + pitch
-    c = math.cos(elevation)
-    direction = (
-        math.cos(azimuth) * c,
-        math.sin(azimuth) * c,
-        math.sin(elevation),
-    )
-    position = add(camera.look_at, times(direction, distance))
+    azimuth, elevation = angles_of(camera.position - camera.look_at)
+    away = camera.distance * on_sphere(azimuth + yaw, elevation + pitch)
+    position = camera.look_at + away
     return camera.placed(position, camera.look_at, camera.up)
 
 
@@ -289,11 +287,11 @@ def test_a_turn_of_the_camera_is_a_change_of_yaw_and_pitch(
 
 
 @pytest.mark.parametrize("name", PERSPECTIVE)
-def test_a_camera_that_comes_nearer_is_read_so(make_view: MakeView, name: str) -> None:
+def test_a_nearer_camera_has_a_smaller_distance(make_view: MakeView, name: str) -> None:
     view = make_view(name)
     camera = view.camera()
-    step = times(camera.forward, 0.1 * camera.distance)
-    nearer = camera.placed(add(camera.position, step), camera.look_at, camera.up)
+    step = 0.1 * camera.distance * camera.forward
+    nearer = camera.placed(camera.position + step, camera.look_at, camera.up)
     read = view.read(nearer)
     if name == "FPS":
         assert read["Position"] == pytest.approx(nearer.position)

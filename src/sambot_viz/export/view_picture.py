@@ -70,7 +70,7 @@ def snapshot(
             if standing is None or not np.allclose(
                 _place(client), standing, rtol=1e-4, atol=1e-3
             ):
-                BrowserCamera(client).point(camera, flat_fov=None)
+                BrowserCamera(client).point(camera, ortho_fov=None)
                 standing, before = _place(client), None
             with viser_private.larger_messages(client, 8 * width * height + 2**16):
                 image = client.get_render(

@@ -13,6 +13,7 @@ from PIL import Image
 from sambot_viz.geometry import wxyz_from_matrix
 from sambot_viz.panels.widgets import watch
 from sambot_viz.session import Session
+from sambot_viz.views.camera import components
 
 LONGEST_SIDE = 4096
 """A browser cannot draw a larger picture [pixels]."""
@@ -83,14 +84,14 @@ async def send_picture(
     if camera.scale is not None:
         scale = camera.scale * height / client.camera.image_height
         # The page's own camera is farther away than viser draws into pictures.
-        camera = replace(camera, scale=scale).in_perspective(height)
-    R = np.stack([camera.right, np.negative(camera.image_up), camera.forward], 1)
+        camera = replace(camera, scale=scale).as_perspective(height)
+    R = np.stack([camera.right, -camera.image_up, camera.forward], 1)
     drawn = await asyncio.to_thread(
         client.get_render,
         height,
         width,
         wxyz=wxyz_from_matrix(R),
-        position=camera.position,
+        position=components(camera.position),
         fov=camera.fov,
         transport_format="png",
         timeout=RENDER_TIME,

@@ -1,25 +1,27 @@
-"""The Selection panel: what is selected, where it is, and where it is written."""
+"""The Selection panel: facts about the selected links and frames."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import viser
 
+from sambot_viz.displays.entries import numbers
 from sambot_viz.errors import Place
 from sambot_viz.frames import LookupRefused
-from sambot_viz.panels.widgets import add_property, frame_choices
+from sambot_viz.panels.widgets import Input, add_property, frame_choices
 from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
 from sambot_viz.session import Event, Session
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
-from sambot_viz.tools.tool import Thing
+from sambot_viz.tools.tool import Selectable, Tool
 
 REFRESH = 0.2
-"""Poses are written anew this often while something moves [s] (§2.6)."""
+"""Shortest time between two updates of the poses, as in RViz [s]."""
 SHOWN = 30
-"""So many selected things are listed."""
+"""At most this many selected items are listed."""
 NOTHING = (
     '<p class="sambot-note">Nothing is selected. Choose Select (S), then click on a '
     "link or a frame, or drag a rectangle.</p>"
@@ -28,10 +30,10 @@ Fact = tuple[str, str]
 
 
 class SelectionPanel:
-    """See the module.
+    """Lists the selection, and the settings of the tools.
 
     Args:
-        session: whose selection this is.
+        session: the session whose selection this is.
         container: the tab to fill.
     """
 
@@ -39,7 +41,7 @@ class SelectionPanel:
         self._session = session
         self._frame = FIXED_FRAME
         self._property = TfFrameProperty(
-            "Poses in", default=FIXED_FRAME, help="The frame in which poses are told."
+            "Poses in", default=FIXED_FRAME, help="The frame in which poses are shown."
         )
         gui = session.audience.gui
         with container:
@@ -51,31 +53,19 @@ class SelectionPanel:
                 self._frames(),
             )
             self._list = gui.add_html(NOTHING)
-            for tool in session.tools.tools:
-                self._add_settings(gui, tool.kind)
+            self._settings = [
+                _ColorSetting(session, tool, prop)
+                for tool in session.tools.tools
+                for prop in tool.properties
+                if isinstance(prop, ColorProperty)
+            ]
         self._pacer = Throttle(session.worker, REFRESH, self._write)
         session.listeners.append(self._hear)
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Stop following the session."""
         self._session.listeners.remove(self._hear)
         self._pacer.close()
-
-    def _add_settings(self, gui: viser.GuiApi, kind: str) -> None:
-        """The settings of a tool that the document lists."""
-        tools = self._session.tools
-        tool = next(tool for tool in tools.tools if tool.kind == kind)
-        for prop in tool.properties:
-            if tool.config is not None and isinstance(prop, ColorProperty):
-                with gui.add_folder(tool.label, expand_by_default=False):
-                    add_property(
-                        self._session,
-                        prop,
-                        tool.config.get(prop.name),
-                        lambda value, t=tool, name=prop.name: tools.set_property(
-                            t, name, value
-                        ),
-                    )
 
     def _frames(self) -> Sequence[str]:
         return sorted(self._session.tree.frames)
@@ -92,6 +82,9 @@ class SelectionPanel:
             if self._choice.options != offered:
                 self._choice.options = offered
                 self._choice.value = text(self._frame)
+        if event in ("tools", "config"):
+            for setting in self._settings:
+                setting.show()
         if event == "tools" or (
             self._session.tools.selection and event in ("joints", "frames", "robot")
         ):
@@ -99,19 +92,47 @@ class SelectionPanel:
 
     def _write(self) -> None:
         with self._session.lock:
-            things = list(self._session.tools.selection)
-            content = NOTHING if not things else ""
-            for thing in things[:SHOWN]:
-                content += thing_html(thing, facts(self._session, thing, self._frame))
-            if len(things) > SHOWN:
-                content += f'<p class="sambot-note">and {len(things) - SHOWN} more</p>'
+            items = list(self._session.tools.selection)
+            content = NOTHING if not items else ""
+            for item in items[:SHOWN]:
+                content += item_html(item, facts(self._session, item, self._frame))
+            if len(items) > SHOWN:
+                content += f'<p class="sambot-note">and {len(items) - SHOWN} more</p>'
             if self._list.content != content:
                 self._list.content = content
 
 
-def thing_html(thing: Thing, rows: Sequence[Fact]) -> str:
-    """One selected thing with its facts."""
-    title = f"{thing.kind.capitalize()} {thing.name}"
+class _ColorSetting:
+    """A colour of a tool; hidden while the document does not list the tool."""
+
+    def __init__(self, session: Session, tool: Tool, prop: ColorProperty) -> None:
+        self._tools, self._kind, self._prop = session.tools, tool.kind, prop
+        gui = session.audience.gui
+        self._folder = gui.add_folder(tool.label, expand_by_default=False)
+        with self._folder:
+            self._input: Input = add_property(session, prop, self._value, self._set)
+        self.show()
+
+    def show(self) -> None:
+        """Show the value that holds; the document may be another one now."""
+        listed = self._tools.tool(self._kind).config is not None
+        if self._folder.visible != listed:
+            self._folder.visible = listed
+        if self._input.value != self._value:
+            self._input.value = self._value
+
+    @property
+    def _value(self) -> Any:
+        config = self._tools.tool(self._kind).config
+        return self._prop.default if config is None else config.get(self._prop.name)
+
+    def _set(self, value: Any) -> None:
+        self._tools.set_property(self._kind, self._prop.name, value)
+
+
+def item_html(item: Selectable, rows: Sequence[Fact]) -> str:
+    """One selected item with its facts."""
+    title = f"{item.kind.capitalize()} {item.name}"
     lines = "".join(f"<li><b>{html_text(k)}</b> {html_text(v)}</li>" for k, v in rows)
     return (
         f'<details class="sambot-status" open><summary>{html_text(title)}</summary>'
@@ -119,17 +140,17 @@ def thing_html(thing: Thing, rows: Sequence[Fact]) -> str:
     )
 
 
-def facts(session: Session, thing: Thing, frame: str) -> list[Fact]:
-    """What is known of a selected link or frame: key, text.
+def facts(session: Session, item: Selectable, frame: str) -> list[Fact]:
+    """What is known about a selected link or frame: key, text.
 
     Args:
-        session: where it is.
-        thing: the link or frame.
-        frame: the frame in which its pose is told.
+        session: where it is shown.
+        item: the link or frame.
+        frame: the frame in which its pose is given.
     """
     return [
-        *_pose(session, thing.name, session.context.frame(frame)),
-        *_written(session, thing.name),
+        *_pose(session, item.name, session.context.frame(frame)),
+        *_written(session, item.name),
     ]
 
 
@@ -143,12 +164,12 @@ def _pose(session: Session, name: str, frame: str) -> Iterator[Fact]:
     except LookupRefused as refused:
         yield "Pose", refused.rviz_text
         return
-    yield "Position", numbers(transform.translation)
-    yield "Orientation", numbers(transform.rotation_xyzw)
+    yield "Position", numbers(transform.translation.tolist())
+    yield "Orientation", numbers(transform.rotation_xyzw.tolist())
 
 
 def _written(session: Session, name: str) -> Iterator[Fact]:
-    """What the model file says of a link, and where."""
+    """What the model file says about a link, and where."""
     robot = session.robot
     link = None if robot is None else robot.links.get(name)
     if robot is None or link is None:
@@ -200,8 +221,3 @@ def geometry_text(geometry: Geometry) -> str:
 def place_text(place: Place) -> str:
     """A place as file:line, with the name of the file alone."""
     return f"{place.file.rpartition('/')[2]}:{place.line}"
-
-
-def numbers(values: Iterable[float]) -> str:
-    """Numbers as RViz prints a vector: "x; y; z" with five digits."""
-    return "; ".join(f"{float(v) + 0.0:.5g}" for v in values)

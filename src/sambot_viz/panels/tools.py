@@ -1,43 +1,54 @@
-"""The toolbar: the tools with their keys, and what else a window has buttons for.
+"""The toolbar: a button for each tool, and buttons for the view and the window.
 
-Its buttons are HTML, because viser's own cannot show which one is current. A click on
-one is a press of its key, which viser's commands hear; so there is one way to each.
+The buttons are HTML, because viser's own cannot show which one is current. Each
+triggers a viser command, as the command palette does. A tool has two commands: its
+button always chooses it, its key follows RViz's rules for keys.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
 import viser
 
-from sambot_viz import page
+from sambot_viz import page, viser_private
 from sambot_viz.session import Event, Session
 from sambot_viz.text import html_text
 from sambot_viz.tools.tool import Key, Tool
 from sambot_viz.views.registry import VIEWS
 
+CommandKey = Key | Literal["F", "Z", "R", "escape"]
+Action = Callable[[int], None]
+"""What a command does; it takes the number of the browser that asked."""
+FOCUS, ZERO, RESET = "Focus on the selection", "Zero the view", "Reset"
+FULL_SCREEN = (
+    "document.fullscreenElement ? document.exitFullscreen()"
+    " : document.documentElement.requestFullscreen()"
+)
+HIDE = "document.body.classList.toggle('sambot-bare')"
+
 
 class ToolBar:
-    """See the module.
+    """The toolbar of one session, with the hint of the current tool below it.
 
     Args:
-        session: whose tools these are.
+        session: the session whose tools these are.
         container: the folder or panel to fill.
     """
 
     def __init__(self, session: Session, container: viser.GuiFolderHandle) -> None:
         self._session = session
         self._gui = session.audience.gui
+        self._commands = self._add_commands()
         with container:
             self._bar = self._gui.add_html(self._html())
             self._mark = self._gui.add_html(self._mark_html())
-        self._add_commands()
         session.listeners.append(self._hear)
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Stop following the session."""
         self._session.listeners.remove(self._hear)
 
     def _hear(self, event: Event) -> None:
@@ -52,13 +63,14 @@ class ToolBar:
 
     def _html(self) -> str:
         tools = self._session.tools
-        buttons = "".join(_tool_button(t, t is tools.current) for t in tools.tools)
+        buttons = "".join(self._tool_button(tool) for tool in tools.tools)
         said = html_text(tools.status or tools.current.help)
         return (
             f'<div class="sambot-tools">{buttons}'
-            f'<button title="Zero the view (Z)" {_presses("z")}>Zero</button>'
-            f'<button title="Draw everything anew (R)" {_presses("r")}>Reset</button>'
-            f'<button title="The whole screen" onclick="{FULL_SCREEN}">'
+            f'<button title="Zero the view (Z)" {self._triggers(ZERO)}>Zero</button>'
+            f'<button title="Draw everything again (R)" {self._triggers(RESET)}>'
+            "Reset</button>"
+            f'<button title="Use the whole screen" onclick="{FULL_SCREEN}">'
             "Full screen</button>"
             f'<button title="Hide the panels; H shows them again" onclick="{HIDE}">'
             "Hide</button></div>"
@@ -68,25 +80,43 @@ class ToolBar:
     def _mark_html(self) -> str:
         return page.mouse_element(self._session.views.view.kind.rpartition("/")[2])
 
-    def _add_commands(self) -> None:
-        tools, views = self._session.tools, self._session.views
+    def _tool_button(self, tool: Tool) -> str:
+        pressed = "true" if tool is self._session.tools.current else "false"
+        return (
+            f'<button aria-pressed="{pressed}" title="{html_text(tool.label)} '
+            f'({tool.key}): {html_text(tool.help)}" {self._triggers(tool.label)}>'
+            f"{html_text(tool.label)}</button>"
+        )
+
+    def _triggers(self, command: str) -> str:
+        """The attribute with which a button triggers a command."""
+        uuid = viser_private.command_uuid(self._commands[command])
+        return (
+            'onclick="this.blur(); window.__viserMutable.sendMessage('
+            f"{{type: 'CommandTriggerMessage', uuid: '{uuid}'}})\""
+        )
+
+    def _add_commands(self) -> dict[str, viser.CommandHandle]:
+        """All commands, by their labels."""
+        session, tools, views = self._session, self._session.tools, self._session.views
+        actions: list[tuple[str, CommandKey | None, Action]] = []
         for tool in tools.tools:
-            self._add(tool.label, tool.key, lambda _, k=tool.kind: tools.press(k))
-        self._add("Focus on the selection", "F", tools.focus)
-        self._add("Zero the view", "Z", lambda _: views.zero())
-        self._add("Reset", "R", lambda _: self._session.refresh())
-        self._add("Default tool", "escape", lambda _: tools.escape())
+            choose = partial(_ignore, tools.choose, tool.kind)
+            press = partial(_ignore, tools.press, tool.kind)
+            actions.append((tool.label, None, choose))
+            actions.append((f"{tool.label}, as key {tool.key}", tool.key, press))
+        actions.append((FOCUS, "F", tools.focus))
+        actions.append((ZERO, "Z", partial(_ignore, views.zero)))
+        actions.append((RESET, "R", partial(_ignore, session.refresh)))
+        actions.append(("Default tool", "escape", partial(_ignore, tools.escape)))
         for kind in VIEWS:
-            name = kind.rpartition("/")[2]
-            self._add(f"View: {name}", None, lambda _, k=kind: views.set_kind(k))
+            label = f"View: {kind.rpartition('/')[2]}"
+            actions.append((label, None, partial(_ignore, views.set_kind, kind)))
+        return {label: self._add(label, key, act) for label, key, act in actions}
 
     def _add(
-        self,
-        label: str,
-        key: Key | Literal["F", "Z", "R", "escape"] | None,
-        action: Callable[[int], None],
-    ) -> None:
-        """A command; `action` takes the number of the browser that asked."""
+        self, label: str, key: CommandKey | None, action: Action
+    ) -> viser.CommandHandle:
         command = self._gui.add_command(label, hotkey=key)
 
         async def triggered(event: viser.CommandEvent) -> None:
@@ -94,28 +124,9 @@ class ToolBar:
                 self._session.worker.post(partial(action, event.client_id))
 
         command.on_trigger(triggered)
+        return command
 
 
-FULL_SCREEN = (
-    "document.fullscreenElement ? document.exitFullscreen()"
-    " : document.documentElement.requestFullscreen()"
-)
-HIDE = "document.body.classList.toggle('sambot-bare')"
-
-
-def _presses(key: str) -> str:
-    """The attribute with which a button presses a key; the keys are our own."""
-    return (
-        'onclick="this.blur(); document.documentElement.dispatchEvent('
-        f"new KeyboardEvent('keydown', {{key: '{key}', code: 'Key{key.upper()}',"
-        ' bubbles: true}))"'
-    )
-
-
-def _tool_button(tool: Tool, current: bool) -> str:
-    pressed = "true" if current else "false"
-    return (
-        f'<button aria-pressed="{pressed}" title="{html_text(tool.label)} '
-        f'({tool.key}): {html_text(tool.help)}" {_presses(tool.key.lower())}>'
-        f"{html_text(tool.label)}</button>"
-    )
+def _ignore(act: Callable[..., Any], *arguments: object) -> None:
+    """Call without the number of the browser, which comes last."""
+    act(*arguments[:-1])

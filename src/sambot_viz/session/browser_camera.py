@@ -1,8 +1,8 @@
-"""The camera of one browser: told where to be, and heard where a mouse moved it.
+"""The camera of one browser: sent to it, and read back when a mouse has moved it.
 
 viser's camera turns about a point in front of it, with a fixed up direction, and in
 perspective. An orthographic view is drawn by a far camera with a small field of view
-(`Camera.in_perspective`) that looks all but straight down.
+(`Camera.as_perspective`) that looks almost straight down.
 """
 
 from __future__ import annotations
@@ -11,29 +11,33 @@ import time
 
 import numpy as np
 import viser
-import viser.transforms
 
+from sambot_viz.geometry import rotation_from_xyzw
 from sambot_viz.views.camera import (
     FIELD_OF_VIEW,
     ORTHO_FIELD_OF_VIEW,
+    UP,
     Camera,
     Vector,
-    add,
+    components,
     length,
-    subtract,
-    times,
 )
 
 VISER_FIRST_POSITION = (3.0, 3.0, 3.0)
-"""Where viser puts the camera of a page that it opens."""
+"""Position of the camera in a page that viser has just opened [m]."""
 ECHO_TIME = 8.0
 """A page answers a new camera within this time, also while it loads [s]."""
 POLE = 1e-5
-"""A camera that looks down leans so far, so that "up" in its picture is told [rad]."""
+"""A camera that looks down leans by this angle, which defines "up" in its picture
+[rad]."""
 CLOSE = 0.1
-"""viser takes directions to nearer points for unchanged too easily [m]."""
-FLAT = 2 * ORTHO_FIELD_OF_VIEW
+"""For a nearer target, viser may ignore a small change of direction [m]."""
+FARTHEST = 1e12
+"""A camera with larger numbers is not taken from a browser [m]."""
+WIDEST_ORTHO = 2 * ORTHO_FIELD_OF_VIEW
 """A field of view below this is that of an orthographic view [rad]."""
+
+_START = Camera(np.array(VISER_FIRST_POSITION), np.zeros(3), UP)
 
 
 class BrowserCamera:
@@ -41,51 +45,46 @@ class BrowserCamera:
 
     Attributes:
         client: the browser.
-        camera: what it shows, in the fixed frame.
+        camera: its camera in the fixed frame.
     """
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self.client = client
         self._height = max(1, client.camera.image_height)
-        self.camera = self._reported()
+        self.camera = self._reported() or _START
         self._answered_by: float | None = None
 
     @property
     def is_fresh(self) -> bool:
-        """Whether the page was just opened, and nobody has moved its camera."""
+        """Whether the page was just opened, and its camera has not been moved."""
         return np.allclose(self.client.camera.position, VISER_FIRST_POSITION, atol=1e-3)
 
-    @property
-    def is_flat(self) -> bool:
-        """Whether it shows an orthographic view."""
-        return self.camera.scale is not None
-
     def point(
-        self, camera: Camera, flat_fov: float | None = ORTHO_FIELD_OF_VIEW
+        self, camera: Camera, ortho_fov: float | None = ORTHO_FIELD_OF_VIEW
     ) -> None:
         """Send the browser a camera of the fixed frame.
 
         Args:
             camera: where to look from.
-            flat_fov: the field of view that an orthographic camera is drawn with
-                [rad]; None draws it from 500 m above (see `Camera.in_perspective`).
+            ortho_fov: the field of view that an orthographic camera is drawn with
+                [rad]; None draws it from 500 m above (`Camera.as_perspective`).
         """
         self.camera = camera
         self._answered_by = time.monotonic() + ECHO_TIME
-        drawn = camera.in_perspective(self._height, flat_fov)
+        drawn = camera.as_perspective(self._height, ortho_fov)
         position, up = drawn.position, drawn.up
-        if camera.scale is not None:
-            lean = times(drawn.image_up, -POLE * drawn.distance)
-            position, up = add(position, lean), (0.0, 0.0, 1.0)
+        if camera.orthographic:
+            position = position - POLE * drawn.distance * drawn.image_up
+            up = UP
         handle = self.client.camera
         with self.client.atomic():
             handle.min_orbit_distance = 0.001
             handle.max_orbit_distance = float("inf")
-            handle.up_direction = up
-            handle.position = position
+            handle.up_direction = components(up)
+            handle.position = components(position)
             if drawn.distance < CLOSE:
-                handle.look_at = add(drawn.look_at, (1.0, 1.0, 1.0))
-            handle.look_at = drawn.look_at
+                handle.look_at = components(drawn.look_at + 1.0)
+            handle.look_at = components(drawn.look_at)
             handle.near = drawn.near
             handle.far = drawn.far
             handle.fov = drawn.fov
@@ -95,16 +94,18 @@ class BrowserCamera:
         """Take over what the browser reports.
 
         Returns:
-            Whether somebody moved the camera there; the echo of `point` and a new
-            size of the window are no moves.
+            Whether a user moved the camera. False for the echo of `point`, for a new
+            size of the window, and for numbers that are not a camera.
         """
         height = max(1, self.client.camera.image_height)
         resized, self._height = height != self._height, height
-        if resized and self.is_flat:
+        if resized and self.camera.orthographic:
             # As many pixels per metre as before.
             self.point(self.camera)
             return False
         reported = self._reported()
+        if reported is None:
+            return False
         if same_picture(reported, self.camera):
             self._answered_by = None
             return False
@@ -113,24 +114,35 @@ class BrowserCamera:
         self.camera = reported
         return True
 
-    def _reported(self) -> Camera:
-        """The camera of the last report, in the fixed frame."""
+    def _reported(self) -> Camera | None:
+        """The camera of the last report, in the fixed frame; None for nonsense.
+
+        viser does not check what a browser sends: any number may be NaN or missing,
+        and the camera may be in the point that it looks at.
+        """
         handle = self.client.camera
-        fov = float(handle.fov)
-        R = viser.transforms.SO3(handle.wxyz).as_matrix()
-        flat = fov < FLAT
-        camera = Camera(
-            _vector(handle.position),
-            _vector(handle.look_at),
-            _vector(-R[:, 1]) if flat else _vector(handle.up_direction),
-            fov=fov if fov > 0 else FIELD_OF_VIEW,
+        position, look_at, up = (
+            _numbers(values, 3)
+            for values in (handle.position, handle.look_at, handle.up_direction)
         )
-        if not flat:
-            return camera
-        # It leans a little; an orthographic view looks straight down.
-        above = (*camera.look_at[:2], camera.look_at[2] + camera.distance)
-        upright = camera.placed(above, camera.look_at, camera.up)
-        return upright.in_parallel(self._height)
+        wxyz, fov = _numbers(handle.wxyz, 4), _numbers([handle.fov], 1)
+        if position is None or look_at is None or up is None:
+            return None
+        if wxyz is None or fov is None or not wxyz.any():
+            return None
+        if length(look_at - position) < 1e-9:
+            return None
+        orthographic = 0.0 < fov[0] < WIDEST_ORTHO
+        if orthographic:
+            # It leans a little; an orthographic view looks straight down.
+            position = look_at + length(look_at - position) * UP
+        if length(np.cross(look_at - position, up)) < 1e-9 * length(up):
+            up = -_rotation(wxyz)[:, 1]
+            if length(np.cross(look_at - position, up)) < 1e-9:
+                return None
+        angle = float(fov[0]) if 0.0 < fov[0] < np.pi else FIELD_OF_VIEW
+        camera = Camera(position, look_at, up, fov=angle)
+        return camera.as_orthographic(self._height) if orthographic else camera
 
 
 def same_picture(one: Camera, two: Camera) -> bool:
@@ -142,15 +154,22 @@ def same_picture(one: Camera, two: Camera) -> bool:
         near = abs(one.scale / two.scale - 1.0) < 1e-4
     else:
         pixel = 2e-5 * two.distance + 1e-6
-        near = length(subtract(one.position, two.position)) < pixel
-    looking = subtract(one.look_at, two.look_at)
-    return (
-        near
-        and length(looking) < pixel
-        and length(subtract(one.right, two.right)) < 1e-3
-    )
+        near = length(one.position - two.position) < pixel
+    looking = one.look_at - two.look_at
+    return near and length(looking) < pixel and length(one.right - two.right) < 1e-3
 
 
-def _vector(values: object) -> Vector:
-    x, y, z = (float(v) for v in np.asarray(values, np.float64))
-    return (x, y, z)
+def _rotation(wxyz: Vector) -> Vector:
+    """The (3, 3) rotation of a quaternion (w, x, y, z)."""
+    w, x, y, z = wxyz.tolist()
+    return np.array(rotation_from_xyzw((x, y, z, w)))
+
+
+def _numbers(values: object, count: int) -> Vector | None:
+    """Numbers of a browser as an array; None when they are not that, or too large."""
+    try:
+        array = np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        return None
+    good = array.shape == (count,) and bool((np.abs(array) < FARTHEST).all())
+    return array if good else None

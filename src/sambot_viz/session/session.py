@@ -353,6 +353,7 @@ class Session:
         """Send nothing any more."""
         self.motion.close()
         self.views.close()
+        self.tools.close()
         self._pacer.close()
         self.worker.close()
 

@@ -1,52 +1,65 @@
 """The tools of a session: the current one, its clicks and keys, and the selection.
 
 A tool is current for all browsers of the session, as the robot is. Only the current
-tool gets clicks, and only one that wants them: with any other, a press of the mouse
-is the camera's.
+tool gets clicks, and only one that uses them: with any other, a press of the mouse
+moves the camera.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 import viser
-import viser.transforms
 
-from sambot_viz.session.worker import Worker
+from sambot_viz.errors import UsageError
+from sambot_viz.geometry import rotation_from_xyzw
 from sambot_viz.tools.move_camera import MoveCameraTool
-from sambot_viz.tools.picking.pick_scene import PickScene
-from sambot_viz.tools.picking.raycast import Array
-from sambot_viz.tools.picking.selection_marks import SelectionMarks
+from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
+from sambot_viz.tools.picking.rays import Array, RayGrid
+from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool
-from sambot_viz.tools.tool import Hit, Ray, Rays, Thing, Tool, as_vector
-from sambot_viz.views.camera import Vector
+from sambot_viz.tools.tool import Click, Hit, Selectable, Tool
 
 if TYPE_CHECKING:
     from sambot_viz.session import Event, Session
 
+T = TypeVar("T")
+
 SAMPLES = 24
 """Rays across a rectangle in each direction: what is thinner may be missed."""
+INLINE = 100_000
+"""Rays through this many triangles take milliseconds; more are left to a thread."""
 MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
 
 
 class ToolControl:
-    """See the module.
+    """Switches tools, gives them clicks and rectangles, and keeps the selection.
+
+    Implements `tools.tool.ToolContext`.
 
     Args:
-        session: whose tools these are.
+        session: the session whose tools these are.
+
+    Attributes:
+        status: what the current tool reports; empty shows its help.
+        selection: the selected links and frames, in the order of selection.
+        tools: those of the document first, then the others.
+        current: the tool that gets clicks.
     """
 
     def __init__(self, session: Session) -> None:
         self.status = ""
-        self.selection: dict[Thing, None] = {}
+        self.selection: dict[Selectable, None] = {}
         self._session = session
-        self._scenery = PickScene(session.context, lambda: session.displays)
-        self._marks = SelectionMarks(session.audience.scene)
+        self._pick_scene = PickScene(session.context, lambda: session.displays)
+        self._boxes = SelectionBoxes(session.audience.scene)
         self._config: object = None
+        self._rays = ThreadPoolExecutor(1, "sambot-viz-rays")
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
@@ -56,28 +69,44 @@ class ToolControl:
 
     @property
     def default(self) -> Tool:
-        """The first tool of the file that is known here (§2.1)."""
+        """The first tool of the file that is known here, as in RViz."""
         for item in self._session.config.tools:
             for tool in self.tools:
                 if tool.kind == item.kind:
                     return tool
-        return self._tool(MoveCameraTool.kind)
+        return self.tool(MoveCameraTool.kind)
 
-    def choose(self, kind: str) -> None:
-        """Make a tool current.
+    def tool(self, kind: str) -> Tool:
+        """The tool of a class id.
 
         Raises:
-            KeyError: no such tool.
+            UsageError: there is no such tool.
+        """
+        for tool in self.tools:
+            if tool.kind == kind:
+                return tool
+        raise UsageError(f"there is no tool '{kind}'; there are {', '.join(TOOLS)}")
+
+    def choose(self, kind: str) -> None:
+        """Make a tool current, whichever was before.
+
+        Raises:
+            UsageError: there is no such tool.
         """
         with self._session.change("tools"):
-            self._switch(self._tool(kind))
+            self._switch(self.tool(kind))
 
     def press(self, kind: str) -> None:
-        """The key of a tool was pressed: choose it, or leave it again (§2.2)."""
+        """The key of a tool was pressed: choose the tool, or leave it again.
+
+        As in RViz, Select keeps all keys: only its own key and Esc leave it.
+
+        Raises:
+            UsageError: there is no such tool.
+        """
         if self.current.kind == kind:
             self.finish()
         elif not isinstance(self.current, SelectTool):
-            # Select keeps all keys for itself, as in RViz.
             self.choose(kind)
 
     def escape(self) -> None:
@@ -87,77 +116,76 @@ class ToolControl:
             self._switch(self.default)
 
     def focus(self, client_id: int) -> None:
-        """F: look at what is selected, else at what is in the middle of the picture."""
-        boxes = [self._scenery.box_of(thing) for thing in self.selection]
+        """F: look at the selection, or at what is in the middle of the picture."""
+        with self._session.lock:
+            boxes = [self._pick_scene.box_of(item) for item in self.selection]
+            camera = self._session.views.camera_of(client_id)
         known = [box for box in boxes if box is not None]
         if known:
             low = np.min([box[0] for box in known], axis=0)
             high = np.max([box[1] for box in known], axis=0)
-            self.look_at(as_vector((low + high) / 2), client_id)
+            self.look_at((low + high) / 2, client_id)
             return
-        camera = self._session.views.camera_of(client_id)
-        hit = self.pick(Ray(client_id, camera.position, camera.forward))
-        if hit is not None:
-            self.look_at(hit.point, client_id)
 
-    def set_property(self, tool: Tool, path: str, value: Any) -> None:
-        """Set a property of a tool, in the document too."""
-        if tool.config is not None:
-            with self._session.change("tools"):
-                tool.config.set(path, value)
-                tool.property_changed()
+        def then(hit: Hit) -> None:
+            if hit.point is not None:
+                self.look_at(hit.point, client_id)
 
-    # What tools work with (tools.tool.ToolContext)
+        self._follow(lambda s: s.first_hit(camera.position, camera.forward), then)
+
+    def close(self) -> None:
+        """Follow no more rays."""
+        self._rays.shutdown(wait=False, cancel_futures=True)
+
+    def set_property(self, kind: str, path: str, value: Any) -> None:
+        """Set a property of a tool that the document lists.
+
+        Raises:
+            UsageError: there is no such tool, or the document does not list it.
+        """
+        with self._session.change("tools"):
+            tool = self.tool(kind)
+            if tool.config is None:
+                raise UsageError(f"the config has no tool '{kind}'")
+            tool.config.set(path, value)
+            tool.property_changed()
+
+    # What tools may use (tools.tool.ToolContext)
 
     @property
     def scene(self) -> viser.SceneApi:
         """Where to draw."""
         return self._session.audience.scene
 
-    def pick(self, ray: Ray) -> Hit | None:
-        """What a click means; None for the background."""
-        with self._session.lock:
-            return self._scenery.first_hit(
-                np.array(ray.origin), np.array(ray.direction)
-            )
-
-    def things_met(self, rays: Rays) -> set[Thing]:
-        """What the rays meet first."""
-        with self._session.lock:
-            return self._scenery.things_met(rays)
-
-    def select(self, things: set[Thing], modifier: str | None) -> None:
-        """Replace the selection, or add to it (Shift), or take away (Ctrl)."""
+    def select(self, items: set[Selectable], modifier: str | None) -> None:
+        """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
         with self._session.change("tools"):
             if modifier == "shift":
-                kept = {**self.selection, **dict.fromkeys(things)}
+                kept = {**self.selection, **dict.fromkeys(items)}
             elif modifier == "cmd/ctrl":
-                kept = {t: None for t in self.selection if t not in things}
+                kept = {item: None for item in self.selection if item not in items}
             else:
-                kept = dict.fromkeys(sorted(things, key=lambda t: (t.kind, t.name)))
+                kept = dict.fromkeys(sorted(items, key=lambda i: (i.kind, i.name)))
             self.selection = kept
-            self._draw_marks()
+            self._draw_boxes()
 
-    def look_at(self, point: Vector, client_id: int) -> None:
-        """Turn a browser's camera to a point of the fixed frame [m]."""
+    def look_at(self, point: Array, client_id: int) -> None:
+        """Turn a browser's camera to a point of the fixed frame, (3,) [m]."""
         self._session.views.look_at(point, client_id)
 
     def finish(self) -> None:
         """Go back to the default tool."""
         self.choose(self.default.kind)
 
-    def say(self, status: str) -> None:
-        """Show a sentence beside the toolbar."""
+    def show_status(self, status: str) -> None:
+        """Show a sentence below the toolbar; an empty one shows the tool's help."""
         with self._session.change("tools"):
             self.status = status
 
     # Inside
 
-    def _tool(self, kind: str) -> Tool:
-        return {tool.kind: tool for tool in self.tools}[kind]
-
     def _take_config(self) -> None:
-        """The tools of the document, then the others, each at its document's place."""
+        """The tools of the document, then the others, each with its settings."""
         config = self._session.config
         if self._config is config:
             return
@@ -176,63 +204,126 @@ class ToolControl:
             self._listen()
 
     def _listen(self) -> None:
-        """Have viser send what the current tool wants, and nothing else."""
+        """Have viser send what the current tool uses, and nothing else."""
         scene = self.scene
         scene.remove_click_callback()  # pyright: ignore[reportUnknownMemberType]
         scene.remove_rect_select_callback()  # pyright: ignore[reportUnknownMemberType]
-        tool, worker = self.current, self._session.worker
+        tool = self.current
         for modifier in MODIFIERS if tool.rectangles else (None,):
             if tool.clicks:
-                scene.on_click(modifier=modifier)(_clicked(tool, worker))
+                scene.on_click(modifier=modifier)(self._on_click(tool))
             if tool.rectangles:
-                scene.on_rect_select(modifier=modifier)(_boxed(tool, worker))
+                scene.on_rect_select(modifier=modifier)(self._on_rectangle(tool))
+
+    def _follow(
+        self, rays: Callable[[PickSnapshot], T], then: Callable[[T], None]
+    ) -> None:
+        """Follow rays through what is drawn now, then act; one click after the other.
+
+        Millions of triangles take most of a second. A thread of its own does that, so
+        that neither browsers nor the session wait.
+        """
+        snapshot = self._pick_scene.snapshot()
+        if snapshot.triangles <= INLINE:
+            then(rays(snapshot))
+            return
+
+        def followed(future: Future[T]) -> None:
+            # An exception of the rays is raised, and reported, in the worker.
+            self._session.worker.post(lambda: then(future.result()))
+
+        self._rays.submit(rays, snapshot).add_done_callback(followed)
+
+    def _on_click(self, tool: Tool) -> Callable[[viser.SceneClickEvent], Any]:
+        worker = self._session.worker
+
+        async def clicked(event: viser.SceneClickEvent) -> None:
+            click = _click(event)
+            if click is not None:
+                worker.post(partial(self._click, tool, click))
+
+        return clicked
+
+    def _click(self, tool: Tool, click: Click) -> None:
+        def then(hit: Hit) -> None:
+            with self._session.change("tools"):
+                # The tool may have changed meanwhile.
+                if self.current is tool:
+                    tool.click(click, hit)
+
+        self._follow(lambda s: s.first_hit(click.origin, click.direction), then)
+
+    def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
+        worker = self._session.worker
+
+        async def drawn(event: viser.SceneRectSelectEvent) -> None:
+            rays = _rays(event)
+            if rays is not None:
+                worker.post(partial(self._rectangle, tool, rays, event.modifier))
+
+        return drawn
+
+    def _rectangle(self, tool: Tool, rays: RayGrid, modifier: str | None) -> None:
+        def then(items: set[Selectable]) -> None:
+            with self._session.change("tools"):
+                if self.current is tool:
+                    tool.rectangle(items, modifier)
+
+        self._follow(lambda s: s.items_met(rays), then)
 
     def _hear(self, event: Event) -> None:
         if event == "config":
             self._take_config()
         if event in ("joints", "frames", "robot", "config", "status"):
-            self._draw_marks()
+            self._draw_boxes()
 
-    def _draw_marks(self) -> None:
-        if not self.selection:
-            self._marks.draw({})
-            return
-        boxes = {thing: self._scenery.box_of(thing) for thing in self.selection}
-        self._marks.draw({t: box for t, box in boxes.items() if box is not None})
+    def _draw_boxes(self) -> None:
+        boxes = {item: self._pick_scene.box_of(item) for item in self.selection}
+        self._boxes.draw({i: box for i, box in boxes.items() if box is not None})
 
 
-def _clicked(tool: Tool, worker: Worker) -> Callable[[viser.SceneClickEvent], Any]:
-    async def clicked(event: viser.SceneClickEvent) -> None:
-        direction = as_vector(event.ray_direction)
-        origin = as_vector(event.ray_origin)
-        if np.all(np.isfinite([*origin, *direction])) and any(direction):
-            ray = Ray(event.client_id, origin, direction, event.modifier)
-            worker.post(partial(tool.click, ray))
-
-    return clicked
-
-
-def _boxed(tool: Tool, worker: Worker) -> Callable[[viser.SceneRectSelectEvent], Any]:
-    async def boxed(event: viser.SceneRectSelectEvent) -> None:
-        corners = np.array([event.screen_min, event.screen_max], np.float64)
-        if np.all(np.isfinite(corners)):
-            camera, modifier = event.client.camera, event.modifier
-            worker.post(lambda: tool.rectangle(_rays(camera, corners, modifier)))
-
-    return boxed
+def _click(event: viser.SceneClickEvent) -> Click | None:
+    """A click as a browser reports it; None when its numbers are not a ray."""
+    origin, direction = _numbers(event.ray_origin), _numbers(event.ray_direction)
+    if origin.shape != (3,) or direction.shape != (3,):
+        return None
+    length = float(np.linalg.norm(direction))
+    if not (np.isfinite(origin).all() and np.isfinite(length) and length > 0.0):
+        return None
+    return Click(event.client_id, origin, direction / length, event.modifier)
 
 
-def _rays(camera: viser.CameraHandle, corners: Array, modifier: str | None) -> Rays:
-    """Rays through a rectangle of the picture, given from 0 to 1 of its size."""
-    (left, top), (right, bottom) = np.minimum(np.maximum(corners, 0.0), 1.0)
-    across = np.linspace(float(left), float(right), SAMPLES)
-    down = np.linspace(float(top), float(bottom), SAMPLES)
-    half = float(np.tan(camera.fov / 2))
-    in_camera = np.ones((SAMPLES * SAMPLES, 3))
-    in_camera[:, 0] = np.tile((2 * across - 1) * half * camera.aspect, SAMPLES)
-    in_camera[:, 1] = np.repeat((2 * down - 1) * half, SAMPLES)
-    R = viser.transforms.SO3(camera.wxyz).as_matrix()
-    directions = np.einsum("ij,nj->ni", R, in_camera)
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    origins = np.broadcast_to(np.asarray(camera.position, np.float64), directions.shape)
-    return Rays(np.array(origins), directions, modifier)
+def _rays(event: viser.SceneRectSelectEvent) -> RayGrid | None:
+    """Rays through a rectangle of the picture, given from 0 to 1 of its size.
+
+    Returns:
+        The rays; None when the browser's numbers are not a rectangle or a camera.
+    """
+    camera = event.client.camera
+    corners = _numbers((event.screen_min, event.screen_max))
+    lens = _numbers((camera.fov, camera.aspect))
+    wxyz, position = _numbers(camera.wxyz), _numbers(camera.position)
+    shapes = [values.shape for values in (corners, wxyz, position)]
+    if shapes != [(2, 2), (4,), (3,)]:
+        return None
+    if not all(np.isfinite(v).all() for v in (corners, lens, wxyz, position)):
+        return None
+    corners = np.minimum(np.maximum(np.sort(corners, axis=0), 0.0), 1.0)
+    (left, top), (right, bottom) = corners.tolist()
+    half = float(np.tan(lens[0] / 2))
+    steps = np.arange(SAMPLES) / (SAMPLES - 1)
+    columns = (2 * (left + (right - left) * steps) - 1) * half * float(lens[1])
+    rows = (2 * (top + (bottom - top) * steps) - 1) * half
+    if not (half > 0.0 and lens[1] > 0.0 and wxyz.any()):
+        return None
+    w, x, y, z = wxyz.tolist()
+    R = np.array(rotation_from_xyzw((x, y, z, w)))
+    return RayGrid(position, R, columns, rows)
+
+
+def _numbers(values: object) -> Array:
+    """What a browser sent as an array; an empty one for what is not numbers."""
+    try:
+        return np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        return np.zeros(0)

@@ -2,9 +2,9 @@
 
 A session has one view, the current one of its .rviz document; each browser has its
 own camera. What is set in the Views panel (a type, a number, Zero, a saved view)
-moves the cameras of all browsers. What a mouse moves is that browser's camera alone,
-and the document takes it over: it says what the camera that moved last shows. With
-`follow_presenter`, that camera takes all others with it.
+moves the cameras of all browsers. A mouse moves the camera of its own browser, and the
+document takes over the values of the camera that moved last. With `follow_presenter`,
+all other cameras follow that one.
 """
 
 from __future__ import annotations
@@ -15,15 +15,16 @@ from typing import TYPE_CHECKING, Any
 
 import viser
 
+from sambot_viz.errors import UsageError
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
 from sambot_viz.rviz.declared import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import copied_map
 from sambot_viz.session.browser_camera import BrowserCamera, same_picture
 from sambot_viz.session.throttle import Throttle
-from sambot_viz.views.camera import Camera, Vector, subtract
+from sambot_viz.views.camera import Camera, Vector
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
-from sambot_viz.views.view import Target, Values, View
+from sambot_viz.views.view import WORLD, Target, Values, View
 
 if TYPE_CHECKING:
     from sambot_viz.session import Event, Session
@@ -35,35 +36,38 @@ DIGITS = 7
 
 
 class ViewControl:
-    """See the module.
+    """Keeps the current view and the cameras of all browsers in agreement.
 
     Args:
-        session: whose view it is.
+        session: the session whose view it is.
+
+    Attributes:
+        follow_presenter: whether all cameras follow the one that moved last.
     """
 
     def __init__(self, session: Session) -> None:
         self.follow_presenter = False
         self._session = session
         self._browsers: dict[int, BrowserCamera] = {}
-        self._target = Target()
+        self._target = WORLD
         self._view: tuple[ViewConfig, View] | None = None
         self._mover: int | None = None
         self._reader = Throttle(session.worker, READ_PERIOD, self._read)
         session.listeners.append(self._hear)
 
     def close(self) -> None:
-        """Send nothing any more."""
+        """Stop reading cameras."""
         self._reader.close()
 
     # Asking
 
     @property
     def view(self) -> View:
-        """The current view; a type nobody knows is shown as Orbit (§1.1)."""
+        """The current view; one of an unknown type is shown as Orbit."""
         item = self._session.config.view
         if self._view is None or self._view[0] is not item:
             known = VIEWS.get(item.kind)
-            self._view = (item, known(item) if known else _stand_in(item))
+            self._view = (item, known(item) if known else _as_orbit(item))
         return self._view[1]
 
     @property
@@ -77,7 +81,7 @@ class ViewControl:
         return self.view.camera(self._find_target())
 
     def camera_of(self, client_id: int) -> Camera:
-        """The camera of a browser; that of the view for one nobody knows."""
+        """The camera of a browser; that of the view for a browser that has left."""
         browser = self._browsers.get(client_id)
         return self.camera if browser is None else browser.camera
 
@@ -92,7 +96,9 @@ class ViewControl:
         with self._session.lock:
             self._browsers[client.client_id] = browser
             self._target = self._find_target()
-            if browser.is_fresh or browser.is_flat != self.view.orthographic:
+            if browser.is_fresh or (
+                browser.camera.orthographic != self.view.orthographic
+            ):
                 browser.point(self.camera)
 
         take_over = partial(self._camera_moved, client.client_id)
@@ -118,8 +124,8 @@ class ViewControl:
                 before = self._find_target()
                 view.config.set(path, value)
                 self._target = self._find_target()
-                # The picture stays where it is, but for a turn (§1.3).
-                offset = subtract(before.position, self._target.position)
+                # The picture stays as it is, except for a turn of the target.
+                offset = before.position - self._target.position
                 self._apply(view.shifted(offset))
                 if not view.follows_yaw:
                     return
@@ -128,13 +134,20 @@ class ViewControl:
             self._point_all()
 
     def set_kind(self, kind: str) -> None:
-        """Choose a type of view; the new one takes over what the old one showed."""
+        """Choose a type of view; the new one takes over what the old one showed.
+
+        Raises:
+            UsageError: there is no such type.
+        """
+        if kind not in VIEWS:
+            known = ", ".join(VIEWS)
+            raise UsageError(f"there is no view type '{kind}'; there are {known}")
         with self._session.change("view"):
             old, config = self.view, self._session.config
             frame = old.config.get("Target Frame")
             new = config.set_view_class(kind)
             view = VIEWS[kind](new)
-            # All values but these are the new type's own (§1.9).
+            # As in RViz, all other values start at their defaults.
             for path, declared in new.declared.items():
                 if path in new.properties and path != "Target Frame":
                     new.set(path, declared.property.default)
@@ -155,11 +168,11 @@ class ViewControl:
             self._point_all()
 
     def look_at(self, point: Vector, client_id: int | None = None) -> None:
-        """Look at a point of the fixed frame [m].
+        """Look at a point of the fixed frame.
 
         Args:
-            point: where.
-            client_id: the browser whose camera turns; None for all.
+            point: (3,) [m].
+            client_id: the browser whose camera turns; None turns all.
         """
         with self._session.change("view"):
             target = self._find_target()
@@ -190,7 +203,7 @@ class ViewControl:
                 saved.rename(name.strip())
 
     def remove(self, saved: ViewConfig) -> None:
-        """Take a saved view out of the document."""
+        """Remove a saved view from the document."""
         with self._session.change("view"):
             self._session.config.remove_view(saved)
 
@@ -239,30 +252,29 @@ class ViewControl:
             self._follow_target()
 
     def _follow_target(self) -> None:
-        """Cameras go with the target frame (§1.3)."""
+        """Move all cameras with the target frame."""
         if not self._browsers:
             return
         before, now = self._target, self._find_target()
-        if now != before:
+        if not now.same_as(before):
             self._target = now
             for browser in self._browsers.values():
                 browser.point(self.view.moved(browser.camera, before, now))
 
     def _find_target(self) -> Target:
-        """The target frame in the fixed one; where it was last when it is away."""
+        """The target frame in the fixed one; its last pose when it has none now."""
         session = self._session
         fixed, name = session.context.fixed_frame, self.view.config.get("Target Frame")
         if name in (FIXED_FRAME, fixed):
-            return Target()
+            return WORLD
         if not session.tree.can_lookup(fixed, str(name)):
             return self._target
         T = session.tree.lookup(fixed, str(name)).matrix
-        x, y, z = (float(v) for v in T[:3, 3])
-        return Target((x, y, z), math.atan2(T[1, 0], T[0, 0]))
+        return Target(T[:3, 3], math.atan2(T[1, 0], T[0, 0]))
 
 
 def _rounded(values: Values) -> Values:
-    """Without the last digits, which a page changes at random."""
+    """Values without their last digits, which a page changes at random."""
     return {path: _round(value) for path, value in values.items()}
 
 
@@ -273,7 +285,7 @@ def _round(value: Any) -> Any:
     return (round(x, DIGITS), round(y, DIGITS), round(z, DIGITS))
 
 
-def _stand_in(item: ViewConfig) -> View:
-    """An Orbit view of its own for a type nobody knows, which stays as it is."""
+def _as_orbit(item: ViewConfig) -> View:
+    """An Orbit view in place of an unknown type, whose own values stay unchanged."""
     copy = copied_map(item.node)
     return OrbitView(ViewConfig(copy, OrbitView.properties, ConfigFindings(None)))

@@ -1,25 +1,24 @@
-"""FocusCamera: click on what the camera shall look at (§2.7)."""
+"""FocusCamera: click on a point to make the camera look at it."""
 
 from __future__ import annotations
 
-from sambot_viz.tools.tool import Ray, Tool
+from sambot_viz.tools.tool import Click, Hit, Tool
 
 AHEAD = 1.0
-"""Over the background, the camera looks at the point so far along the ray [m]."""
+"""A click on the background makes the camera look this far along the ray [m]."""
 
 
 class FocusCameraTool(Tool):
-    """One click, then the default tool again."""
+    """Looks at the clicked point, then goes back to the default tool."""
 
     kind = "rviz_default_plugins/FocusCamera"
     label = "Focus Camera"
     key = "C"
-    help = "Click on what the camera shall look at."
+    help = "Click on the point that the camera should look at."
     clicks = True
 
-    def click(self, ray: Ray) -> None:
-        """See `Tool`."""
-        hit = self.desk.pick(ray)
-        point = ray.at(AHEAD) if hit is None else hit.point
-        self.desk.look_at(point, ray.client_id)
-        self.desk.finish()
+    def click(self, click: Click, hit: Hit) -> None:
+        """Turn the camera of the browser that clicked."""
+        ahead = click.origin + AHEAD * click.direction
+        self.context.look_at(ahead if hit.point is None else hit.point, click.client_id)
+        self.context.finish()

@@ -1,18 +1,19 @@
-"""Interact: the mouse moves the camera (spec/rviz-views-tools.md §2.5)."""
+"""Interact: the mouse moves the camera, as long as there are no interactive markers."""
 
 from __future__ import annotations
 
 from sambot_viz.rviz import BoolProperty
+from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.tool import Tool
 
 
 class InteractTool(Tool):
-    """RViz's interactive markers come from ROS programs; without them it is a hand."""
+    """Interactive markers come from ROS programs; without them it moves the camera."""
 
     kind = "rviz_default_plugins/Interact"
     label = "Interact"
     key = "I"
-    help = "Left: turn. Middle: move. Right or wheel: zoom. Shift: move."
+    help = MoveCameraTool.help
     properties = (
         BoolProperty(
             "Hide Inactive Objects",

@@ -1,4 +1,4 @@
-"""MoveCamera: the mouse moves the camera (spec/rviz-views-tools.md §2.4)."""
+"""MoveCamera: the mouse moves the camera."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from sambot_viz.tools.tool import Tool
 
 
 class MoveCameraTool(Tool):
-    """The camera, and nothing else."""
+    """Moves the camera and does nothing else."""
 
     kind = "rviz_default_plugins/MoveCamera"
     label = "Move Camera"

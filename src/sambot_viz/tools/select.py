@@ -1,12 +1,12 @@
-"""Select: click on a link or a frame, or draw a rectangle (§2.6)."""
+"""Select: click on a link or a frame, or drag a rectangle over several."""
 
 from __future__ import annotations
 
-from sambot_viz.tools.tool import Ray, Rays, Thing, Tool
+from sambot_viz.tools.tool import Click, Hit, Selectable, Tool
 
 
 class SelectTool(Tool):
-    """Replaces the selection; with Shift adds to it, with Ctrl takes away."""
+    """Replaces the selection; with Shift it adds to it, with Ctrl it removes."""
 
     kind = "rviz_default_plugins/Select"
     label = "Select"
@@ -15,14 +15,11 @@ class SelectTool(Tool):
     clicks = True
     rectangles = True
 
-    def click(self, ray: Ray) -> None:
-        """See `Tool`."""
-        hit = self.desk.pick(ray)
-        found: set[Thing] = set()
-        if hit is not None and hit.thing is not None:
-            found.add(hit.thing)
-        self.desk.select(found, ray.modifier)
+    def click(self, click: Click, hit: Hit) -> None:
+        """Select the link or frame under the cursor; nothing on grid and background."""
+        items = set[Selectable]() if hit.item is None else {hit.item}
+        self.context.select(items, click.modifier)
 
-    def rectangle(self, rays: Rays) -> None:
-        """See `Tool`."""
-        self.desk.select(self.desk.things_met(rays), rays.modifier)
+    def rectangle(self, items: set[Selectable], modifier: str | None) -> None:
+        """Select all that is visible in the rectangle."""
+        self.context.select(items, modifier)

@@ -1,4 +1,4 @@
-"""The properties that every view has (spec/rviz-views-tools.md §1.2)."""
+"""The properties that every view has."""
 
 from __future__ import annotations
 

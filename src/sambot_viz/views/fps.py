@@ -1,16 +1,16 @@
-"""FPS: a camera that stands somewhere and turns its head (§1.8)."""
+"""FPS: a camera with a position and a direction, as in a first-person game."""
 
 from __future__ import annotations
 
 from sambot_viz.rviz import FloatProperty, Property, VectorProperty
 from sambot_viz.views.camera import (
+    UP,
     Camera,
     Vector,
-    add,
     angles_of,
+    components,
     on_sphere,
-    subtract,
-    times,
+    vector,
 )
 from sambot_viz.views.common import COMMON_PROPERTIES
 from sambot_viz.views.view import STEEPEST, Values, View
@@ -18,7 +18,7 @@ from sambot_viz.views.view import STEEPEST, Values, View
 FPS_PROPERTIES: tuple[Property, ...] = (
     *COMMON_PROPERTIES,
     FloatProperty(
-        "Yaw", default=0.0, unit="rad", help="Where it looks, about the vertical."
+        "Yaw", default=0.0, unit="rad", help="Direction of view, about the vertical."
     ),
     FloatProperty(
         "Pitch",
@@ -32,55 +32,54 @@ FPS_PROPERTIES: tuple[Property, ...] = (
         "Position",
         default=(5.0, 5.0, 10.0),
         unit="m",
-        help="Where the camera stands, in the target frame.",
+        help="Position of the camera, in the target frame.",
     ),
 )
-ZERO_POSITION: Vector = (5.0, 5.0, 10.0)
+ZERO_POSITION = vector(5.0, 5.0, 10.0)
 ARM = 0.01
-"""A page turns its camera about a point; this near, it turns on the spot [m]."""
+"""A page turns its camera about a point; with one this near, it turns in place [m]."""
 
 
 class FPSView(View):
-    """Stands at a place and looks round."""
+    """Stays at a position and looks around."""
 
     kind = "rviz_default_plugins/FPS"
-    help = "Stands at a place and looks round, as in a first-person game."
+    help = "Stays at a position and looks around, as in a first-person game."
     properties = FPS_PROPERTIES
 
     @property
     def position(self) -> Vector:
-        """Where the camera stands in the target frame [m]."""
-        x, y, z = self.config.get("Position")
-        return (float(x), float(y), float(z))
+        """Position of the camera in the target frame [m]."""
+        return vector(*self.config.get("Position"))
 
     def local_camera(self) -> Camera:
-        """See `View`."""
+        """Looks down for a positive pitch."""
         yaw, pitch = (float(self.config.get(name)) for name in ("Yaw", "Pitch"))
-        ahead = add(self.position, times(on_sphere(yaw, -pitch), ARM))
-        return Camera(self.position, ahead, near=self.near)
+        ahead = self.position + ARM * on_sphere(yaw, -pitch)
+        return Camera(self.position, ahead, UP, near=self.near)
 
     def read_local(self, camera: Camera) -> Values:
-        """See `View`: a roll is lost."""
-        return {"Position": camera.position, **_looking(camera.forward)}
+        """A roll of the camera is lost."""
+        return {"Position": components(camera.position), **_looking(camera.forward)}
 
     def look_at_local(self, point: Vector) -> Values:
-        """See `View`: the position stays."""
-        return _looking(subtract(point, self.position))
+        """The position stays."""
+        return _looking(point - self.position)
 
     def mimic(self, old: View) -> Values:
-        """See `View`."""
+        """Takes over the camera of the old view."""
         return self.read_local(old.local_camera())
 
     def zero(self) -> Values:
-        """See `View`: at (5, 5, 10), looking at the origin."""
+        """At (5, 5, 10), looking at the origin."""
         return {
-            "Position": ZERO_POSITION,
-            **_looking(subtract((0.0, 0.0, 0.0), ZERO_POSITION)),
+            "Position": components(ZERO_POSITION),
+            **_looking(-ZERO_POSITION),
         }
 
     def shifted(self, offset: Vector) -> Values:
-        """See `View`."""
-        return {"Position": add(self.position, offset)}
+        """Moves the camera."""
+        return {"Position": components(self.position + offset)}
 
 
 def _looking(direction: Vector) -> Values:

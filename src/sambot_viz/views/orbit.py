@@ -1,4 +1,4 @@
-"""Orbit: round a focal point, at a distance (spec/rviz-core.md §8.3)."""
+"""Orbit: a camera on a sphere around a focal point."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from sambot_viz.rviz import BoolProperty, FloatProperty, Property, VectorPropert
 from sambot_viz.views.camera import (
     Camera,
     Vector,
-    add,
     angles_of,
+    components,
+    length,
     on_sphere,
-    subtract,
-    times,
+    vector,
 )
 from sambot_viz.views.common import COMMON_PROPERTIES
 from sambot_viz.views.view import STEEPEST, Values, View
@@ -44,7 +44,7 @@ ORBIT_PROPERTIES: tuple[Property, ...] = (
         "Yaw",
         default=math.pi / 4,
         unit="rad",
-        help="Where the camera stands around the vertical through the focal point.",
+        help="Direction from the focal point to the camera, about the vertical.",
     ),
     FloatProperty(
         "Pitch",
@@ -52,7 +52,7 @@ ORBIT_PROPERTIES: tuple[Property, ...] = (
         minimum=-STEEPEST,
         maximum=STEEPEST,
         unit="rad",
-        help="How high the camera stands above the focal point.",
+        help="Elevation of the camera above the focal point.",
     ),
     VectorProperty(
         "Focal Point",
@@ -64,10 +64,10 @@ ORBIT_PROPERTIES: tuple[Property, ...] = (
 
 
 class OrbitView(View):
-    """Round a focal point, at a distance."""
+    """Looks at a focal point from a distance."""
 
     kind = "rviz_default_plugins/Orbit"
-    help = "Moves round a focal point."
+    help = "Moves around a focal point."
     properties = ORBIT_PROPERTIES
 
     @property
@@ -78,44 +78,45 @@ class OrbitView(View):
     @property
     def focal_point(self) -> Vector:
         """Focal point in the target frame [m]."""
-        x, y, z = self.config.get("Focal Point")
-        return (float(x), float(y), float(z))
+        return vector(*self.config.get("Focal Point"))
 
     def local_camera(self) -> Camera:
-        """See `View`: the formula of §1.4."""
+        """The camera is at the azimuth and elevation seen from the focal point.
+
+        With Invert Z Axis all of it is mirrored: both angles, and up.
+        """
         sign = self._sign
         yaw, pitch = (float(self.config.get(name)) for name in ("Yaw", "Pitch"))
         focal = self.focal_point
-        away = times(on_sphere(sign * yaw, sign * pitch), self.distance)
-        return Camera(add(focal, away), focal, (0.0, 0.0, sign), near=self.near)
+        away = self.distance * on_sphere(sign * yaw, sign * pitch)
+        return Camera(focal + away, focal, vector(0.0, 0.0, sign), near=self.near)
 
     def read_local(self, camera: Camera) -> Values:
-        """See `View`."""
-        return self._round(camera.position, camera.look_at)
+        """The middle of the picture becomes the focal point."""
+        return self._around(camera.position, camera.look_at)
 
     def look_at_local(self, point: Vector) -> Values:
-        """See `View`: the camera turns where it stands (§1.4)."""
-        return self._round(self.local_camera().position, point)
+        """The camera turns in place, as in RViz."""
+        return self._around(self.local_camera().position, point)
 
     def mimic(self, old: View) -> Values:
-        """See `View`."""
+        """Keeps the picture; from above it looks down from 100 m, as in RViz."""
         camera = old.local_camera()
         if old.orthographic:
             x, y, _ = camera.look_at
             return {
                 "Distance": 100.0,
-                "Focal Point": (x, y, 0.0),
+                "Focal Point": (float(x), float(y), 0.0),
                 "Yaw": -math.pi / 2,
                 "Pitch": STEEPEST,
             }
         if type(old) is OrbitView:
-            return self._round(camera.position, old.focal_point, old.distance)
-        away = math.hypot(*camera.position)
-        focal = add(camera.position, times(camera.forward, away))
-        return self._round(camera.position, focal)
+            return self._around(camera.position, old.focal_point, old.distance)
+        focal = camera.position + length(camera.position) * camera.forward
+        return self._around(camera.position, focal)
 
     def zero(self) -> Values:
-        """See `View`; RViz also stops fixing the size of the focal mark (§1.4)."""
+        """As in RViz, Focal Shape Fixed Size becomes false; its default is true."""
         return {
             "Yaw": math.pi / 4,
             "Pitch": math.pi / 4,
@@ -126,23 +127,23 @@ class OrbitView(View):
         }
 
     def shifted(self, offset: Vector) -> Values:
-        """See `View`."""
-        return {"Focal Point": add(self.focal_point, offset)}
+        """Moves the focal point."""
+        return {"Focal Point": components(self.focal_point + offset)}
 
     @property
     def _sign(self) -> float:
         return -1.0 if self.config.get("Invert Z Axis") else 1.0
 
-    def _round(
+    def _around(
         self, position: Vector, focal: Vector, distance: float | None = None
     ) -> Values:
-        """The properties of a camera that stands at `position` and sees `focal`."""
-        away = subtract(position, focal)
+        """The properties of a camera at `position` that looks at `focal`."""
+        away = position - focal
         yaw, pitch = angles_of(away)
         sign = self._sign
         return {
-            "Distance": math.hypot(*away) if distance is None else distance,
-            "Focal Point": focal,
+            "Distance": length(away) if distance is None else distance,
+            "Focal Point": components(focal),
             "Yaw": sign * yaw % (2.0 * math.pi),
             "Pitch": sign * pitch,
         }

@@ -1,4 +1,4 @@
-"""ThirdPersonFollower: XYOrbit that turns with its target (§1.6)."""
+"""ThirdPersonFollower: XYOrbit that turns with its target frame."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from sambot_viz.views.xy_orbit import XYOrbitView
 
 
 class ThirdPersonFollowerView(XYOrbitView):
-    """Behind a robot, and turning with it; its roll and pitch do not count."""
+    """Follows position and yaw of the target frame, not its roll and pitch."""
 
     kind = "rviz_default_plugins/ThirdPersonFollower"
     help = "Follows the target frame and turns with it."

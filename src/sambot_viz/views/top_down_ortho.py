@@ -1,20 +1,18 @@
-"""TopDownOrtho: a map's view from above, without perspective (§1.7)."""
+"""TopDownOrtho: a map's view from above, without perspective."""
 
 from __future__ import annotations
 
 import math
 
 from sambot_viz.rviz import FloatProperty, Property
-from sambot_viz.views.camera import ORTHO_HEIGHT, Camera, Vector
+from sambot_viz.views.camera import ORTHO_HEIGHT, Camera, Vector, vector
 from sambot_viz.views.common import COMMON_PROPERTIES
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.view import Values, View
 
 TOP_DOWN_ORTHO_PROPERTIES: tuple[Property, ...] = (
     *COMMON_PROPERTIES,
-    FloatProperty(
-        "Scale", default=10.0, help="How many pixels of the picture are one metre."
-    ),
+    FloatProperty("Scale", default=10.0, help="Pixels of the picture per metre."),
     FloatProperty(
         "Angle",
         default=0.0,
@@ -31,7 +29,7 @@ SMALLEST_SCALE = 1e-3
 class TopDownOrthoView(View):
     """From straight above, without perspective.
 
-    viser has no orthographic camera: `Camera.in_perspective` says what is drawn.
+    viser has no orthographic camera: the page draws `Camera.as_perspective`.
     """
 
     kind = "rviz_default_plugins/TopDownOrtho"
@@ -46,24 +44,24 @@ class TopDownOrthoView(View):
         return max(scale, SMALLEST_SCALE)
 
     def local_camera(self) -> Camera:
-        """See `View`."""
+        """Straight above (X, Y), looking down."""
         x, y, angle = (float(self.config.get(name)) for name in ("X", "Y", "Angle"))
-        up = (-math.sin(angle), math.cos(angle), 0.0)
-        above = (x, y, ORTHO_HEIGHT)
-        return Camera(above, (x, y, 0.0), up, near=self.near, scale=self.scale)
+        up = vector(-math.sin(angle), math.cos(angle), 0.0)
+        above, below = vector(x, y, ORTHO_HEIGHT), vector(x, y, 0.0)
+        return Camera(above, below, up, near=self.near, scale=self.scale)
 
     def read_local(self, camera: Camera) -> Values:
-        """See `View`."""
+        """The middle and the turn of the picture; the height does not matter."""
         up, scale = camera.image_up, camera.scale or self.scale
-        x, y, _ = camera.look_at
-        return {"Scale": scale, "Angle": math.atan2(-up[0], up[1]), "X": x, "Y": y}
+        angle = math.atan2(-up[0], up[1])
+        return {"Scale": scale, "Angle": angle, **self.look_at_local(camera.look_at)}
 
     def look_at_local(self, point: Vector) -> Values:
-        """See `View`: scale and angle stay."""
-        return {"X": point[0], "Y": point[1]}
+        """Scale and angle stay."""
+        return {"X": float(point[0]), "Y": float(point[1])}
 
     def mimic(self, old: View) -> Values:
-        """See `View`."""
+        """Comes to the focal point or the camera of the old view."""
         if isinstance(old, TopDownOrthoView):
             return {n: old.config.get(n) for n in ("Scale", "Angle", "X", "Y")}
         if isinstance(old, OrbitView):
@@ -71,10 +69,9 @@ class TopDownOrthoView(View):
         return self.look_at_local(old.local_camera().position)
 
     def zero(self) -> Values:
-        """See `View`."""
+        """The origin in the middle, at 10 pixels per metre."""
         return {"Scale": 10.0, "Angle": 0.0, "X": 0.0, "Y": 0.0}
 
     def shifted(self, offset: Vector) -> Values:
-        """See `View`; RViz turns the offset by Angle, which moves the picture."""
-        x, y = (float(self.config.get(name)) for name in ("X", "Y"))
-        return {"X": x + offset[0], "Y": y + offset[1]}
+        """Moves the middle; RViz turns the offset by Angle, which moves the picture."""
+        return self.look_at_local(self.local_camera().look_at + offset)

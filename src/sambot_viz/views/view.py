@@ -1,9 +1,8 @@
-"""What every RViz view controller is: properties, and the camera they mean.
+"""The base of all RViz view controllers: properties, and the camera they describe.
 
 A view is computed both ways: `camera` gives the camera of the present properties,
-`read` gives the properties of a camera that a mouse has moved. Between the fixed
-frame and a view stands its target frame (spec/rviz-views-tools.md §1.3): a view's own
-numbers are relative to it.
+`read` gives the properties of a camera that a mouse has moved. The numbers of a view
+are relative to its target frame, whose position it follows.
 """
 
 from __future__ import annotations
@@ -13,8 +12,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from sambot_viz.rviz import Property, ViewConfig
-from sambot_viz.views.camera import Camera, Vector, add, subtract, turned
+from sambot_viz.views.camera import Camera, Vector, turned, vector
 
 Values = Mapping[str, Any]
 """Property → value, for those that are to be set."""
@@ -23,20 +24,25 @@ STEEPEST = math.pi / 2 - 0.001
 """Largest pitch of all views [rad]."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Target:
-    """The target frame, in the fixed frame.
+    """The pose of the target frame in the fixed frame, as far as views follow it.
 
     Attributes:
         position: its origin [m].
         yaw: how far it is turned about the vertical [rad].
     """
 
-    position: Vector = (0.0, 0.0, 0.0)
+    position: Vector
     yaw: float = 0.0
 
+    def same_as(self, other: Target) -> bool:
+        """Whether both are exactly the same pose."""
+        same_place = np.array_equal(self.position, other.position)
+        return same_place and self.yaw == other.yaw
 
-WORLD = Target()
+
+WORLD = Target(vector(0.0, 0.0, 0.0))
 """The fixed frame as its own target."""
 
 
@@ -61,14 +67,14 @@ class View:
     def __init__(self, config: ViewConfig) -> None:
         self.config = config
 
-    # What each view says of itself; all in the target frame.
+    # Each view defines these; all in the target frame.
 
     def local_camera(self) -> Camera:
         """The camera of the present properties, in the target frame."""
         raise NotImplementedError
 
     def read_local(self, camera: Camera) -> Values:
-        """The properties that mean a camera of the target frame."""
+        """The properties of a camera given in the target frame."""
         raise NotImplementedError
 
     def look_at_local(self, point: Vector) -> Values:
@@ -76,7 +82,7 @@ class View:
         raise NotImplementedError
 
     def mimic(self, old: View) -> Values:
-        """What a view of this type takes over from another (§1.9)."""
+        """What a view of this type takes over from another, as in RViz."""
         raise NotImplementedError
 
     def zero(self) -> Values:
@@ -94,13 +100,13 @@ class View:
         return to_fixed(self.local_camera(), self._turned(target))
 
     def read(self, camera: Camera, target: Target = WORLD) -> Values:
-        """The properties that mean a camera of the fixed frame."""
+        """The properties of a camera given in the fixed frame."""
         return self.read_local(to_target(camera, self._turned(target)))
 
     def look_at(self, point: Vector, target: Target = WORLD) -> Values:
         """The properties with which it looks at a point of the fixed frame [m]."""
         target = self._turned(target)
-        local = turned(subtract(point, target.position), -target.yaw)
+        local = turned(point - target.position, -target.yaw)
         return self.look_at_local(local)
 
     def moved(self, camera: Camera, before: Target, now: Target) -> Camera:
@@ -119,8 +125,8 @@ class View:
 def to_fixed(camera: Camera, target: Target) -> Camera:
     """A camera of the target frame, in the fixed frame."""
     return camera.placed(
-        add(target.position, turned(camera.position, target.yaw)),
-        add(target.position, turned(camera.look_at, target.yaw)),
+        target.position + turned(camera.position, target.yaw),
+        target.position + turned(camera.look_at, target.yaw),
         turned(camera.up, target.yaw),
     )
 
@@ -128,7 +134,7 @@ def to_fixed(camera: Camera, target: Target) -> Camera:
 def to_target(camera: Camera, target: Target) -> Camera:
     """A camera of the fixed frame, in the target frame."""
     return camera.placed(
-        turned(subtract(camera.position, target.position), -target.yaw),
-        turned(subtract(camera.look_at, target.position), -target.yaw),
+        turned(camera.position - target.position, -target.yaw),
+        turned(camera.look_at - target.position, -target.yaw),
         turned(camera.up, -target.yaw),
     )

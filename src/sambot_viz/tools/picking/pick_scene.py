@@ -1,10 +1,11 @@
-"""What a ray can meet in the picture: the robot, the axes of frames, the grid."""
+"""What is drawn, as shapes that rays can meet: the robot, axes of frames, the grid."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -12,40 +13,128 @@ from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.robot_model.link_settings import RobotSettings
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
-from sambot_viz.displays.tf.tf import TfDisplay
+from sambot_viz.displays.tf.tf import AXES_DIAMETER, AXES_LENGTH, TfDisplay
 from sambot_viz.geometry import Matrix
-from sambot_viz.meshes.mesh import MeshError, apply_scale
-from sambot_viz.robot.model import Geometry, MeshFile, Robot, Shape, Sphere
-from sambot_viz.tools.picking.raycast import (
-    Array,
-    Solid,
-    Triangles,
-    bounds,
-    cast,
-    cast_plane,
-)
-from sambot_viz.tools.tool import Hit, Rays, Thing, as_vector
+from sambot_viz.meshes.mesh import Mesh
+from sambot_viz.robot.model import Cylinder, MeshFile, Robot, Shape, Sphere
+from sambot_viz.robot.shape_files import asset_of
+from sambot_viz.tools.picking.raycast import Collider, bounds, cast, cast_plane
+from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
+from sambot_viz.tools.tool import Hit, Selectable
 
-AXES_REACH = 0.1
-"""A frame is met within this part of the Marker Scale around its origin."""
+FRAME_RADIUS = 0.1
+"""A frame is selected within this part of the Marker Scale around its origin."""
 NORMALS = {"XY": (0.0, 0.0, 1.0), "XZ": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
-    """A solid with its pose in the fixed frame, and what it belongs to."""
+class PlacedCollider:
+    """A shape with its pose, and the link or frame it belongs to.
 
-    thing: Thing
-    solid: Solid
+    Attributes:
+        item: the link or frame.
+        collider: the shape.
+        T: (4, 4) from the shape's frame to the fixed frame; it scales a mesh.
+        part: "drawn" is on the screen; "handle" is a larger shape around something
+            thin, so that it is easy to select; "both" is for what is large enough.
+    """
+
+    item: Selectable
+    collider: Collider
     T: Matrix
+    part: Literal["drawn", "handle", "both"] = "both"
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedGrid:
+    """The square of a grid: the plane is z = 0 or another pair of axes of its frame.
+
+    Attributes:
+        T: (4, 4) from the grid's frame to the fixed frame.
+        normal: which axis of that frame is across the plane, (3,).
+        offset: middle of the square in that frame, (3,) [m].
+        half: half of a side [m].
+    """
+
+    T: Matrix
+    normal: Array
+    offset: Array
+    half: float
+
+    def cast(self, origin: Array, direction: Array) -> float:
+        """How far along a ray the square is, inf beside it."""
+        o = (origin - self.T[:3, 3]) @ self.T[:3, :3]
+        d = direction @ self.T[:3, :3]
+        t = float(cast_plane(o[None], d[None], self.offset, self.normal)[0])
+        if not np.isfinite(t):
+            return np.inf
+        beside = np.abs(o + t * d - self.offset) * (self.normal == 0)
+        return t if np.all(beside <= self.half) else np.inf
+
+
+@dataclass(frozen=True, slots=True)
+class PickSnapshot:
+    """What is drawn at one moment; rays can be followed without any lock.
+
+    Attributes:
+        placed: what can be selected.
+        grids: what can only be pointed at.
+    """
+
+    placed: tuple[PlacedCollider, ...]
+    grids: tuple[PlacedGrid, ...]
+
+    @property
+    def triangles(self) -> int:
+        """How many triangles the meshes have together."""
+        meshes = (one.collider for one in self.placed)
+        return sum(len(m.faces) for m in meshes if isinstance(m, TriangleMesh))
+
+    def first_hit(self, origin: Array, direction: Array) -> Hit:
+        """What one ray meets first.
+
+        A grid is lines, and what is behind it is seen through it: it only counts
+        where the ray meets nothing else.
+
+        Args:
+            origin: (3,), in the fixed frame [m].
+            direction: (3,), of length 1.
+        """
+        rays = RayGrid.through(origin, direction)
+        nearest, reach = np.inf, np.inf
+        item: Selectable | None = None
+        for placed in self.placed:
+            t = float(cast(placed.collider, placed.T, rays)[0])
+            if placed.part != "handle":
+                nearest = min(nearest, t)
+            if placed.part != "drawn" and t < reach:
+                reach, item = t, placed.item
+        if not np.isfinite(nearest):
+            on_grids = (grid.cast(origin, direction) for grid in self.grids)
+            nearest = min(on_grids, default=np.inf)
+        if not np.isfinite(nearest):
+            return Hit(None, item)
+        return Hit(origin + nearest * direction, item)
+
+    def items_met(self, rays: RayGrid) -> set[Selectable]:
+        """The links and frames that some of the rays meet first."""
+        nearest = np.full(rays.count, np.inf)
+        owner = np.full(rays.count, -1)
+        for index, placed in enumerate(self.placed):
+            if placed.part == "drawn":
+                continue
+            t = cast(placed.collider, placed.T, rays)
+            nearer = t < nearest
+            nearest[nearer], owner[nearer] = t[nearer], index
+        return {self.placed[int(i)].item for i in np.unique(owner) if i >= 0}
 
 
 class PickScene:
-    """What is drawn at the moment, for rays.
+    """Knows what the displays of a session draw; read it with the session locked.
 
     Args:
         context: what the displays draw with.
-        displays: the displays of the session, whenever it is asked.
+        displays: returns the displays of the session.
     """
 
     def __init__(
@@ -53,50 +142,26 @@ class PickScene:
     ) -> None:
         self._context = context
         self._displays = displays
-        self._meshes: dict[tuple[object, ...], tuple[object, Triangles]] = {}
+        self._meshes: dict[Path, tuple[Mesh, tuple[TriangleMesh, ...]]] = {}
 
-    def first_hit(self, origin: Array, direction: Array) -> Hit | None:
-        """What one ray meets first; None for the background.
+    def snapshot(self) -> PickSnapshot:
+        """Everything that is drawn now; files are not read for it."""
+        placed = tuple(self._placed())
+        kept = {id(one.collider) for one in placed}
+        for path, (_, parts) in list(self._meshes.items()):
+            if not any(id(part) in kept for part in parts):
+                del self._meshes[path]
+        return PickSnapshot(placed, tuple(self._grids()))
 
-        Args:
-            origin: (3,), in the fixed frame [m].
-            direction: (3,), of length 1.
-        """
-        origins, directions = origin[None], direction[None]
-        best = np.inf
-        thing: Thing | None = None
-        for placed in self._placed():
-            t = float(cast(placed.solid, placed.T, origins, directions)[0])
-            if t < best:
-                best, thing = t, placed.thing
-        on_grid = self._grid(origins, directions)
-        if on_grid < best:
-            best, thing = on_grid, None
-        if not np.isfinite(best):
-            return None
-        return Hit(as_vector(origin + best * direction), thing)
-
-    def things_met(self, rays: Rays) -> set[Thing]:
-        """What the rays of a rectangle meet first; the grid hides nothing."""
-        best = np.full(len(rays.origins), np.inf)
-        owner = np.full(len(rays.origins), -1)
-        placed = list(self._placed())
-        for index, one in enumerate(placed):
-            t = cast(one.solid, one.T, rays.origins, rays.directions)
-            nearer = t < best
-            best[nearer], owner[nearer] = t[nearer], index
-        met = {int(index) for index in owner if index >= 0}
-        return {placed[index].thing for index in met}
-
-    def box_of(self, thing: Thing) -> tuple[Array, Array] | None:
+    def box_of(self, item: Selectable) -> tuple[Array, Array] | None:
         """The corners of the box around a link's shapes or a frame's axes [m]."""
-        boxes = [bounds(placed.solid, placed.T) for placed in self._placed(thing)]
+        boxes = [bounds(one.collider, one.T) for one in self._placed(item)]
         if not boxes:
             return None
         lows, highs = zip(*boxes, strict=True)
         return np.min(lows, axis=0), np.max(highs, axis=0)
 
-    def _placed(self, only: Thing | None = None) -> Iterator[Placed]:
+    def _placed(self, only: Selectable | None = None) -> Iterator[PlacedCollider]:
         for display in self._displays():
             if not display.shown:
                 continue
@@ -106,8 +171,8 @@ class PickScene:
                 yield from self._frames(display, only)
 
     def _links(
-        self, display: RobotModelDisplay, only: Thing | None
-    ) -> Iterator[Placed]:
+        self, display: RobotModelDisplay, only: Selectable | None
+    ) -> Iterator[PlacedCollider]:
         robot, get = self._context.robot, display.config.get
         if robot is None or get("Description Source") == "File":
             return
@@ -115,7 +180,8 @@ class PickScene:
         for link, shapes in _shapes(
             robot, get("Visual Enabled"), get("Collision Enabled")
         ):
-            if only not in (None, Thing("link", link)):
+            item = Selectable("link", link)
+            if only not in (None, item):
                 continue
             own = settings.link(link)
             T_fixed_link = self._pose(display.frame_of(link))
@@ -123,44 +189,63 @@ class PickScene:
                 continue
             for shape in shapes:
                 T = T_fixed_link @ shape.origin.matrix
-                for solid in self._solids(shape.geometry):
-                    yield Placed(Thing("link", link), solid, T)
+                yield from self._colliders(item, shape, T)
 
-    def _frames(self, display: TfDisplay, only: Thing | None) -> Iterator[Placed]:
-        reach = AXES_REACH * float(display.config.get("Marker Scale"))
+    def _colliders(
+        self, item: Selectable, shape: Shape, T: Matrix
+    ) -> Iterator[PlacedCollider]:
+        geometry = shape.geometry
+        if not isinstance(geometry, MeshFile):
+            yield PlacedCollider(item, geometry, T)
+            return
+        for mesh in self._triangles(shape):
+            yield PlacedCollider(item, mesh, T * (*geometry.scale, 1.0))
+
+    def _triangles(self, shape: Shape) -> tuple[TriangleMesh, ...]:
+        """The parts of a shape's mesh file; none while it is being read."""
+        robot, assets = self._context.robot, self._context.assets
+        asset = None if robot is None else asset_of(shape, robot.file_roots)
+        if asset is None or not assets.is_there(asset):
+            return ()
+        mesh = assets.take(asset)
+        if not isinstance(mesh, Mesh):
+            return ()
+        known = self._meshes.get(asset.path)
+        if known is None or known[0] is not mesh:
+            parts = (TriangleMesh.of(part.vertices, part.faces) for part in mesh.parts)
+            known = self._meshes[asset.path] = (mesh, tuple(parts))
+        return known[1]
+
+    def _frames(
+        self, display: TfDisplay, only: Selectable | None
+    ) -> Iterator[PlacedCollider]:
+        scale = float(display.config.get("Marker Scale"))
+        axis = Cylinder(AXES_DIAMETER * scale / 2, AXES_LENGTH * scale)
         for frame in self._context.tree.frames:
-            if only not in (None, Thing("frame", frame)):
+            item = Selectable("frame", frame)
+            if only not in (None, item):
                 continue
             T = self._pose(frame)
+            if T is None:
+                continue
+            yield PlacedCollider(item, Sphere(FRAME_RADIUS * scale), T, "handle")
+            if only is None:
+                for T_frame_axis in _axes(axis.length):
+                    yield PlacedCollider(item, axis, T @ T_frame_axis, "drawn")
+
+    def _grids(self) -> Iterator[PlacedGrid]:
+        for display in self._displays():
+            if not (display.shown and isinstance(display, GridDisplay)):
+                continue
+            get = display.config.get
+            T = self._pose(self._context.frame(get("Reference Frame")))
             if T is not None:
-                yield Placed(Thing("frame", frame), Sphere(reach), T)
-
-    def _solids(self, geometry: Geometry) -> Iterator[Solid]:
-        if not isinstance(geometry, MeshFile):
-            yield geometry
-            return
-        if geometry.path is None:
-            return
-        try:
-            mesh = self._context.meshes.get(geometry.path, self._roots())
-        except MeshError:
-            # What cannot be drawn cannot be met; its display says why.
-            return
-        for number, part in enumerate(mesh.parts):
-            key = (geometry.path, geometry.scale, number)
-            known = self._meshes.get(key)
-            if known is None or known[0] is not part:
-                scaled = apply_scale(part, geometry.scale)
-                vertices = np.asarray(scaled.vertices, np.float64)
-                known = (part, Triangles(vertices, np.asarray(scaled.faces)))
-                self._meshes[key] = known
-            yield known[1]
-
-    def _roots(self) -> tuple[Path, ...] | None:
-        robot = self._context.robot
-        return None if robot is None else robot.file_roots
+                normal = NORMALS.get(str(get("Plane")), NORMALS["XY"])
+                half = float(get("Plane Cell Count")) * float(get("Cell Size")) / 2
+                yield PlacedGrid(T, np.array(normal), np.array(get("Offset")), half)
 
     def _pose(self, frame: str) -> Matrix | None:
+        """T_fixed_frame, (4, 4); None when the frame cannot be placed."""
         tree, fixed = self._context.tree, self._context.fixed_frame
         if frame == fixed:
             return np.eye(4)
@@ -168,28 +253,15 @@ class PickScene:
             tree.lookup(fixed, frame).matrix if tree.can_lookup(fixed, frame) else None
         )
 
-    def _grid(self, origins: Array, directions: Array) -> float:
-        """How far the nearest shown grid is along the first ray [m]."""
-        best = np.inf
-        for display in self._displays():
-            if not (display.shown and isinstance(display, GridDisplay)):
-                continue
-            get = display.config.get
-            T = self._pose(self._context.frame(get("Reference Frame")))
-            if T is None:
-                continue
-            o = (origins - T[:3, 3]) @ T[:3, :3]
-            d = directions @ T[:3, :3]
-            normal = np.array(NORMALS.get(str(get("Plane")), NORMALS["XY"]))
-            offset = np.asarray(get("Offset"), np.float64)
-            t = float(cast_plane(o, d, offset, normal)[0])
-            if not np.isfinite(t):
-                continue
-            half = float(get("Plane Cell Count")) * float(get("Cell Size")) / 2
-            in_plane = np.abs(o[0] + t * d[0] - offset) * (normal == 0)
-            if np.all(in_plane <= half):
-                best = min(best, t)
-        return best
+
+def _axes(length: float) -> Iterator[Matrix]:
+    """The poses of cylinders (along their z) that are the axes of a frame."""
+    for column in range(3):
+        T = np.eye(4)
+        # Rolling the columns brings z to x, y or z and keeps the system right-handed.
+        T[:3, :3] = np.roll(np.eye(3), column - 2, axis=1)
+        T[:3, 3] = T[:3, 2] * length / 2
+        yield T
 
 
 def _shapes(

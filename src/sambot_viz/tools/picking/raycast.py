@@ -1,78 +1,73 @@
 """Where rays meet shapes.
 
-viser tells the ray of a click but not what it hits (spec/viser.md §1.4), so the ray
-is followed here. All rays of one call are followed at once: origins and directions
-are (N, 3) float64 [m], directions of length 1; distances are (N,) float64 [m], inf
-where nothing is hit in front of the origin.
+viser reports the ray of a click but not what it hits, so the ray is followed here.
+All rays of one call are followed at once; distances are (N,) float64, counted in
+multiples of the rays' directions, and inf where nothing is hit in front of the eye.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
-
 import numpy as np
-import numpy.typing as npt
 
 from sambot_viz.geometry import Matrix, Vector3
 from sambot_viz.robot.model import Box, Capsule, Cylinder, Sphere
+from sambot_viz.tools.picking.mesh_raycast import cast_mesh
+from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
 
-Array = npt.NDArray[np.float64]
-Indices = npt.NDArray[np.integer[Any]]
-PAIRS = 2_000_000
-"""So many rays × triangles are tried at once, which bounds the memory."""
-
-
-@dataclass(frozen=True, slots=True)
-class Triangles:
-    """A mesh: vertices (V, 3) [m] and faces (F, 3)."""
-
-    vertices: Array
-    faces: Indices
+Collider = Box | Cylinder | Sphere | Capsule | TriangleMesh
+"""A shape that rays can meet."""
 
 
-Solid = Box | Cylinder | Sphere | Capsule | Triangles
-
-
-def cast(solid: Solid, T: Matrix, origins: Array, directions: Array) -> Array:
-    """How far along each ray a solid is met first.
+def cast(collider: Collider, T: Matrix, rays: RayGrid) -> Array:
+    """How far along each ray a shape is met first.
 
     Args:
-        solid: what to meet, in its own frame.
-        T: pose of the solid in the frame of the rays, (4, 4).
-        origins: where the rays begin, (N, 3).
-        directions: where they go, (N, 3).
+        collider: what to meet, in its own frame.
+        T: (4, 4) map from the shape's frame to that of the rays; it may scale.
+        rays: N rays.
+
+    Returns:
+        (N,) distances in multiples of the direction, inf where nothing is met.
     """
-    R, p = T[:3, :3], T[:3, 3]
-    o, d = (origins - p) @ R, directions @ R
-    if isinstance(solid, Box):
-        return _box(o, d, np.asarray(solid.size) / 2)
-    if isinstance(solid, Sphere):
-        return _sphere(o, d, solid.radius)
-    if isinstance(solid, Cylinder):
-        return _cylinder(o, d, solid.radius, solid.length / 2, capped=True)
-    if isinstance(solid, Capsule):
-        half = solid.length / 2
-        side = _cylinder(o, d, solid.radius, half, capped=False)
-        ends = [_sphere(o - (0, 0, z), d, solid.radius) for z in (half, -half)]
+    local = rays.seen_from(T)
+    if local is None:
+        return np.full(rays.count, np.inf)
+    d = local.directions
+    o = np.broadcast_to(local.origin, d.shape)
+    if isinstance(collider, Box):
+        return _box(o, d, np.asarray(collider.size) / 2)
+    if isinstance(collider, Sphere):
+        return _sphere(o, d, collider.radius)
+    if isinstance(collider, Cylinder):
+        return _cylinder(o, d, collider.radius, collider.length / 2, capped=True)
+    if isinstance(collider, Capsule):
+        half = collider.length / 2
+        side = _cylinder(o, d, collider.radius, half, capped=False)
+        ends = [_sphere(o - (0, 0, z), d, collider.radius) for z in (half, -half)]
         return np.minimum(side, np.minimum(*ends))
-    return _triangles(o, d, solid)
+    middle, half_size = (collider.low + collider.high) / 2, _half_size(collider)
+    if not np.isfinite(_box(o - middle, d, half_size + 1e-9)).any():
+        return np.full(rays.count, np.inf)
+    return cast_mesh(local, collider)
 
 
-def bounds(solid: Solid, T: Matrix) -> tuple[Array, Array]:
-    """The corners (3,) of the box along the axes that a solid fills [m]."""
-    R, p = np.abs(T[:3, :3]), T[:3, 3]
-    if isinstance(solid, Triangles):
-        points: Array = np.einsum("ij,vj->vi", T[:3, :3], solid.vertices) + p
-        return points.min(axis=0), points.max(axis=0)
-    half = R @ _half_size(solid)
-    return p - half, p + half
+def bounds(collider: Collider, T: Matrix) -> tuple[Array, Array]:
+    """The corners (3,) of the box along the axes around a shape's own box [m].
+
+    As in RViz, a turned shape gets the box around its turned box.
+    """
+    middle = np.zeros(3)
+    if isinstance(collider, TriangleMesh):
+        middle = (collider.low + collider.high) / 2
+    center = T[:3, :3] @ middle + T[:3, 3]
+    half = np.abs(T[:3, :3]) @ _half_size(collider)
+    return center - half, center + half
 
 
 def cast_plane(
     origins: Array, directions: Array, point: Vector3 | Array, normal: Vector3 | Array
 ) -> Array:
-    """How far along each ray an endless plane is."""
+    """How far along each ray an endless plane is; all but point and normal (N, 3)."""
     n: Array = np.asarray(normal, np.float64)
     at: Array = np.asarray(point, np.float64)
     up: Array = np.einsum("ni,i->n", at - origins, n)
@@ -81,13 +76,15 @@ def cast_plane(
         return _in_front(up / along)
 
 
-def _half_size(solid: Box | Cylinder | Sphere | Capsule) -> Array:
-    if isinstance(solid, Box):
-        return np.asarray(solid.size) / 2
-    r = solid.radius
-    if isinstance(solid, Sphere):
+def _half_size(collider: Collider) -> Array:
+    if isinstance(collider, TriangleMesh):
+        return (collider.high - collider.low) / 2
+    if isinstance(collider, Box):
+        return np.asarray(collider.size, np.float64) / 2
+    r = collider.radius
+    if isinstance(collider, Sphere):
         return np.array((r, r, r))
-    z = solid.length / 2 + (r if isinstance(solid, Capsule) else 0.0)
+    z = collider.length / 2 + (r if isinstance(collider, Capsule) else 0.0)
     return np.array((r, r, z))
 
 
@@ -140,35 +137,3 @@ def _cylinder(o: Array, d: Array, radius: float, half: float, capped: bool) -> A
             on_cap = (at**2).sum(axis=1) <= radius**2
             best = np.minimum(best, np.where(on_cap, t, np.inf))
     return best
-
-
-def _triangles(o: Array, d: Array, mesh: Triangles) -> Array:
-    """Möller and Trumbore's test, for the rays that meet the mesh's box."""
-    best = np.full(len(o), np.inf)
-    if not len(mesh.faces):
-        return best
-    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
-    middle, half = (low + high) / 2, (high - low) / 2 + 1e-9
-    rays = np.flatnonzero(np.isfinite(_box(o - middle, d, half)))
-    corner = mesh.vertices[mesh.faces[:, 0]]
-    one = mesh.vertices[mesh.faces[:, 1]] - corner
-    two = mesh.vertices[mesh.faces[:, 2]] - corner
-    step = max(1, PAIRS // len(mesh.faces))
-    for start in range(0, len(rays), step):
-        some = rays[start : start + step]
-        best[some] = _meet(o[some], d[some], corner, one, two)
-    return best
-
-
-def _meet(o: Array, d: Array, corner: Array, one: Array, two: Array) -> Array:
-    """Distances (N,) of N rays to the nearest of F triangles, from either side."""
-    p = np.cross(d[:, None, :], two[None])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        inverse = 1.0 / np.einsum("fk,nfk->nf", one, p)
-        s = o[:, None, :] - corner[None]
-        u = np.einsum("nfk,nfk->nf", s, p) * inverse
-        q = np.cross(s, one[None])
-        v = np.einsum("nk,nfk->nf", d, q) * inverse
-        t = np.einsum("fk,nfk->nf", two, q) * inverse
-        hit = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0) & (t >= 0.0)
-    return np.where(hit & np.isfinite(t), t, np.inf).min(axis=1)

@@ -1,0 +1,65 @@
+"""The cyan boxes that RViz draws around selected links and frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.tools.picking.rays import Array
+from sambot_viz.tools.tool import Selectable
+
+CYAN = (0, 255, 255)
+CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+EDGES = np.array(
+    [
+        (a, b)
+        for a in range(8)
+        for b in range(a + 1, 8)
+        if np.abs(CORNERS[a] - CORNERS[b]).sum() == 1
+    ]
+)
+
+
+class SelectionBoxes:
+    """One box of lines per selected item, along the axes of the fixed frame."""
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        self._scene = scene
+        self._drawn: dict[Selectable, tuple[bytes, viser.LineSegmentsHandle]] = {}
+        self._count = 0
+
+    def draw(self, boxes: Mapping[Selectable, tuple[Array, Array]]) -> None:
+        """Draw these boxes and no others; a box that has not moved is not sent again.
+
+        Args:
+            boxes: item → lowest and highest corner in the fixed frame, (3,) [m].
+        """
+        for item in [item for item in self._drawn if item not in boxes]:
+            self._drawn.pop(item)[1].remove()
+        for item, (low, high) in boxes.items():
+            lines = box_lines(low, high)
+            known = self._drawn.get(item)
+            if known is None:
+                self._drawn[item] = (lines.tobytes(), self._add(lines))
+            elif known[0] != lines.tobytes():
+                known[1].points = lines
+                self._drawn[item] = (lines.tobytes(), known[1])
+
+    def _add(self, lines: npt.NDArray[np.float32]) -> viser.LineSegmentsHandle:
+        self._count += 1
+        return self._scene.add_line_segments(
+            f"/~selected{self._count}",
+            lines,
+            colors=CYAN,
+            thickness=1.5,
+            thickness_units="screen",
+        )
+
+
+def box_lines(low: Array, high: Array) -> npt.NDArray[np.float32]:
+    """The twelve edges of a box, (12, 2, 3) float32 [m]."""
+    points = low + CORNERS * (high - low)
+    return points[EDGES].astype(np.float32)
