@@ -84,8 +84,12 @@ class Inputs:
         with contextlib.suppress(InvalidStateError):
             self._robot.set_exception(KeyboardInterrupt())
 
-    def load(self, model: PathLike | OpenedModel) -> Robot:
+    def load(self, model: PathLike | OpenedModel, trusted: bool = True) -> Robot:
         """Load a model with the xacro arguments and packages of the options.
+
+        Args:
+            model: the file.
+            trusted: False for a file that a browser named, whose code must not run.
 
         Raises:
             RobotError: the model cannot be shown.
@@ -94,7 +98,7 @@ class Inputs:
             model,
             xacro_args=self._options.xacro_args,
             package_path=self._options.package_path,
-            trusted=self._options.trusted,
+            trusted=trusted and self._options.trusted,
         )
 
     def document(self) -> RvizConfig:

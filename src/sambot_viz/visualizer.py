@@ -11,6 +11,7 @@ from typing import Any, Concatenate, ParamSpec
 
 import viser
 
+from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.errors import ServerError
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
@@ -100,8 +101,9 @@ class Visualizer:
         prepare(document)
         documents = Documents(document, None if options.session == "shared" else _copy)
         self._reloader: Reloader | None = None
+        models = ModelReader(inputs.load, options.package_path)
         self._server = Server(
-            options, documents, inputs.load, listening, Presets(inputs.poses)
+            options, documents, models, listening, Presets(inputs.poses)
         )
         try:
             robot = inputs.robot()

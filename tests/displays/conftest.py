@@ -9,6 +9,7 @@ import pytest
 import viser
 
 from sambot_viz import load_robot
+from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.open_config import declarations
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
@@ -80,11 +81,12 @@ def show(arm: Robot) -> Iterator[Show]:
         document = RvizConfig.parse(text, declarations())
         options = Options(port=0, panels=False)
         robots = {Path(name).name: robot for name, robot in (files or {}).items()}
-        load = lambda path: robots[Path(path).name]  # noqa: E731
-        server = Server(options, lambda: document, load)
+        models = ModelReader(lambda path, trusted: robots[path.name])
+        server = Server(options, lambda: document, models)
         servers.append(server)
         if robot is not None:
             server.show_robot(robot)
+        server.wait_for_meshes(20)
         assert server.shared is not None
         return server.shared
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import ClassVar
 
 import viser
 
 from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.status import StatusList
@@ -39,7 +41,10 @@ class DisplayContext:
         background: colour behind the scene, 0 to 255.
         robot: the robot that was opened, or None.
         moving: child frame → the joint type that moves it.
-        load_file: reads another model, for a RobotModel from a file.
+        models: reads other models, for a RobotModel from a file.
+        config_file: the .rviz file that was opened, or None.
+        trusted_files: the files that it named when it was opened.
+        apply: runs a function that draws, from any thread, and sends what it draws.
     """
 
     scene: viser.SceneApi
@@ -50,7 +55,10 @@ class DisplayContext:
     background: tuple[int, int, int] = (48, 48, 48)
     robot: Robot | None = None
     moving: Mapping[str, str] = field(default_factory=dict[str, str])
-    load_file: Callable[[str], Robot] | None = None
+    models: ModelReader | None = None
+    config_file: Path | None = None
+    trusted_files: frozenset[str] = frozenset()
+    apply: Callable[[Callable[[], None]], None] = lambda action: action()
     assets: SessionAssets = field(init=False)
 
     def __post_init__(self) -> None:
@@ -125,6 +133,24 @@ class Display:
     def clear(self) -> None:
         """Take everything out of the scene."""
         raise NotImplementedError
+
+    def refusal(self, path: str, value: object) -> str | None:
+        """Why a browser may not set a property to a value; None when it may."""
+        del path, value
+        return None
+
+    @property
+    def own_robot(self) -> Robot | None:
+        """The robot that the display has read from a file of its own."""
+        return None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The files that its own robot comes from, meshes left out."""
+        return ()
+
+    def read_again(self) -> None:
+        """One of its files has been saved."""
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""

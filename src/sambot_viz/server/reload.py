@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz.displays.display import Display
 from sambot_viz.errors import ConfigError, Problem, RobotError
-from sambot_viz.meshes.asset import Asset
 from sambot_viz.open_config import load_config
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.shape_files import assets_of, something_missing
@@ -116,13 +116,21 @@ class Reloader:
         return {*(() if robot is None else robot.files), *self._suspects}
 
     def _asset_files(self) -> set[Path]:
-        robot = self._server.robot
-        assets: Iterator[Asset] = iter(()) if robot is None else assets_of(robot)
-        return {file for asset in assets for file in self._server.meshes.files(asset)}
+        others = (display.own_robot for display in self._displays())
+        robots = [r for r in (self._server.robot, *others) if r is not None]
+        files = self._server.meshes.files
+        return {
+            f for robot in robots for asset in assets_of(robot) for f in files(asset)
+        }
+
+    def _displays(self) -> Iterator[Display]:
+        for session in self._server.sessions():
+            yield from session.displays
 
     def _files(self) -> set[Path]:
         config = {self._config} if self._config is not None else set[Path]()
-        return self._model_files() | self._asset_files() | config
+        own = {file for display in self._displays() for file in display.files}
+        return self._model_files() | self._asset_files() | config | own
 
     def _folders(self) -> list[Path]:
         """Where a file that is missing now may appear."""
@@ -155,6 +163,8 @@ class Reloader:
         model, assets = self._model_files(), self._asset_files()
         if self._config is not None and self._config in changed:
             self._reload_config(self._config)
+        for session in self._server.sessions():
+            session.files_saved(changed)
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return

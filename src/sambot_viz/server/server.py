@@ -11,6 +11,7 @@ from typing import cast
 import viser
 
 from sambot_viz import viser_private
+from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshStore
@@ -36,7 +37,7 @@ class Server:
     Args:
         options: where to listen, for whom, and what every session begins with.
         make_config: a fresh .rviz document; called once per session.
-        load_file: reads another model, for a RobotModel from a file.
+        models: reads other models, for a RobotModel from a file.
         listening: a viser server that listens already; None makes one.
         poses: the named poses, shared by all sessions; None keeps new ones in memory.
 
@@ -49,14 +50,14 @@ class Server:
         self,
         options: Options,
         make_config: MakeConfig,
-        load_file: Callable[[str], Robot] | None = None,
+        models: ModelReader | None = None,
         listening: viser.ViserServer | None = None,
         poses: Presets | None = None,
     ) -> None:
         self.options = options
         self._poses = poses or Presets()
         self._make_config = make_config
-        self._load_file = load_file
+        self._models = models
         self.meshes = MeshStore()
         self._reader = AssetReader(self.meshes)
         self._lock = threading.RLock()
@@ -159,7 +160,7 @@ class Server:
             return list(self._viser.get_clients().values())[-1]
 
     def wait_for_meshes(self, timeout: float) -> None:
-        """Return when every mesh file and texture is read and drawn.
+        """Return when every model, mesh file and texture is read and drawn.
 
         Args:
             timeout: for each session [s].
@@ -167,6 +168,8 @@ class Server:
         Raises:
             ServerError: that took longer.
         """
+        if self._models is not None and not self._models.wait(timeout):
+            raise ServerError(f"a model was not read within {timeout:g} s")
         for session in self.sessions():
             if not session.context.assets.wait(timeout):
                 raise ServerError(f"the meshes were not read within {timeout:g} s")
@@ -197,7 +200,7 @@ class Server:
             worker,
             self._make_config(),
             self.meshes,
-            self._load_file,
+            self._models,
             self._reader,
             self.options,
             self._poses,
@@ -211,7 +214,9 @@ class Server:
             session.set_reload_problems(of, problems)
         if not self.options.panels:
             return session, None
-        return session, Layout(session, joints=self.options.gui)
+        # A model that is being read may change the displays while panels are made.
+        with session.lock:
+            return session, Layout(session, joints=self.options.gui)
 
     async def _join(self, client: viser.ClientHandle) -> None:
         if self.shared is not None:

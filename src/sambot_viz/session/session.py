@@ -8,8 +8,9 @@ out at once, streams go out at the config's Frame Rate (DESIGN §4.5).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, Literal, Protocol
 
 import numpy as np
@@ -17,10 +18,11 @@ import viser
 
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.displays.status import Status
-from sambot_viz.errors import Problem, SambotVizError
+from sambot_viz.errors import Problem, SambotVizError, UsageError
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.geometry import Matrix
@@ -29,7 +31,7 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshStore
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
-from sambot_viz.rviz import DisplayConfig, RvizConfig
+from sambot_viz.rviz import DisplayConfig, FileProperty, RvizConfig
 from sambot_viz.session.motion import Motion
 from sambot_viz.session.robot_state import RobotState
 from sambot_viz.session.throttle import Throttle
@@ -68,7 +70,7 @@ class Session:
             the session.
         config: the .rviz document; the session changes it as the user does.
         meshes: mesh files that are read already (shared by all sessions).
-        load_file: reads another model, for a RobotModel from a file.
+        models: reads other models, for a RobotModel from a file.
         reader: reads mesh files in the background; None reads them while drawing.
         options: the start pose, the static transforms and the wheels.
         poses: the named poses; None keeps new ones in memory.
@@ -83,7 +85,7 @@ class Session:
         worker: Worker,
         config: RvizConfig,
         meshes: MeshStore,
-        load_file: Callable[[str], Robot] | None = None,
+        models: ModelReader | None = None,
         reader: Reader | None = None,
         options: Options | None = None,
         poses: Presets | None = None,
@@ -111,10 +113,12 @@ class Session:
             tree=self.tree,
             nodes=FrameNodes(audience.scene),
             meshes=meshes,
-            load_file=load_file,
+            models=models,
+            apply=self._apply,
         )
         self.context.assets = SessionAssets(meshes, reader, self._assets_read)
         self._pacer = Throttle(worker, self.period, self._draw_moved)
+        self._trust_named_files()
         self._take_globals()
         self.views = ViewControl(self)
         self.motion = Motion(self)
@@ -142,6 +146,7 @@ class Session:
         """Show another document: its displays and options; cameras stay."""
         with self.change():
             self.config = config
+            self._trust_named_files()
             self._take_globals()
             self.context.nodes.sync(self.tree, self.context.fixed_frame)
             self.show_config()
@@ -286,10 +291,18 @@ class Session:
                 self._redraw()
 
     def set_property(self, display: Display, path: str, value: Any) -> None:
-        """Set one property of a display and draw what changes."""
+        """Set one property of a display and draw what changes.
+
+        Raises:
+            UsageError: the value cannot be meant, or the display refuses it.
+        """
         with self.change("status"):
-            display.config.set(path, value)
-            display.property_changed(path)
+            refusal = display.refusal(path, value)
+            if refusal is None:
+                display.config.set(path, value)
+                display.property_changed(path)
+        if refusal is not None:
+            raise UsageError(refusal)
 
     def set_enabled(self, display: Display, enabled: bool) -> None:
         """Tick or untick a display's box."""
@@ -302,6 +315,17 @@ class Session:
         with self.change():
             self.context.assets.look_again()
             self._redraw()
+
+    def files_saved(self, files: Set[Path]) -> None:
+        """Read again the robots that displays have from some of these files."""
+        with self.change("status"):
+            for display in self.displays:
+                if not files.isdisjoint(display.files):
+                    display.read_again()
+
+    def _apply(self, action: Callable[[], None]) -> None:
+        with self.change("config", "status"):
+            action()
 
     def _assets_read(self) -> None:
         with self.change("status"):
@@ -351,6 +375,7 @@ class Session:
 
     def close(self) -> None:
         """Send nothing any more."""
+        self.context.apply = lambda action: None
         self.motion.close()
         self.views.close()
         self.tools.close()
@@ -383,6 +408,17 @@ class Session:
             if display.shown:
                 display.draw()
         self._tell("status")
+
+    def _trust_named_files(self) -> None:
+        """Remember which files the config names, before a browser can change it."""
+        file = self.config.file
+        self.context.config_file = None if file is None else Path(file)
+        self.context.trusted_files = frozenset(
+            str(display.get(path))
+            for display in walk(self.config.displays)
+            for path, declared in display.declared.items()
+            if isinstance(declared.property, FileProperty)
+        )
 
     def _take_globals(self) -> None:
         options = self.config.global_options

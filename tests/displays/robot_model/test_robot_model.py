@@ -263,4 +263,7 @@ def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_late
     session = show(body, files={"other.urdf": arm}, robot=None)
     assert model_of(session).status.rows["URDF"].level == "Error"
     session.show_robot(replace(arm, files=(tmp_path / "opened.urdf",)))
+    models = session.context.models
+    assert models is not None
+    assert models.wait(20)
     assert "b/tool" in session.tree.frames

@@ -1,16 +1,22 @@
-"""Finding the model file that a config names, also when it is another machine's."""
+"""Finding the model file that a config or a browser names."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
+from sambot_viz.files import is_below
+from sambot_viz.robot.model import Robot
+
 MOST_LEVELS = 5
-"""So far above a folder a package is looked for."""
+"""So many folders, from a given one upwards, are looked in."""
+MOST_PARTS = 40
+"""Of a longer path only the last so many parts are looked for."""
 
 
 def find_description(name: str, near: Sequence[Path]) -> Path | None:
-    """The file meant by "Description File".
+    """The file that "Description File" of an opened config means.
 
     RViz takes the path as it is. A path of another machine is tried with ever fewer
     of its leading folders, below the folders that the opened files are in: with
@@ -24,18 +30,66 @@ def find_description(name: str, near: Sequence[Path]) -> Path | None:
     Returns:
         None when there is no such file.
     """
+    found = (path for path in _candidates(name, near) if os.path.isfile(path))
+    return next(found, None)
+
+
+def find_below(name: str, folders: Sequence[Path]) -> Path | None:
+    """The file that a browser means: only one that lies below some opened folders.
+
+    Nothing outside the folders is looked at, so the answer reveals nothing about it.
+
+    Args:
+        name: as for `find_description`.
+        folders: the folders that were opened on the command line.
+
+    Returns:
+        None when there is no such file, or when it lies elsewhere.
+    """
+    real = [folder.resolve() for folder in folders]
+    written = [*real, *(folder.absolute() for folder in folders)]
+    for path in _candidates(name, folders):
+        plain = Path(os.path.normpath(path))
+        # The text decides first, and only then the disk.
+        if any(map(plain.is_relative_to, written)):
+            if is_below(plain, real) and os.path.isfile(plain):
+                return plain
+    return None
+
+
+def opened_folders(
+    robot: Robot | None, config: Path | None, package_path: Sequence[Path | str]
+) -> tuple[Path, ...]:
+    """The folders that the command line opened.
+
+    Args:
+        robot: the opened model; its package, or else the folder of its file, is open.
+        config: the .rviz file; its folder is open.
+        package_path: folders, or ``name=folder``.
+    """
+    model = [_package_of(file) for file in robot.files[:1]] if robot else []
+    beside = [config.absolute().parent] if config is not None else []
+    listed = [Path(str(entry).rpartition("=")[2]).absolute() for entry in package_path]
+    return tuple(dict.fromkeys((*model, *beside, *listed)))
+
+
+def _package_of(file: Path) -> Path:
+    """The nearest folder above a file that is a package, or else its folder."""
+    parents = file.absolute().parents
+    return next((p for p in parents if (p / "package.xml").is_file()), parents[0])
+
+
+def _candidates(name: str, near: Sequence[Path]) -> Iterator[Path]:
+    """The path itself, then ever shorter ends of it below the folders and above."""
     name = name.removeprefix("file://").removeprefix("package://")
-    own = Path(name).expanduser()
-    if own.is_file():
-        return own
-    parts = _parts(name)
+    if "\0" in name:
+        return
+    yield Path(os.path.expanduser(name))
+    parts = _parts(name)[-MOST_PARTS:]
     bases = list(dict.fromkeys(base for folder in near for base in _above(folder)))
     for start in range(len(parts)):
         for base in bases:
-            path = base.joinpath(*parts[start:])
-            if path.is_file():
-                return path
-    return None
+            yield base.joinpath(*parts[start:])
 
 
 def _parts(name: str) -> Sequence[str]:

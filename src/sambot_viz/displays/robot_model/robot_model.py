@@ -8,7 +8,11 @@ from typing import Literal
 
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.robot_model.description_file import find_description
+from sambot_viz.displays.robot_model.description_file import (
+    find_below,
+    find_description,
+    opened_folders,
+)
 from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
 from sambot_viz.displays.robot_model.link_rows import robot_entries
 from sambot_viz.displays.robot_model.link_settings import (
@@ -33,6 +37,10 @@ from sambot_viz.rviz import (
     StringProperty,
     TopicProperty,
 )
+
+FILE = "Description File"
+OUTSIDE = "The model file must lie below the folders that were opened"
+"""All that is said: a browser learns nothing about other files."""
 
 Kind = Literal["visual", "collision"]
 _ShapeKey = tuple[str, Kind, int]
@@ -84,7 +92,7 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         help="The robot that was opened, or a model file of its own.",
     ),
     FileProperty(
-        "Description File",
+        FILE,
         default="",
         help="The model file to show.",
         hidden_unless=("Description Source", "File"),
@@ -121,6 +129,10 @@ class RobotModelDisplay(Display):
         super().__init__(context, config, key)
         self._robot: Robot | None = None
         self._source: tuple[object, ...] = ()
+        self._files: tuple[Path, ...] = ()
+        self._file_status: Status | None = None
+        self._looked_for: tuple[object, ...] = ()
+        self._found: Path | None = None
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
         self._marks = RobotMarks(context, key, self.frame_of)
 
@@ -188,8 +200,7 @@ class RobotModelDisplay(Display):
         """The robot to draw: the opened one, or the one of "Description File"."""
         source: tuple[object, ...]
         if self.config.get("Description Source") == "File":
-            # The file is looked for again when a robot is opened elsewhere.
-            source = ("File", str(self.config.get("Description File")), self._near())
+            source = ("File", *self._named_file())
         else:
             source = ("Topic", id(self.context.robot))
         if source != self._source:
@@ -199,33 +210,103 @@ class RobotModelDisplay(Display):
                 self._remove_shapes()
                 self.status.clear()
             self._source = source
-            self._robot = self._load(source)
+            self._robot, self._files, self._file_status = None, (), None
+            if source[0] == "Topic":
+                self._robot = self.context.robot
+            else:
+                self._read_file()
         return self._robot
 
-    def _load(self, source: tuple[object, ...]) -> Robot | None:
-        if source[0] == "Topic":
-            return self.context.robot
-        if not source[1] or self.context.load_file is None:
-            return None
-        path = find_description(str(source[1]), [*self._near(), Path.cwd()])
-        if path is None:
-            self.status.set("URDF", "Error", f"URDF is empty: no file '{source[1]}'")
-            return None
-        try:
-            return self.context.load_file(str(path))
-        except RobotError as error:
-            text = "URDF failed Model parse"
-            self.status.set("URDF", "Error", f"{text}: {error.problems[0].message}")
-            return None
+    def _opened(self) -> tuple[Path, ...]:
+        models = self.context.models
+        packages = models.package_path if models is not None else ()
+        return opened_folders(self.context.robot, self.context.config_file, packages)
 
-    def _near(self) -> tuple[Path, ...]:
-        """The folder of the opened robot."""
-        opened = self.context.robot
-        return tuple(file.parent for file in opened.files[:1]) if opened else ()
+    def _named_file(self) -> tuple[str, bool, Path | None]:
+        """What "Description File" says, whether it is trusted, and the file it means.
+
+        The file is looked for again when a robot is opened elsewhere.
+        """
+        name = str(self.config.get(FILE))
+        wanted = (name, name in self.context.trusted_files, self._opened())
+        if wanted != self._looked_for:
+            self._looked_for = wanted
+            self._found = self._find(name, wanted[1]) if name else None
+        return (*wanted[:2], self._found)
+
+    def _read_file(self) -> None:
+        """Start reading "Description File"; `_take_file` gets what comes of it."""
+        name, trusted, path = self._named_file()
+        models = self.context.models
+        if not name or models is None:
+            return
+        if path is None:
+            text = f"URDF is empty: no file '{name}'" if trusted else OUTSIDE
+            self.status.set("URDF", "Error", text)
+            return
+        if self._robot is None:
+            self.status.set("URDF", "Warn", "The model file is still being read")
+        source = self._source
+        self._files = tuple(dict.fromkeys((path, *self._files)))
+
+        def done(result: Robot | RobotError) -> None:
+            self.context.apply(lambda: self._take_file(source, trusted, result))
+
+        models.read(self, path, trusted, done)
+
+    def _find(self, name: str, trusted: bool) -> Path | None:
+        opened = self._opened()
+        if not trusted:
+            return find_below(name, opened)
+        robot = self.context.robot
+        beside = [file.parent for file in robot.files[:1]] if robot else []
+        return find_description(name, [*beside, *opened, Path.cwd()])
+
+    def _take_file(
+        self, source: tuple[object, ...], trusted: bool, result: Robot | RobotError
+    ) -> None:
+        """Show what was read, unless another robot is wanted by now."""
+        if source != self._source:
+            return
+        if isinstance(result, Robot):
+            self._robot, self._file_status = result, None
+            self._files = tuple(dict.fromkeys((*self._files[:1], *result.files)))
+        else:
+            # A browser could name any file here: its text is not quoted.
+            why = result.problems[0].message if trusted else "see `sambot-viz check`"
+            status = Status("Error", f"URDF failed Model parse: {why}")
+            self._file_status = status
+            self.status.set("URDF", status.level, status.text)
+        if self.shown and self._robot is not None:
+            self.draw()
+
+    def refusal(self, path: str, value: object) -> str | None:
+        """A model file must lie below the folders that were opened."""
+        if path != FILE or not isinstance(value, str) or not value:
+            return None
+        if value in self.context.trusted_files or self._find(value, trusted=False):
+            return None
+        self.status.set(FILE, "Error", OUTSIDE)
+        return OUTSIDE
+
+    @property
+    def own_robot(self) -> Robot | None:
+        """The robot of "Description File"."""
+        return self._robot if self._source[:1] == ("File",) else None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """What that robot is read from."""
+        return self._files
+
+    def read_again(self) -> None:
+        """Read "Description File" again; the last good robot stays until then."""
+        if self._source[:1] == ("File",):
+            self._read_file()
 
     def _report(self, robot: Robot) -> None:
         rows: dict[str, Status] = {}
-        rows["URDF"] = self._geometry_status()
+        rows["URDF"] = self._file_status or self._geometry_status()
         fixed = self.context.fixed_frame
         for name in robot.links:
             frame = self.frame_of(name)

@@ -1,0 +1,90 @@
+"""Reading the models that displays name, away from the event loop."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+from sambot_viz.errors import RobotError
+from sambot_viz.robot.model import Robot
+
+Result: TypeAlias = "Robot | RobotError"
+
+
+class ModelReader:
+    """Reads one model after the other in a thread that lives while there is work.
+
+    Expanding a xacro file may take 20 seconds. Of several requests of one display only
+    the latest is carried out, so a browser that asks often keeps one thread busy.
+
+    Args:
+        load: reads a model; its second argument is False for a file that a browser
+            named, which must be expanded without running its code.
+        package_path: the folders in which packages are looked for.
+    """
+
+    def __init__(
+        self,
+        load: Callable[[Path, bool], Robot],
+        package_path: Sequence[Path | str] = (),
+    ) -> None:
+        self.package_path = tuple(package_path)
+        self._load = load
+        self._changed = threading.Condition()
+        self._requests: dict[int, Callable[[], None]] = {}
+        self._running = False
+
+    def read(
+        self, owner: object, path: Path, trusted: bool, done: Callable[[Result], None]
+    ) -> None:
+        """Read a model soon.
+
+        Args:
+            owner: who asks; replaces what it asked for before.
+            path: the file.
+            trusted: whether its code may run.
+            done: takes the robot, or why there is none; called in the thread.
+        """
+
+        def work() -> None:
+            try:
+                result: Result = self._load(path, trusted)
+            except RobotError as error:
+                result = error
+            done(result)
+
+        with self._changed:
+            self._requests[id(owner)] = work
+            if not self._running:
+                self._running = True
+                name = "sambot-viz-models"
+                threading.Thread(target=self._run, name=name, daemon=True).start()
+
+    def wait(self, timeout: float) -> bool:
+        """Wait until nothing is being read; False when that takes longer [s]."""
+        with self._changed:
+            return self._changed.wait_for(lambda: not self._running, timeout)
+
+    def _run(self) -> None:
+        while (work := self._next()) is not None:
+            try:
+                work()
+            except BaseException:
+                # After an internal error the next request starts another thread.
+                with self._changed:
+                    self._stopped()
+                raise
+
+    def _next(self) -> Callable[[], None] | None:
+        with self._changed:
+            owner = next(iter(self._requests), None)
+            if owner is None:
+                self._stopped()
+                return None
+            return self._requests.pop(owner)
+
+    def _stopped(self) -> None:
+        self._running = False
+        self._changed.notify_all()

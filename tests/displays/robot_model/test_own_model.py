@@ -1,0 +1,282 @@
+"""A RobotModel with a file of its own: what may be read, how, and by whom."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from sambot_viz import Visualizer
+from sambot_viz.displays.robot_model.model_reader import ModelReader
+from sambot_viz.displays.robot_model.robot_model import OUTSIDE
+from sambot_viz.errors import RobotError, UsageError
+from sambot_viz.open_config import declarations
+from sambot_viz.options import Options
+from sambot_viz.robot.load import load_robot
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.server import Server
+from sambot_viz.session import Session
+
+BALL = '<visual><geometry><sphere radius="1"/></geometry></visual>'
+CODE = """
+<robot name="second" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="${'run'.upper()}_link"/>
+</robot>
+"""
+CONFIG = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Name: Second
+      Enabled: true
+      TF Prefix: b
+{body}
+  Global Options: {{Fixed Frame: base}}
+"""
+FROM_FILE = "      Description Source: File\n      Description File: {}"
+
+
+def urdf(link: str) -> str:
+    return f'<robot name="r"><link name="{link}">{BALL}</link></robot>'
+
+
+class Case:
+    """A session, and what its displays have asked to be read."""
+
+    def __init__(self, session: Session, models: ModelReader) -> None:
+        self.session, self.models = session, models
+        self.display = session.displays[0]
+
+    def set(self, path: str, value: object) -> None:
+        self.session.set_property(self.display, path, value)
+        assert self.models.wait(20)
+
+    def choose(self, file: Path | str) -> None:
+        self.set("Description File", str(file))
+        self.set("Description Source", "File")
+
+    @property
+    def status(self) -> str:
+        return self.display.status.rows["URDF"].text
+
+
+class Loader:
+    """Reads models, and remembers what it was asked for."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[Path, bool]] = []
+        self.go_on = threading.Event()
+        self.go_on.set()
+
+    def __call__(self, path: Path, trusted: bool) -> Robot:
+        assert self.go_on.wait(20)
+        self.asked.append((path, trusted))
+        return load_robot(path, trusted=trusted)
+
+
+@pytest.fixture
+def loader() -> Loader:
+    return Loader()
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """An opened package beside a file of somebody else."""
+    folder = tmp_path / "pkg"
+    (folder / "urdf").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>pkg</name></package>")
+    (folder / "urdf" / "first.urdf").write_text(urdf("base"))
+    (folder / "urdf" / "second.urdf").write_text(urdf("own"))
+    (folder / "urdf" / "code.xacro").write_text(CODE)
+    (folder / "secret.env").write_text("PASSWORD=hunter2 <a/>")
+    (tmp_path / "foreign.urdf").write_text(urdf("foreign"))
+    return folder
+
+
+@pytest.fixture
+def open_case(package: Path, loader: Loader) -> Iterator[Callable[..., Case]]:
+    servers: list[Server] = []
+
+    def opened(body: str = "") -> Case:
+        document = RvizConfig.parse(CONFIG.format(body=body), declarations())
+        models = ModelReader(loader)
+        server = Server(Options(port=0, panels=False), lambda: document, models)
+        servers.append(server)
+        server.show_robot(load_robot(package / "urdf" / "first.urdf"))
+        server.wait_for_meshes(20)
+        assert server.shared is not None
+        return Case(server.shared, models)
+
+    yield opened
+    for server in servers:
+        server.stop()
+
+
+def test_a_file_of_the_opened_package_is_read_without_its_code(
+    open_case: Callable[..., Case], loader: Loader, package: Path
+) -> None:
+    case = open_case()
+    case.choose(package / "urdf" / "second.urdf")
+    assert loader.asked == [(package / "urdf" / "second.urdf", False)]
+    assert "b/own" in case.session.tree.frames
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "{outside}/foreign.urdf",
+        "{outside}/pkg/../foreign.urdf",
+        "../foreign.urdf",
+        "file://{outside}/foreign.urdf",
+        "{outside}/pkg/link.urdf",
+        "{outside}/pkg/nothing.urdf",
+        "/etc/passwd",
+        "/dev/zero",
+        "~nobody_at_all/a.urdf",
+        "a\0b",
+        "x" * 300,
+        "a/" * 499,
+    ],
+)
+def test_a_browser_cannot_name_a_file_outside_and_learns_nothing(
+    open_case: Callable[..., Case], loader: Loader, package: Path, name: str
+) -> None:
+    (package / "link.urdf").symlink_to(package.parent / "foreign.urdf")
+    case = open_case()
+    before = case.session.config.to_yaml()
+    with pytest.raises(UsageError) as refused:
+        case.set("Description File", name.format(outside=package.parent))
+    assert str(refused.value) == OUTSIDE
+    assert case.session.config.to_yaml() == before
+    assert case.display.status.rows["Description File"].text == OUTSIDE
+    assert loader.asked == []
+
+
+def test_a_folder_whose_name_begins_like_the_opened_one_is_outside(
+    open_case: Callable[..., Case], package: Path
+) -> None:
+    other = package.parent / "pkg_of_others"
+    other.mkdir()
+    (other / "a.urdf").write_text(urdf("a"))
+    with pytest.raises(UsageError):
+        open_case().choose(other / "a.urdf")
+
+
+def test_a_file_that_the_opened_config_names_is_trusted_wherever_it_lies(
+    open_case: Callable[..., Case], loader: Loader, package: Path
+) -> None:
+    foreign = package.parent / "foreign.urdf"
+    case = open_case(FROM_FILE.format(foreign))
+    assert loader.asked == [(foreign, True)]
+    assert "b/foreign" in case.session.tree.frames
+    case.choose(package / "urdf" / "second.urdf")
+    case.choose(foreign)
+    assert [trusted for _, trusted in loader.asked] == [True, False, True]
+
+
+def test_a_copy_of_a_display_does_not_make_its_file_trusted(
+    open_case: Callable[..., Case], loader: Loader, package: Path
+) -> None:
+    case = open_case()
+    case.choose(package / "urdf" / "second.urdf")
+    with case.session.change():
+        case.session.config.duplicate(case.display.config)
+        case.session.show_config()
+    assert case.models.wait(20)
+    assert [trusted for _, trusted in loader.asked] == [False, False]
+
+
+def test_code_of_a_file_that_a_browser_named_does_not_run(
+    open_case: Callable[..., Case], package: Path
+) -> None:
+    code = package / "urdf" / "code.xacro"
+    assert "b/RUN_link" in open_case(FROM_FILE.format(code)).session.tree.frames
+    case = open_case()
+    case.choose(code)
+    assert case.status == "URDF failed Model parse: see `sambot-viz check`"
+
+
+def test_nothing_of_a_file_that_is_not_a_model_is_shown(
+    open_case: Callable[..., Case], package: Path
+) -> None:
+    case = open_case()
+    case.choose(package / "secret.env")
+    assert "hunter2" not in str(case.display.status.rows)
+    assert case.status.startswith("URDF failed Model parse")
+
+
+def test_the_page_goes_on_while_a_model_is_being_read(
+    open_case: Callable[..., Case], loader: Loader, package: Path
+) -> None:
+    case = open_case()
+    loader.go_on.clear()
+    case.session.set_property(
+        case.display, "Description File", str(package / "urdf" / "second.urdf")
+    )
+    case.session.set_property(case.display, "Description Source", "File")
+    assert case.status == "The model file is still being read"
+    case.session.set_property(case.display, "Alpha", 0.5)
+    loader.go_on.set()
+    assert case.models.wait(20)
+    assert case.display.status.rows["b/own"].level == "Error"  # No transform to base.
+    assert case.status == "URDF parsed OK"
+
+
+def test_only_the_latest_of_several_files_is_read(
+    open_case: Callable[..., Case], loader: Loader, package: Path
+) -> None:
+    case = open_case(FROM_FILE.format(package / "urdf" / "first.urdf"))
+    loader.asked.clear()
+    loader.go_on.clear()
+    for number in range(20):
+        file = package / "urdf" / f"{number}.urdf"
+        file.write_text(urdf(f"link_{number}"))
+        case.session.set_property(case.display, "Description File", str(file))
+    loader.go_on.set()
+    assert case.models.wait(20)
+    assert len(loader.asked) <= 2
+    assert "b/link_19" in case.session.tree.frames
+
+
+def test_a_reader_survives_an_internal_error_of_what_it_calls(tmp_path: Path) -> None:
+    """One exception must not end all reading."""
+    reader = ModelReader(lambda path, trusted: load_robot(path))
+    failed: list[object] = []
+    before, threading.excepthook = threading.excepthook, failed.append
+    file = tmp_path / "a.urdf"
+    file.write_text(urdf("a"))
+
+    def broken(result: Robot | RobotError) -> None:
+        raise RuntimeError("internal")
+
+    results: list[Robot | RobotError] = []
+    try:
+        reader.read(1, file, True, broken)
+        assert reader.wait(20)
+        reader.read(1, file, True, results.append)
+        assert reader.wait(20)
+    finally:
+        threading.excepthook = before
+    assert isinstance(results[0], Robot)
+
+
+def test_a_second_robot_follows_its_file(package: Path) -> None:
+    second, config = package / "urdf" / "second.urdf", package / "a.rviz"
+    config.write_text(CONFIG.format(body=FROM_FILE.format(second)))
+    with Visualizer(package / "urdf" / "first.urdf", config, watch=True) as viz:
+        session = viz._server.sessions()[0]
+        drawn = threading.Event()
+
+        def look(event: str) -> None:
+            if "b/changed" in session.tree.frames:
+                drawn.set()
+
+        viz._server.wait_for_meshes(20)
+        assert "b/own" in session.tree.frames
+        session.listeners.append(look)
+        second.write_text("<robot")
+        second.write_text(urdf("changed"))
+        assert drawn.wait(20)
