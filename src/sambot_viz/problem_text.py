@@ -1,18 +1,24 @@
-"""Problems as text for people: clickable place, cause, mend, and the line itself."""
+"""Problems as text for people: clickable place, cause, fix, and the line itself."""
 
 from __future__ import annotations
 
 import os
+import shlex
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import TextIO
 
 from sambot_viz.errors import Problem
 
+MOST = 10
+"""A terminal gets at most so many problems; ``sambot-viz check`` prints all."""
+
 _COLORS = {"error": "\033[1;31m", "warning": "\033[1;33m", "info": "\033[1;36m"}
 _BOLD, _DIM, _END = "\033[1m", "\033[2m", "\033[0m"
 _LONGEST_EXCERPT = 160
+_ORDER = ("error", "warning", "info")
 
 
 def excerpt(problem: Problem) -> str | None:
@@ -20,19 +26,26 @@ def excerpt(problem: Problem) -> str | None:
     if problem.file is None or problem.line is None:
         return None
     try:
-        lines = Path(problem.file).read_text("utf-8", "replace").splitlines()
-    except OSError:
+        stat = os.stat(problem.file)
+        lines = _lines(problem.file, stat.st_mtime_ns, stat.st_size)
+    except (OSError, ValueError):
         return None
     if not 1 <= problem.line <= len(lines):
         return None
     return lines[problem.line - 1].expandtabs(1).rstrip()[:_LONGEST_EXCERPT]
 
 
+@lru_cache(maxsize=4)
+def _lines(file: str, saved: int, size: int) -> list[str]:
+    """The lines of a file, read once for many problems as long as it is not saved."""
+    return Path(file).read_text("utf-8", "replace").splitlines()
+
+
 def in_words(problem: Problem, color: bool = False) -> str:
-    """A problem as lines of text: the sentence, the excerpt with a mark, the mend.
+    """A problem as lines of text: the sentence, the excerpt with a mark, the fix.
 
     Args:
-        problem: what to say.
+        problem: what to print.
         color: with the escape codes of a terminal.
     """
     paint = _COLORS[problem.severity] if color else ""
@@ -52,11 +65,33 @@ def in_words(problem: Problem, color: bool = False) -> str:
     return "\n".join(lines)
 
 
-def write(problems: Iterable[Problem], stream: TextIO | None = None) -> None:
-    """Write problems to standard error (or another stream), errors first."""
+def write(
+    problems: Iterable[Problem],
+    stream: TextIO | None = None,
+    *,
+    most: int | None = MOST,
+    model: object = None,
+) -> None:
+    """Write problems to a stream, errors first.
+
+    Args:
+        problems: what to write.
+        stream: where to; default standard error.
+        most: after so many only the number of the others is written, and the command
+            that prints all; None writes all.
+        model: the model as the user wrote it, for that command.
+    """
     out: TextIO = stream or sys.stderr
-    order = ("error", "warning", "info")
     color = out.isatty() and "NO_COLOR" not in os.environ
-    for problem in sorted(problems, key=lambda p: order.index(p.severity)):
+    listed = sorted(problems, key=lambda p: _ORDER.index(p.severity))
+    for problem in listed[:most]:
         out.write(in_words(problem, color) + "\n")
+    if most is not None and len(listed) > most:
+        out.write(_rest(listed[most:], model))
     out.flush()
+
+
+def _rest(problems: Sequence[Problem], model: object) -> str:
+    """The last line when not all problems are written."""
+    name = "MODEL" if model is None else shlex.quote(str(model))
+    return f"{len(problems)} more; to see all of them: sambot-viz check {name}\n"

@@ -1,4 +1,4 @@
-"""``sambot-viz check``: what is wrong with a model, and how to mend it."""
+"""``sambot-viz check``: what is wrong with a model, and how to fix it."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ def run(words: list[str]) -> int:
     parser = Parser(
         prog="sambot-viz check",
         groups=("model",),
-        description="Say what is wrong with a model, where, and how to mend it; of a "
-        "package folder also what of its .rviz, launch files and setup.py is wrong. "
+        description="List what is wrong with a model and its mesh files, where, and "
+        "how to fix it; of a package folder also what is wrong with its .rviz, launch "
+        "files and setup.py. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
     parser.add_argument("--format", choices=("text", "json"), default="text")
@@ -30,7 +31,7 @@ def run(words: list[str]) -> int:
         listed = [problem.as_json() for problem in problems]
         print(json.dumps({"model": str(model), "problems": listed}, indent=2))
     elif problems:
-        problem_text.write(problems, sys.stdout)
+        problem_text.write(problems, sys.stdout, most=None)
     else:
         print(f"{model}: no problems found")
     return int(any(problem.severity == "error" for problem in problems))

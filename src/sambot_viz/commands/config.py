@@ -32,5 +32,5 @@ def run(words: list[str]) -> int:
         print(json.dumps(found.as_json(), indent=2))
     else:
         sys.stdout.write(found.as_text())
-        problem_text.write(found.problems)
+        problem_text.write(found.problems, most=None)
     return 0

@@ -24,7 +24,8 @@ def run(words: list[str]) -> int:
     """Print the pose of TARGET in SOURCE; 0 when there is one."""
     given, options = parse(_parser(), words)
     robot = Inputs(options).robot()
-    problem_text.write(p for p in robot.problems if p.severity != "info")
+    found = [p for p in robot.problems if p.severity != "info"]
+    problem_text.write(found, model=options.model)
     tree = posed_frames(robot, options)
     # What tf2_echo calls the source is the target of tf2's look-up.
     found = explain(tree, given.source, given.target, robot)

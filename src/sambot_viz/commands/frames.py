@@ -43,7 +43,8 @@ def run(words: list[str]) -> int:
     output = Path(given.output) if given.output else None
     draw = tree_dot if output is None else _format(output)
     robot = Inputs(options).robot()
-    problem_text.write(p for p in robot.problems if p.severity != "info")
+    found = [p for p in robot.problems if p.severity != "info"]
+    problem_text.write(found, model=options.model)
     drawing = draw(posed_frames(robot, options), robot)
     if output is None:
         sys.stdout.write(drawing)

@@ -57,7 +57,7 @@ def run(words: list[str]) -> int:
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer.of_inputs(inputs, server):
-            problem_text.write(inputs.robot().problems)
+            problem_text.write(inputs.robot().problems, model=options.model)
             stop.wait()
     finally:
         close(server)

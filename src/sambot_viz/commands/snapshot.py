@@ -27,7 +27,7 @@ def run(words: list[str]) -> int:
     width, height = _size(given.size)
     output = _output(given.output)
     inputs = Inputs(options)
-    problem_text.write(inputs.robot().problems)
+    problem_text.write(inputs.robot().problems, model=options.model)
 
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import snapshot
