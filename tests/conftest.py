@@ -12,6 +12,15 @@ if TYPE_CHECKING:
     from protocol_client import ProtocolClient
 
 ROOT = Path(__file__).resolve().parents[1]
+NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Write in one line how many tests were skipped for want of the collection."""
+    skipped = terminalreporter.stats.get("skipped", [])
+    count = sum(NEEDS_SHARED in str(report.longrepr) for report in skipped)
+    if count:
+        terminalreporter.write_line(f"{count} tests were skipped: each {NEEDS_SHARED}")
 
 
 @pytest.fixture(scope="session")
@@ -25,7 +34,7 @@ def shared() -> Path:
     """The project's collection of specs and recordings, beside the checkout."""
     folder = ROOT.parent / "shared"
     if not folder.is_dir():
-        pytest.skip("needs the collection ../shared, which is not beside this checkout")
+        pytest.skip(NEEDS_SHARED)
     return folder
 
 

@@ -404,3 +404,15 @@ def test_a_model_that_is_not_there_is_a_problem_and_no_exception(
     (problem,) = check(tmp_path / "nothing.urdf")
 
     assert problem.severity == "error"
+
+
+def test_a_property_that_an_old_xacro_left_over_is_harmless(checked: Checked) -> None:
+    body = '<property name="left_over" value="1"/>\n<link name="a"/>'
+
+    assert checked(body) == []
+
+
+def test_an_include_without_its_prefix_is_a_warning(checked: Checked) -> None:
+    (problem,) = checked('<include filename="b.xacro"/>\n<link name="a"/>')
+
+    assert problem.code == "xacro-prefix-missing"

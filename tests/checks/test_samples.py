@@ -21,6 +21,12 @@ def test_every_code_has_a_model_that_gives_it(sample: Sample) -> None:
     assert own, sample.problems()
     assert all(p.message and p.hint for p in own)
     assert not own[0].message.endswith(".")
+    assert own[0].line == sample.line
+    assert sample.says in own[0].message
+
+
+def test_the_cause_is_named_in_the_message_of_the_usual_mistakes() -> None:
+    assert sum(bool(sample.says) for sample in all_samples()) > 50
 
 
 def test_no_code_is_listed_twice() -> None:

@@ -35,6 +35,8 @@ class Sample:
         files: file name → content; empty when a model cannot show it.
         trusted: False when the model is checked as one of unknown origin.
         stated: what is said of it, for codes without a model.
+        line: where the mistake is.
+        says: words that name the cause.
     """
 
     code: str
@@ -44,6 +46,8 @@ class Sample:
     files: Mapping[str, str | bytes] = field(default_factory=dict[str, "str | bytes"])
     trusted: bool = True
     stated: Problem | None = None
+    line: int | None = None
+    says: str = ""
 
     @property
     def problem(self) -> Problem:
@@ -103,5 +107,13 @@ def _sample(entry: dict[str, Any]) -> Sample:
     files: dict[str, str | bytes] = dict(entry.get("files", {}))
     if "model" in entry:
         files[name] = str(entry["model"]).encode(entry.get("encoding", "utf-8"))
-    trusted = bool(entry.get("trusted", True))
-    return Sample(code, title, str(entry.get("why", "")), name, files, trusted)
+    return Sample(
+        code,
+        title,
+        str(entry.get("why", "")),
+        name,
+        files,
+        bool(entry.get("trusted", True)),
+        line=entry.get("line"),
+        says=str(entry.get("says", "")),
+    )

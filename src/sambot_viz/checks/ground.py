@@ -11,7 +11,7 @@ from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Cylinder, Joint, Link, Sphere
 
-_SMALLEST_GAP = 0.005
+_SMALLEST_GAP = 0.01
 _SHARE_OF_RADIUS = 0.1
 
 
@@ -19,7 +19,7 @@ def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
     """Wheels above or below height 0 of base_footprint, in one finding.
 
     Navigation puts base_footprint on the floor, so a wheel above it floats. Gaps up to
-    5 mm or a tenth of the wheel's radius are tolerated: tyres are often modelled so.
+    10 mm or a tenth of the wheel's radius are tolerated: tyres are often modelled so.
     """
     robot = subject.robot
     footprint = next((n for n in robot.links if n.endswith("base_footprint")), None)

@@ -364,3 +364,8 @@ def test_a_refusal_names_the_property_and_its_range():
         "'Style' must be one of 'Lines', 'Billboards', not 'yyyy"
     )
     assert str(caught.value).endswith("…")
+
+
+def test_an_empty_option_as_rviz_writes_it_is_kept_and_not_reported():
+    assert read(STYLE, '""') == ("", [])
+    assert STYLE.meaning("") == "Lines"

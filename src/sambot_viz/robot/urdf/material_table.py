@@ -42,6 +42,7 @@ class MaterialTable:
 
     def __init__(self, findings: UrdfFindings, find_texture: FindTexture) -> None:
         self._findings = findings
+        self._undefined: set[str] = set()
         self._find_texture = find_texture
         self._known: dict[str, _Known] = {}
 
@@ -107,13 +108,14 @@ class MaterialTable:
         )
 
     def _tell_undefined(self, name: str, element: Element) -> None:
-        if element.find("color") is not None:
+        if element.find("color") is not None or name in self._undefined:
             return
+        self._undefined.add(name)
         near = did_you_mean(name, [other for other in self._known if other])
         self._findings.warn(
             "material-undefined",
-            f"material '{name}' is not defined up to here ({near}); RViz shows the "
-            "shape red",
+            f"material '{name}' is not defined up to here ({near}); RViz shows shapes "
+            "with it red",
             f'write <material name="{name}"><color rgba="{_guess(name)}"/></material>, '
             "here or at the top of the file",
             element,

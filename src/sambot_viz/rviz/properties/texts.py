@@ -95,7 +95,9 @@ class EnumProperty(Property):
         raise PropertyError(self.name, value, self._expected)
 
     def _parse(self, node: Scalar, report: Report) -> str:
-        if self.options and node.text not in (*self.options, self.default):
+        # RViz itself writes an empty Link Tree Style when it has no robot.
+        known = (*self.options, self.default, "")
+        if self.options and node.text not in known:
             report(
                 node,
                 f"'{self.name}' is {node.text!r}, which is not {self._expected}; it "
