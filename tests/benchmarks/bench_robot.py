@@ -19,7 +19,8 @@ import pytest
 import yaml
 
 from sambot_viz import Robot, RobotError, load_robot
-from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.meshes.mesh import MeshError
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import MeshFile
@@ -134,10 +135,10 @@ def test_real_robots_are_no_slower_than_1_3_times_trimesh_alone(shared: Path) ->
     untyped: Any = trimesh
 
     def read(paths: list[Path]) -> None:
-        store = MeshStore()
+        store = MeshCache()
         for path in paths:
             try:
-                store.get(path)
+                store.read(Asset("mesh", path))
             except MeshError:
                 continue
 

@@ -1,15 +1,11 @@
-"""The scale of a URDF mesh, mirrored ones included (spec/rviz-core.md §5.5)."""
+"""The scale of a URDF mesh, mirrored ones included."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from sambot_viz.meshes.mesh import MeshPart, apply_scale, scaled
-from sambot_viz.meshes.read_mesh import read_mesh
+from sambot_viz.meshes.mesh import MeshPart, apply_scale
 
 ROOF = MeshPart(
     vertices=np.array([[0, 0, 0], [1, 0, 1], [0, 1, 0]], dtype=np.float32),
@@ -54,15 +50,3 @@ def test_no_scale_is_no_work() -> None:
 def test_a_flattened_shape_has_no_bad_numbers() -> None:
     part = apply_scale(ROOF, (1, 1, 0))
     assert part.normals is not None and np.all(np.isfinite(part.normals))
-
-
-def test_a_whole_mesh_keeps_what_is_known_about_it(
-    write: Callable[..., Path],
-) -> None:
-    mesh = read_mesh(
-        write("a.obj", "mtllib x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 7\n")
-    )
-    large = scaled(mesh, (10, 10, 10))
-    assert np.allclose(large.bounds, mesh.bounds * 10)
-    assert large.path == mesh.path and large.files == mesh.files
-    assert large.problems == mesh.problems and len(large.problems) == 2

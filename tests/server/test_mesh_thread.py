@@ -10,10 +10,10 @@ import pytest
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.meshes.cache import MeshStore
-from sambot_viz.robot.shape_files import Asset
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import Content, MeshCache
 from sambot_viz.server import server as server_module
-from sambot_viz.server.mesh_thread import AssetReader
+from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.session import Session
 
 TRIANGLE = """solid t
@@ -37,7 +37,7 @@ JOINT = (
 COUNT = 4
 
 
-class Gated(MeshStore):
+class Gated(MeshCache):
     """Reads in the background only so many files as a test lets through."""
 
     def __init__(self) -> None:
@@ -45,10 +45,10 @@ class Gated(MeshStore):
         self.passes = threading.Semaphore(0)
         self.times: list[Path] = []
 
-    def read(self, asset: Asset) -> None:
+    def read(self, asset: Asset) -> Content:
         assert self.passes.acquire(timeout=20)
         self.times.append(asset.path)
-        super().read(asset)
+        return super().read(asset)
 
     def let(self, files: int) -> None:
         for _ in range(files):
@@ -96,7 +96,7 @@ def opened(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, protocol: Callable[..., object]
 ) -> Iterator[Opened]:
     store = Gated()
-    monkeypatch.setattr(server_module, "MeshStore", lambda: store)
+    monkeypatch.setattr(server_module, "MeshCache", lambda: store)
     opened = Opened(tmp_path, store, protocol)
     yield opened
     store.let(1000)
@@ -174,19 +174,81 @@ def test_an_edit_of_the_model_sends_no_mesh_again(opened: Opened) -> None:
     assert opened.client.types(mark)["MeshMessage"] == 0
 
 
-def test_a_reader_tells_everybody_who_asked_and_nobody_after_its_end(
+class Waiting:
+    """A listener that keeps what has arrived, and fails when it is asked to."""
+
+    def __init__(self, fails: bool = False) -> None:
+        self.heard: list[frozenset[Asset]] = []
+        self.fails = fails
+        self.told = threading.Event()
+
+    def arrived(self, assets: frozenset[Asset]) -> None:
+        self.heard.append(assets)
+        self.told.set()
+        if self.fails:
+            raise ZeroDivisionError("a session failed")
+
+
+def test_all_listeners_of_a_file_are_called_and_none_after_the_end(
     tmp_path: Path,
 ) -> None:
-    store, told = Gated(), threading.Event()
-    reader = AssetReader(store)
-    heard: list[frozenset[Asset]] = []
+    cache, one, two = Gated(), Waiting(), Waiting()
+    errors: list[Exception] = []
+    thread = MeshThread(cache, errors.append)
     asset = Asset("texture", tmp_path / "missing.png")
-    reader.request(asset, lambda assets: heard.append(assets))
-    reader.request(asset, lambda assets: (heard.append(assets), told.set())[1])
-    store.let(1)
-    assert told.wait(20)
-    assert heard == [{asset}, {asset}]
-    reader.close()
-    store.let(1)
-    reader.request(asset, lambda assets: heard.append(assets))
-    assert len(heard) == 2
+    for listener in (one, two, two):
+        thread.request(asset, listener)
+    cache.let(1)
+    assert one.told.wait(20) and two.told.wait(20)
+    assert one.heard == two.heard == [{asset}]
+    thread.close()
+    cache.let(1)
+    thread.request(asset, one)
+    assert len(one.heard) == 1 and not errors
+
+
+def test_a_listener_that_fails_ends_neither_the_thread_nor_the_others(
+    tmp_path: Path,
+) -> None:
+    cache, bad, good = Gated(), Waiting(fails=True), Waiting()
+    errors: list[Exception] = []
+    thread = MeshThread(cache, errors.append)
+    cache.let(10)
+    for number in range(3):
+        for listener in (bad, good):
+            listener.told.clear()
+            thread.request(Asset("mesh", tmp_path / f"{number}.stl"), listener)
+        assert bad.told.wait(20) and good.told.wait(20)
+    thread.close()
+    assert errors and {str(error) for error in errors} == {"a session failed"}
+
+
+def test_a_session_that_cannot_draw_reports_it_and_draws_the_next_mesh(
+    opened: Opened, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assets, session = opened.session.context.assets, opened.session
+
+    def fail() -> None:
+        monkeypatch.setattr(assets, "_on_read", session._assets_read)
+        raise ZeroDivisionError("it cannot be drawn")
+
+    monkeypatch.setattr(assets, "_on_read", fail)
+    opened.store.let(1)
+    opened.client.wait_until(lambda: bool(session.reload_problems.get("fault")))
+    (problem,) = session.reload_problems["fault"]
+    assert "internal error while drawing meshes: ZeroDivisionError" in problem.message
+    opened.store.let(COUNT)
+    opened.wait()
+    assert opened.meshes == COUNT
+
+
+def test_a_mesh_that_is_used_twice_is_read_and_stored_once(opened: Opened) -> None:
+    opened.store.let(2 * COUNT)
+    opened.wait()
+    model = opened.folder / "robot.urdf"
+    model.write_text(model.read_text("utf-8").replace("1.stl", "2.stl"), "utf-8")
+    gone = Asset("mesh", opened.folder / "1.stl")
+    opened.client.wait_until(lambda: opened.store.known(gone) is None)
+    assert len(opened.store.times) == COUNT
+    kept = Asset("mesh", opened.folder / "2.stl")
+    assert opened.store.known(kept) is not None

@@ -21,7 +21,6 @@ from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.status import StatusList
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, LookupRefused
-from sambot_viz.meshes.cache import MeshStore
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
 
@@ -34,9 +33,7 @@ class DisplayContext:
         scene: where to draw (of the server, or of one client).
         tree: the frames.
         nodes: the frames as scene nodes.
-        meshes: mesh files, each read once.
-        assets: the same with what is still being read; by default nobody reads in the
-            background, and every file is there when it is asked for.
+        assets: the mesh files and textures.
         fixed_frame: the frame everything is drawn in.
         background: colour behind the scene, 0 to 255.
         robot: the robot that was opened, or None.
@@ -50,7 +47,7 @@ class DisplayContext:
     scene: viser.SceneApi
     tree: FrameTree
     nodes: FrameNodes
-    meshes: MeshStore
+    assets: SessionAssets
     fixed_frame: str = "map"
     background: tuple[int, int, int] = (48, 48, 48)
     robot: Robot | None = None
@@ -59,11 +56,6 @@ class DisplayContext:
     config_file: Path | None = None
     trusted_files: frozenset[str] = frozenset()
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
-    assets: SessionAssets = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Read files when they are asked for, unless somebody says otherwise."""
-        self.assets = SessionAssets(self.meshes)
 
     def frame(self, name: object) -> str:
         """The frame a Reference Frame property means."""

@@ -20,15 +20,16 @@ FloatArray = npt.NDArray[np.float32]
 IndexArray = npt.NDArray[np.uint32]
 
 GREY: Rgba = (0.6, 0.6, 0.6, 1.0)
-"""What RViz shows where a file says nothing about colour (spec/rviz-core.md §5.6)."""
+"""What RViz shows where a file says nothing about colour."""
 WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Texture:
     """An image that a browser can show, encoded.
 
-    The same image is the same object wherever it is used.
+    The same image is the same object wherever it is used. There are no slots, because
+    caches refer to it weakly.
 
     Attributes:
         data: the PNG or JPEG file, the original bytes where they were small enough.
@@ -68,9 +69,11 @@ class MeshPart:
     texture: Texture | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Mesh:
     """A mesh file that can be drawn; it has at least one triangle.
+
+    There are no slots, because caches refer to it weakly.
 
     Attributes:
         path: the file.
@@ -118,8 +121,7 @@ def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
     """The part enlarged by a URDF scale.
 
     A mirrored part (an odd number of negative factors) is turned inside out by the
-    scale, so its triangles are turned back: RViz shows it from outside too
-    (spec/rviz-core.md §5.5).
+    scale, so its triangles are turned back: RViz shows it from outside too.
 
     Args:
         part: what to scale.
@@ -149,14 +151,4 @@ def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
         rgba=part.rgba,
         uv=part.uv,
         texture=part.texture,
-    )
-
-
-def scaled(mesh: Mesh, scale: Vector3) -> Mesh:
-    """The mesh with every part enlarged by a URDF scale (see `apply_scale`)."""
-    return Mesh(
-        path=mesh.path,
-        parts=tuple(apply_scale(part, scale) for part in mesh.parts),
-        problems=mesh.problems,
-        files=mesh.files,
     )

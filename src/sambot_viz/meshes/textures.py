@@ -11,9 +11,10 @@ import io
 import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
+from weakref import WeakValueDictionary
 
 from sambot_viz.errors import SambotVizError
-from sambot_viz.files import is_lfs_pointer, read_limited, reason_of
+from sambot_viz.files import Stamp, is_lfs_pointer, read_limited, reason_of, stamp
 from sambot_viz.meshes.mesh import Texture
 
 if TYPE_CHECKING:
@@ -31,71 +32,53 @@ MOST_PIXELS = 8192 * 8192
 """Images that decode to more are refused: this many take half a gigabyte."""
 
 
-_Stamp = tuple[int, int]
-
-
 class TextureError(SambotVizError):
     """An image that cannot be used; the text says why."""
 
 
 class TextureStore:
-    """Textures by content: the same file or the same bytes give the same object."""
+    """Textures by content: the same file or the same bytes give the same object.
+
+    An image is kept as long as a mesh or a shape uses it.
+    """
 
     def __init__(self, longest_side: int = LONGEST_SIDE) -> None:
         """`longest_side`: the cap [pixels]; larger images are made smaller."""
         self.longest_side = longest_side
         self._lock = threading.Lock()
-        self._known: dict[bytes, Texture] = {}
-        self._files: dict[Path, tuple[_Stamp, Texture | str]] = {}
+        self._by_content: WeakValueDictionary[bytes, Texture] = WeakValueDictionary()
+        self._by_file: WeakValueDictionary[tuple[Path, Stamp | None], Texture]
+        self._by_file = WeakValueDictionary()
 
     def from_file(self, path: Path) -> Texture:
         """The image in a file.
 
         Raises:
-            TextureError: it cannot be read, or is no image.
+            TextureError: it cannot be read, or is not an image.
         """
-        stamp = _stamp(path)
-        known = self._files.get(path)
-        if known is None or known[0] != stamp:
-            known = self._files[path] = (stamp, self._read(path))
-        if isinstance(known[1], str):
-            raise TextureError(known[1])
-        return known[1]
-
-    def is_read(self, path: Path) -> bool:
-        """Whether `from_file` has its answer at hand, also a refusal."""
-        known = self._files.get(path)
-        return known is not None and known[0] == _stamp(path)
-
-    def _read(self, path: Path) -> Texture | str:
-        """The image in a file, or why it cannot be used."""
-        try:
-            return self.from_bytes(read_limited(path, LARGEST_IMAGE))
-        except (OSError, ValueError) as error:
-            return reason_of(error)
-        except TextureError as error:
-            return str(error)
+        key = (path, stamp(path))
+        known = self._by_file.get(key)
+        if known is None:
+            try:
+                data = read_limited(path, LARGEST_IMAGE)
+            except (OSError, ValueError) as error:
+                raise TextureError(reason_of(error)) from error
+            known = self._by_file[key] = self.from_bytes(data)
+        return known
 
     def from_bytes(self, data: bytes) -> Texture:
         """The image in these bytes (PNG, JPEG, TGA, BMP, TIFF, WebP, …).
 
         Raises:
-            TextureError: no image, or one that is broken.
+            TextureError: not an image, or one that is broken.
         """
         key = hashlib.sha256(data).digest()
         with self._lock:
-            known = self._known.get(key)
+            known = self._by_content.get(key)
             if known is None:
-                known = self._known[key] = encode_texture(data, self.longest_side)
+                known = encode_texture(data, self.longest_side)
+                self._by_content[key] = known
         return known
-
-
-def _stamp(path: Path) -> _Stamp:
-    try:
-        stat = path.stat()
-    except (OSError, ValueError):
-        return (0, -1)
-    return (stat.st_mtime_ns, stat.st_size)
 
 
 def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
@@ -106,7 +89,7 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
         longest_side: the cap [pixels].
 
     Raises:
-        TextureError: no image, or one that is broken.
+        TextureError: not an image, or one that is broken.
     """
     if is_lfs_pointer(data):
         raise TextureError("it is a git-LFS pointer; run 'git lfs pull'")

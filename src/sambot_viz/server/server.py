@@ -14,14 +14,15 @@ from sambot_viz import viser_private
 from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.joints.presets import Presets
-from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.panels.layout import Layout
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.bind import close, listen, url_of
 from sambot_viz.server.door import guard
-from sambot_viz.server.mesh_thread import AssetReader
+from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
 from sambot_viz.session.worker import Worker
@@ -58,8 +59,8 @@ class Server:
         self._poses = poses or Presets()
         self._make_config = make_config
         self._models = models
-        self.meshes = MeshStore()
-        self._reader = AssetReader(self.meshes)
+        self.meshes = MeshCache()
+        self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._robot: Robot | None = None
@@ -127,6 +128,7 @@ class Server:
         try:
             self.for_each_session(lambda session: session.show_robot(robot))
         finally:
+            self._forget_unused_files()
             self.for_each_session(self._check)
 
     def _check(self, session: Session) -> None:
@@ -136,7 +138,24 @@ class Server:
 
     def refresh(self) -> None:
         """Draw again what comes from mesh files and textures that have changed."""
-        self.for_each_session(Session.refresh)
+        try:
+            self.for_each_session(Session.refresh)
+        finally:
+            self._forget_unused_files()
+
+    def _forget_unused_files(self) -> None:
+        """Let go of meshes and textures that no session draws any more."""
+        used = (session.context.assets.used for session in self.sessions())
+        self.meshes.keep_only(set[Asset]().union(*used))
+
+    def _drawing_failed(self, error: Exception) -> None:
+        """Show that a session could not draw what the mesh thread has read."""
+        message = (
+            f"internal error while drawing meshes: {type(error).__name__}: {error}"
+        )
+        hint = "start the program again, and please report it"
+        problem = Problem("error", "mesh-drawing-failed", message, hint)
+        self.set_reload_problems("fault", (problem,))
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show in every session, present and to come, why a save is not shown."""
@@ -191,7 +210,7 @@ class Server:
             session.close()
         for worker in list(self._workers.values()):
             worker.close()
-        self._reader.close()
+        self._mesh_thread.close()
         close(self._viser)
 
     def _open(self, audience: object, worker: Worker) -> tuple[Session, Layout | None]:
@@ -201,7 +220,7 @@ class Server:
             self._make_config(),
             self.meshes,
             self._models,
-            self._reader,
+            self._mesh_thread,
             self.options,
             self._poses,
         )

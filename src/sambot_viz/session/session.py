@@ -28,7 +28,7 @@ from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.presets import Presets
-from sambot_viz.meshes.cache import MeshStore
+from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig, FileProperty, RvizConfig
@@ -84,7 +84,7 @@ class Session:
         audience: Audience,
         worker: Worker,
         config: RvizConfig,
-        meshes: MeshStore,
+        meshes: MeshCache,
         models: ModelReader | None = None,
         reader: Reader | None = None,
         options: Options | None = None,
@@ -112,11 +112,10 @@ class Session:
             scene=audience.scene,
             tree=self.tree,
             nodes=FrameNodes(audience.scene),
-            meshes=meshes,
+            assets=SessionAssets(meshes, reader, self._assets_read),
             models=models,
             apply=self._apply,
         )
-        self.context.assets = SessionAssets(meshes, reader, self._assets_read)
         self._pacer = Throttle(worker, self.period, self._draw_moved)
         self._trust_named_files()
         self._take_globals()

@@ -11,11 +11,12 @@ import viser
 
 from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
-from sambot_viz.displays.scene.session_assets import AssetContent, SessionAssets
+from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Rgba, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import to_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
@@ -93,7 +94,8 @@ class ShapeNode:
     is sent again for another opacity.
 
     Attributes:
-        waiting: the file of the shape is being read.
+        asset: the file it is drawn from, or None.
+        waiting: the file is being read.
     """
 
     def __init__(
@@ -109,17 +111,17 @@ class ShapeNode:
         self._name = name
         self._shape = shape
         self._assets = assets
-        self._asset = asset
-        self._source: AssetContent = None
-        self._generation = -1
+        self.asset = asset
+        self._content: Content | None = None
         self._wanted: ShapeLook | None = None
         self._look: ShapeLook | None = None
         self._pieces: list[_Piece] = []
+        assets.register(self)
 
     def shows(self, shape: Shape, asset: Asset | None) -> bool:
         """Whether this is the node of that shape, drawn from that file."""
         # Paths take no part in the comparison of shapes.
-        return shape == self._shape and asset == self._asset
+        return shape == self._shape and asset == self.asset
 
     def draw(self, look: ShapeLook) -> None:
         """Create the nodes, or change what differs from the last look.
@@ -128,8 +130,8 @@ class ShapeNode:
         `waiting` is true; an older version of it stays until then.
         """
         self._wanted = look
-        if look.visible and self._asset is not None:
-            self._take_source(self._asset)
+        if look.visible and self.asset is not None:
+            self._take_content(self.asset)
         if look == self._look or (self.waiting and not self._pieces):
             return
         if self._pieces and self._must_resend(look):
@@ -152,7 +154,7 @@ class ShapeNode:
     @property
     def problem(self) -> str | None:
         """RViz's sentence when the geometry could not be loaded, else None."""
-        fault = self._source.message if isinstance(self._source, Problem) else None
+        fault = self._content.message if isinstance(self._content, Problem) else None
         geometry = self._shape.geometry
         if not isinstance(geometry, MeshFile):
             return fault
@@ -164,22 +166,17 @@ class ShapeNode:
     @property
     def problems(self) -> tuple[Problem, ...]:
         """What is wrong or doubtful in the file of the shape."""
-        if isinstance(self._source, Problem):
-            return (self._source,)
-        return self._source.problems if isinstance(self._source, Mesh) else ()
+        if isinstance(self._content, Problem):
+            return (self._content,)
+        return self._content.problems if isinstance(self._content, Mesh) else ()
 
-    def _take_source(self, asset: Asset) -> None:
+    def _take_content(self, asset: Asset) -> None:
         """Take what the file holds now, if it is read, and drop what it held before."""
-        if self._generation == self._assets.generation:
-            return
-        self.waiting = not self._assets.is_there(asset)
-        if self.waiting:
-            return
-        self._generation = self._assets.generation
-        source = self._assets.take(asset)
-        if source != self._source:
+        content = self._assets.content(asset)
+        self.waiting = content is None
+        if content is not None and content is not self._content:
             self.remove()
-            self._source = source
+            self._content = content
 
     @property
     def gone(self) -> bool:
@@ -211,8 +208,8 @@ class ShapeNode:
             self._create_mesh(geometry, look, pose)
             return
         part = None
-        if isinstance(self._source, Texture) and not look.error:
-            part = _textured(geometry, self._source)
+        if isinstance(self._content, Texture) and not look.error:
+            part = _textured(geometry, self._content)
         if part is not None:
             self._add_part(self._name, part, WHITE, look, pose)
         else:
@@ -269,11 +266,11 @@ class ShapeNode:
         self._pieces.append(_Piece(handle, color, rgba[3]))
 
     def _create_mesh(self, geometry: MeshFile, look: ShapeLook, pose: _Pose) -> None:
-        if not isinstance(self._source, Mesh):
+        if not isinstance(self._content, Mesh):
             self._add_stand_in(pose)
             return
         rgba = _rgba(self._shape.material)
-        for i, part in enumerate(self._source.parts):
+        for i, part in enumerate(self._content.parts):
             own = (
                 rgba if part.rgba is None else (*part.rgba[:3], part.rgba[3] * rgba[3])
             )

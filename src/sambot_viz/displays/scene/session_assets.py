@@ -5,53 +5,51 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from typing import Protocol
+from weakref import WeakSet
 
-from sambot_viz.errors import Problem
 from sambot_viz.meshes.asset import Asset
-from sambot_viz.meshes.cache import MeshStore
-from sambot_viz.meshes.mesh import Mesh, MeshError, Texture
-from sambot_viz.meshes.textures import TextureError
-
-AssetContent = Mesh | Texture | Problem | None
-"""What was read from a file, or why it cannot be used; None before that."""
-_MEND = "save the image anew as PNG or JPEG"
+from sambot_viz.meshes.cache import Content, MeshCache
 
 
 class Reader(Protocol):
     """What reads files in the background."""
 
-    def request(
-        self, asset: Asset, on_read: Callable[[frozenset[Asset]], None]
-    ) -> None:
-        """Read a file soon, then call back."""
+    def request(self, asset: Asset, listener: SessionAssets) -> None:
+        """Read a file soon, then call `SessionAssets.arrived`."""
+
+
+class AssetUser(Protocol):
+    """A shape that is drawn from a file."""
+
+    @property
+    def asset(self) -> Asset | None:
+        """The file, or None when it needs none."""
 
 
 class SessionAssets:
     """Gives displays what they draw from as soon as it is read.
 
     Args:
-        meshes: what is read already.
+        cache: what is read already.
         reader: reads the rest in the background; None reads it when it is asked for.
         on_read: called after some files have been read in the background.
 
     Attributes:
-        generation: grows when files may have changed; what was drawn in an earlier one
-            is compared with its file again.
         read_count: how many files have been read in the background so far.
     """
 
     def __init__(
         self,
-        meshes: MeshStore,
+        cache: MeshCache,
         reader: Reader | None = None,
         on_read: Callable[[], None] | None = None,
     ) -> None:
-        self.generation = 0
         self.read_count = 0
-        self._meshes = meshes
+        self._cache = cache
         self._reader = reader
         self._on_read = on_read
         self._changed = threading.Condition()
+        self._users: WeakSet[AssetUser] = WeakSet()
         self._pending: set[Asset] = set()
         self._total = 0
         self._drawing = False
@@ -64,37 +62,37 @@ class SessionAssets:
                 return None
             return (self._total - len(self._pending), self._total)
 
-    def look_again(self) -> None:
-        """Files may have changed: what is drawn from them is to be compared."""
-        self.generation += 1
-
-    def is_there(self, asset: Asset) -> bool:
-        """Whether a file can be taken now; if not, it is read in the background."""
-        if self._reader is None or self._meshes.is_read(asset):
-            return True
+    @property
+    def used(self) -> set[Asset]:
+        """The files of all shapes that there are."""
         with self._changed:
-            if asset not in self._pending:
-                self._pending.add(asset)
-                self._total += 1
-        self._reader.request(asset, self._arrived)
-        return False
+            return {user.asset for user in self._users if user.asset is not None}
 
-    def take(self, asset: Asset) -> AssetContent:
-        """What is in a file, or why it cannot be drawn."""
-        try:
-            if asset.kind == "mesh":
-                return self._meshes.get(asset.path, asset.roots)
-            return self._meshes.texture(asset.path)
-        except MeshError as error:
-            return error.problem
-        except TextureError as error:
-            place = str(asset.path)
-            text = f"the texture {asset.path.name} cannot be used: {error}"
-            return Problem("warning", "texture-unreadable", text, _MEND, place)
+    def register(self, user: AssetUser) -> None:
+        """Keep the content of a shape's file as long as the shape exists."""
+        with self._changed:
+            self._users.add(user)
 
-    def known(self, asset: Asset) -> AssetContent:
+    def look_again(self) -> None:
+        """Files may have changed: those that have are read again."""
+        self._cache.forget_changed()
+
+    def known(self, asset: Asset) -> Content | None:
         """What is in a file, if it has been read already; nothing is read for it."""
-        return self.take(asset) if self._meshes.is_read(asset) else None
+        return self._cache.known(asset)
+
+    def content(self, asset: Asset) -> Content | None:
+        """What is in a file; None while it is being read in the background."""
+        if self._reader is None:
+            return self._cache.read(asset)
+        content = self._cache.known(asset)
+        if content is None:
+            with self._changed:
+                if asset not in self._pending:
+                    self._pending.add(asset)
+                    self._total += 1
+            self._reader.request(asset, self)
+        return content
 
     def wait(self, timeout: float) -> bool:
         """Wait until everything that was asked for is read and drawn.
@@ -110,15 +108,18 @@ class SessionAssets:
                 lambda: not (self._pending or self._drawing), timeout
             )
 
-    def _arrived(self, assets: frozenset[Asset]) -> None:
+    def arrived(self, assets: frozenset[Asset]) -> None:
+        """These files have been read: draw them."""
         with self._changed:
             self._pending -= assets
             self.read_count += len(assets)
             if not self._pending:
                 self._total = 0
             self._drawing = True
-        if self._on_read is not None:
-            self._on_read()
-        with self._changed:
-            self._drawing = False
-            self._changed.notify_all()
+        try:
+            if self._on_read is not None:
+                self._on_read()
+        finally:
+            with self._changed:
+                self._drawing = False
+                self._changed.notify_all()

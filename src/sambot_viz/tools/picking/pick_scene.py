@@ -205,10 +205,8 @@ class PickScene:
         """The parts of a shape's mesh file; none while it is being read."""
         robot, assets = self._context.robot, self._context.assets
         asset = None if robot is None else asset_of(shape, robot.file_roots)
-        if asset is None or not assets.is_there(asset):
-            return ()
-        mesh = assets.take(asset)
-        if not isinstance(mesh, Mesh):
+        mesh = None if asset is None else assets.known(asset)
+        if asset is None or not isinstance(mesh, Mesh):
             return ()
         known = self._meshes.get(asset.path)
         if known is None or known[0] is not mesh:
