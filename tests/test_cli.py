@@ -78,7 +78,7 @@ def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
         assert err == ""
 
 
-def test_the_students_file_ends_with_the_line_the_cause_and_the_mend(
+def test_the_students_file_ends_with_the_line_the_cause_and_the_fix(
     shared: Path, capsys: Capture
 ) -> None:
     model = shared / "data/seed/robot_closed_too_early.urdf.xacro"
@@ -132,6 +132,7 @@ def test_xacro_arguments_stand_anywhere(tmp_path: Path, capsys: Capture) -> None
     [
         (["missing.urdf"], 2, "no model 'missing.urdf': there is no such file"),
         (["-d", "missing.rviz"], 2, "no config 'missing.rviz'"),
+        (["-f", "", "--port", "0"], 2, "the fixed frame has an empty name"),
         (["--port", "70000"], 1, "port 70000 does not exist"),
         (["--port", "many"], 2, "invalid int value: 'many'"),
         (["--bogus"], 2, "unrecognized arguments: --bogus"),
@@ -159,6 +160,69 @@ def test_a_taken_port_is_one_clear_line(capsys: Capture) -> None:
         assert main(["--port", port]) == 1
     _, err = capsys.readouterr()
     assert f"port {port} on 127.0.0.1 is taken" in err and err.count("\n") == 1
+
+
+@pytest.fixture
+def doubtful(tmp_path: Path) -> Path:
+    """A model with two warnings."""
+    model = tmp_path / "doubtful.urdf"
+    model.write_text(
+        '<robot name="r"><link name="a"><visual><geometry><mesh filename="a.stl"/>'
+        '</geometry></visual></link><link name="b"><visual><geometry>'
+        '<mesh filename="b.stl"/></geometry></visual></link>'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
+        "</robot>"
+    )
+    return model
+
+
+def test_the_work_goes_on_when_nothing_reads_standard_error(
+    doubtful: Path, tmp_path: Path
+) -> None:
+    tree = tmp_path / "tree.svg"
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        ended = subprocess.run(
+            [sys.executable, "-m", "sambot_viz", "frames", doubtful, "-o", tree],
+            stderr=writer,
+            stdout=writer,
+            check=False,
+        )
+    finally:
+        os.close(writer)
+    assert ended.returncode == 0
+    assert "</svg>" in tree.read_text()
+
+
+def test_an_ill_formed_model_is_refused_before_an_address_is_printed(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "r.urdf"
+    model.write_text('<robot name="r">\n<link name="a">\n</robot>\n')
+    with running(str(model), "--port", "0", cwd=tmp_path) as process:
+        out, err = process.communicate(timeout=60)
+        assert process.returncode == 1
+        assert out == "" and "r.urdf:2" in err
+
+
+def test_poses_that_a_browser_saves_are_kept_beside_the_model(tmp_path: Path) -> None:
+    from protocol_client import ProtocolClient
+
+    model = tmp_path / "arm.urdf"
+    model.write_text(
+        '<robot name="arm"><link name="a"/><link name="b"/>'
+        '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
+        "</robot>"
+    )
+    with running(str(model), "--port", "0", cwd=tmp_path) as process:
+        client = ProtocolClient(int(address(process).rsplit(":", 1)[1]))
+        client.wait_until(lambda: "Pose name" in client.widgets)
+        client.set_value(client.uuid_of("Pose name"), "half")
+        client.set_value(client.uuid_of("Save pose"), True)
+        client.wait_until(lambda: (tmp_path / "arm.poses.yaml").is_file())
+        client.close()
+    assert "half" in (tmp_path / "arm.poses.yaml").read_text()
 
 
 def test_a_config_with_a_yaml_error_names_the_line(

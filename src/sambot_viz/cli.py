@@ -1,22 +1,24 @@
-"""The command line: flags to calls, and errors to exit codes. Nothing else does that.
+"""The command line: which command runs, and what its errors mean as exit codes.
 
-Exit codes: 0 fine, 1 errors found, 2 the command line makes no sense, 3 a fault of
-ours. The commands are files of `commands/`, loaded when they are called, so that each
+Exit codes: 0 fine, 1 errors found, 2 a command line that makes no sense, 3 an internal
+error. The commands are files of `commands/`, loaded when they are called, so that each
 imports only what it needs.
 """
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 import sys
 import traceback
 from collections.abc import Sequence
+from typing import Any, TextIO, cast
 
 from sambot_viz import problem_text
 from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageError
 
-OK, ERRORS, USAGE, FAULT = 0, 1, 2, 3
+OK, ERRORS, USAGE, INTERNAL = 0, 1, 2, 3
 
 COMMANDS = ("check", "config", "echo", "expand", "frames", "snapshot")
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
@@ -32,6 +34,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         The exit code.
     """
     words = list(sys.argv[1:] if argv is None else argv)
+    with contextlib.redirect_stderr(cast(TextIO, _StandardError(sys.stderr))):
+        return _run(words)
+
+
+def _run(words: list[str]) -> int:
     name = words.pop(0) if words and words[0] in COMMANDS else "show"
     try:
         command = importlib.import_module(f"sambot_viz.commands.{name}")
@@ -46,11 +53,43 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return OK
     except BrokenPipeError:
-        # The reader of our output has gone (`| head`); nothing more to say to it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader of standard output has gone (`| head`): nothing more is wanted.
+        _write_to_nowhere(sys.stdout)
         return OK
     except Exception as error:
-        return _fault(error, "--debug" in words)
+        return _internal_error(error, "--debug" in words)
+
+
+class _StandardError:
+    """Standard error, whose reader may go without ending the work (`2>&1 | head`)."""
+
+    def __init__(self, stream: TextIO | None) -> None:
+        # Python has none when the program was started with it closed.
+        self._stream = stream or open(os.devnull, "w", encoding="utf-8")
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write a text, or drop it when nothing reads it."""
+        try:
+            return self._stream.write(text)
+        except BrokenPipeError:
+            _write_to_nowhere(self._stream)
+            return len(text)
+
+    def flush(self) -> None:
+        """Write out what is buffered, or drop it when nothing reads it."""
+        try:
+            self._stream.flush()
+        except BrokenPipeError:
+            _write_to_nowhere(self._stream)
+
+
+def _write_to_nowhere(stream: TextIO) -> None:
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, stream.fileno())
+    os.close(nowhere)
 
 
 def _complain(error: SambotVizError, code: int) -> int:
@@ -58,15 +97,15 @@ def _complain(error: SambotVizError, code: int) -> int:
     return code
 
 
-def _fault(error: Exception, debug: bool) -> int:
+def _internal_error(error: Exception, debug: bool) -> int:
     if debug:
         traceback.print_exc()
     else:
         sys.stderr.write(
             f"sambot-viz: internal error: {type(error).__name__}: {error}; run again "
-            "with --debug for the place, and please report it\n"
+            "with --debug to see where, and please report it\n"
         )
-    return FAULT
+    return INTERNAL
 
 
 if __name__ == "__main__":

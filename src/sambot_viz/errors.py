@@ -1,17 +1,25 @@
 """Every error and every finding that leaves this package.
 
-The tree; nothing else is raised to a caller on purpose::
+The tree of errors; nothing else is raised to a caller on purpose::
 
     SambotVizError
-    ├── RobotError        a model that cannot be shown (.problems)
-    ├── ConfigError       no .rviz document at all (.problems)
-    ├── FrameError        a transform that cannot be looked up or set
-    ├── JointError        an unknown joint, a value that is no finite number
-    ├── ServerError       a port that is taken, a browser that is missing
-    └── UsageError        a command line or an argument that makes no sense
+    ├── RobotError                  a model that cannot be shown (.problems)
+    │   └── MeshError               a mesh file that cannot be read
+    ├── ConfigError                 a file that is not a .rviz document (.problems)
+    ├── FrameError                  a transform that cannot be looked up or set
+    │   ├── LookupRefused           no transform between two frames (.tf2_text)
+    │   ├── TransformRefused        a transform that tf2 would not take
+    │   └── CycleRefused            a transform that would form a ring
+    ├── JointError                  an unknown joint, or a value that is not finite
+    ├── ServerError                 a port that is taken, a server that cannot go on
+    │   └── BrowserError            a browser that is missing, ends or does not answer
+    └── UsageError                  a command line or an argument that makes no sense
+        ├── StaticTransformError    what static_transform_publisher would refuse
+        ├── PropertyError           a value that a property of a config does not take
+        └── UnknownPropertyError    a property that a config does not have
 
-A `Problem` is a finding in a file of the user's. It never travels alone as an
-exception: an error carries the problems that caused it.
+A `Problem` is a finding in a file of the user's. It is never raised by itself: an
+error carries the problems that caused it.
 """
 
 from __future__ import annotations
@@ -41,11 +49,11 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One finding: what is wrong, where, and how to mend it.
+    """One finding: what is wrong, where, and how to fix it.
 
     Attributes:
-        severity: "error" (ROS or we cannot use it), "warning" (usable, but ROS or
-            a simulator will stumble), "info" (worth knowing).
+        severity: "error" (ROS or sambot-viz cannot use it), "warning" (usable, but
+            ROS or a simulator may fail on it), "info" (worth knowing).
         code: stable identifier such as "xml-root-closed-early".
         message: what is wrong and why, one sentence without a full stop at the end.
         hint: what to write instead; may be empty.
@@ -123,7 +131,7 @@ class Findings:
         hint: str = "",
         at: Place | str | None = None,
     ) -> None:
-        """Note a problem, unless the same one is there already.
+        """Add a problem, unless the same one is there already.
 
         Sentences are cut at 2000 characters: a file may make up names of any length.
         """
@@ -154,7 +162,7 @@ class RobotError(_ErrorWithProblems):
 
 
 class ConfigError(_ErrorWithProblems):
-    """The file is no .rviz document; `problems` says why."""
+    """The file is not a .rviz document; `problems` says why."""
 
 
 class FrameError(SambotVizError):
@@ -162,7 +170,7 @@ class FrameError(SambotVizError):
 
 
 class JointError(SambotVizError):
-    """A joint that does not exist, or a value that is no finite number."""
+    """A joint that does not exist, or a value that is not a finite number."""
 
 
 class ServerError(SambotVizError):
@@ -174,7 +182,7 @@ class UsageError(SambotVizError):
 
 
 def did_you_mean(name: str, names: Iterable[str]) -> str:
-    """The sentence that offers the nearest valid names.
+    """A sentence that offers the nearest valid names.
 
     Args:
         name: what was asked for.

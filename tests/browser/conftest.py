@@ -32,6 +32,7 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     The pages are closed at the end of the test. The test fails there when a page had
     an error or asked another server for anything, unless it set `expects_errors`.
     """
+    from recorded_page import open_page
     from viewer_page import ViewerPage, viewer_url
 
     viewers: list[ViewerPage] = []
@@ -44,8 +45,7 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
         touch: bool = False,
         dark: bool = False,
     ) -> ViewerPage:
-        page = chromium.open(width=width, height=height)
-        page.set_viewport(width, height, touch=touch)
+        page = open_page(chromium, width, height, touch=touch)
         page.set_dark(dark)
         url = viewer_url(address)
         page.goto(url)

@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from recorded_page import open_page
 
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import BrowserError
@@ -41,7 +42,7 @@ def is_running(process: int) -> bool:
 
 
 def test_a_page_has_its_exact_size_and_scale(chromium: Chromium) -> None:
-    page = chromium.open(width=320, height=200, scale=2.0)
+    page = open_page(chromium, 320, 200, scale=2.0)
     assert page.evaluate("[innerWidth, innerHeight, devicePixelRatio]") == [320, 200, 2]
     png = page.screenshot()
     assert png[:8] == b"\x89PNG\r\n\x1a\n"
@@ -55,7 +56,7 @@ def test_a_page_has_its_exact_size_and_scale(chromium: Chromium) -> None:
 def test_values_and_promises_come_back_and_errors_are_raised(
     chromium: Chromium,
 ) -> None:
-    page = chromium.open()
+    page = open_page(chromium)
     assert page.evaluate("({a: [1, 'b', null]})") == {"a": [1, "b", None]}
     assert page.evaluate("new Promise(done => setTimeout(() => done(7), 1))") == 7
     with pytest.raises(BrowserError, match="script failed: ReferenceError: nothing"):
@@ -68,14 +69,14 @@ def test_values_and_promises_come_back_and_errors_are_raised(
 
 
 def test_a_page_that_nobody_serves_is_an_error(chromium: Chromium) -> None:
-    page = chromium.open()
+    page = open_page(chromium)
     with pytest.raises(BrowserError, match=r"cannot open http://127\.0\.0\.1:9/: net"):
         page.goto("http://127.0.0.1:9/")
     page.close()
 
 
 def test_no_other_machine_can_be_reached(chromium: Chromium) -> None:
-    page = chromium.open()
+    page = open_page(chromium)
     asked = "fetch('http://example.com/').then(() => 'reached', () => 'not reached')"
     assert page.evaluate(asked) == "not reached"
     assert page.requests[-1] == "http://example.com/"
@@ -84,8 +85,7 @@ def test_no_other_machine_can_be_reached(chromium: Chromium) -> None:
 
 
 def test_fingers_and_keys_arrive(chromium: Chromium) -> None:
-    page = chromium.open(width=200, height=200)
-    page.set_viewport(200, 200, touch=True)
+    page = open_page(chromium, 200, 200, touch=True)
     page.evaluate(
         "window.seen = []; for (const kind of ['touchstart', 'touchend', 'keydown'])"
         " addEventListener(kind, e => seen.push(e.key || e.type)); null"

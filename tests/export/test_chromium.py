@@ -9,9 +9,8 @@ import textwrap
 from pathlib import Path
 
 import pytest
+from browser_input import Keyboard, Mouse
 
-from sambot_viz.errors import UsageError
-from sambot_viz.export.browser_input import Keyboard, Mouse
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import BrowserError, Fields
 
@@ -130,9 +129,9 @@ def test_keys_carry_text_only_when_no_command_key_is_held() -> None:
 
 
 def test_an_unknown_key_or_modifier_offers_the_nearest_one() -> None:
-    with pytest.raises(UsageError, match="no key 'ArrowLef'; did you mean 'ArrowLeft'"):
+    with pytest.raises(ValueError, match="no key 'ArrowLef'; did you mean 'ArrowLeft'"):
         Keyboard(Recorder()).press("ArrowLef")
-    with pytest.raises(UsageError, match="no modifier 'Ctrl'; did you mean 'Control'"):
+    with pytest.raises(ValueError, match="no modifier 'Ctrl'; did you mean 'Control'"):
         Keyboard(Recorder()).press("a", "Ctrl")
 
 

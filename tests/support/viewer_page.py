@@ -9,7 +9,7 @@
 
 `ViewerPage.page` is the page of the browser itself: mouse, keyboard, console, requests.
 The three.js objects are reached through `__viserMutable`, which viser keeps for its own
-tests (spec/viser.md §6).
+tests.
 """
 
 from __future__ import annotations
@@ -24,8 +24,7 @@ from urllib.parse import urlsplit
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
-
-from sambot_viz.export.browser_page import BrowserPage
+from recorded_page import RecordedPage
 
 Pixels = npt.NDArray[np.uint8]
 Matrix = npt.NDArray[np.float64]
@@ -85,7 +84,7 @@ class ViewerPage:
             fails at the end when there were any.
     """
 
-    def __init__(self, page: BrowserPage, url: str) -> None:
+    def __init__(self, page: RecordedPage, url: str) -> None:
         """Wait until `page`, which is at `url`, is connected and has drawn."""
         self.page = page
         self.url = url

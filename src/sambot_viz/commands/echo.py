@@ -15,7 +15,7 @@ from sambot_viz.inputs import Inputs
 
 
 class _AnyOrder(Parser):
-    """Takes options also between MODEL, SOURCE and TARGET."""
+    """Accepts options between MODEL, SOURCE and TARGET as well."""
 
     parse_args = argparse.ArgumentParser.parse_intermixed_args
 
@@ -40,7 +40,7 @@ def run(words: list[str]) -> int:
 
 
 def _no_answer(found: Explanation) -> str:
-    """tf2's text, then why."""
+    """The text that tf2 shows, then the reason."""
     tf2_text = found.refused.tf2_text if found.refused else ""
     return f"{tf2_text}\n  {found.reason}"
 

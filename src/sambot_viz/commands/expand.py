@@ -1,4 +1,4 @@
-"""``sambot-viz expand``: the URDF that xacro makes of a model."""
+"""``sambot-viz expand``: the URDF that xacro makes from a model."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def run(words: list[str]) -> int:
     parser = Parser(
         prog="sambot-viz expand",
         groups=("model",),
-        description="Print the URDF that xacro makes of a model.",
+        description="Print the URDF that xacro makes from a model.",
     )
     _, options = parse(parser, words)
     text = expand(

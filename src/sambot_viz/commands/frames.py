@@ -26,7 +26,7 @@ FORMATS: dict[str, Draw] = {
 
 
 def run(words: list[str]) -> int:
-    """Draw the frames of a model; 0 when that is done."""
+    """Draw the frames of a model; returns 0."""
     parser = Parser(
         prog="sambot-viz frames",
         groups=("model", "pose"),
@@ -58,8 +58,9 @@ def _format(path: Path) -> Draw:
     draw = FORMATS.get(path.suffix.lower())
     if draw is None:
         raise UsageError(
-            f"-o {path}: the ending says the format, one of {', '.join(FORMATS)}; "
-            "for a PDF write a .dot file and give it to dot -Tpdf"
+            f"-o {path}: the format comes from the ending, which must be one of "
+            f"{', '.join(FORMATS)}; "
+            "for a PDF, write a .dot file and convert it with dot -Tpdf"
         )
     return draw
 

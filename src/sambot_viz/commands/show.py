@@ -17,23 +17,23 @@ from sambot_viz.inputs import Inputs
 EPILOG = """\
 commands:
   sambot-viz [MODEL]           show a robot in the browser
-  sambot-viz check MODEL       say what is wrong with a model, and how to mend it
-  sambot-viz expand MODEL      print the URDF that xacro makes of a model
+  sambot-viz check MODEL       report what is wrong with a model, and how to fix it
+  sambot-viz expand MODEL      print the URDF that xacro makes from a model
   sambot-viz echo MODEL SOURCE TARGET
                                print the pose of a frame in another, as tf2_echo does
   sambot-viz frames MODEL [-o FILE.svg|.dot|.json]
                                draw the tree of frames
   sambot-viz snapshot MODEL -o FILE.png
                                write a picture of the 3D view
-  sambot-viz config FILE.rviz  say what of an RViz config is shown
+  sambot-viz config FILE.rviz  report what of an RViz config is shown
 
 MODEL is a URDF or xacro file, whatever its ending, or a package folder; without
 one, the bundled sam_bot is shown. NAME:=VALUE is an argument for xacro, anywhere on
-the line; model:=, rvizconfig:= and gui:= mean what they mean to display.launch.py.
+the line; model:=, rvizconfig:= and gui:= mean the same as for display.launch.py.
 """
 
 _OPEN_TO_ALL = """\
-sambot-viz: note: everybody who can reach port {} of this machine can see the robot and
+sambot-viz: note: anyone who can reach port {} of this machine can see the robot and
 move its joints; without --host only this machine can
 """
 
@@ -79,11 +79,11 @@ def _parser() -> Parser:
 
 
 def _report_reload(problems: Sequence[Problem]) -> None:
-    """Say what a save has brought, on the terminal as in the page."""
+    """Write what is wrong after a reload, on the terminal as in the page."""
     if problems:
         problem_text.write(problems)
     else:
-        sys.stderr.write("sambot-viz: no problems any more\n")
+        sys.stderr.write("sambot-viz: all problems are fixed\n")
 
 
 def _announce(url: str, open_it: bool) -> None:

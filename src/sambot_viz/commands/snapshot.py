@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sambot_viz.session import Session
 
 LARGEST = 8192
-"""Longest side of a picture [pixels]; software WebGL takes no larger ones."""
+"""Longest side of a picture [pixels]: the limit of software WebGL."""
 
 
 def run(words: list[str]) -> int:
@@ -33,12 +33,14 @@ def run(words: list[str]) -> int:
     from sambot_viz.export.view_picture import snapshot
     from sambot_viz.visualizer import Visualizer
 
-    # What is wrong with joints or frames is reported before a browser is started.
-    with Visualizer.of_inputs(inputs) as viz, Chromium() as chromium:
+    with Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions()[0]
         problem_text.write(session.config.problems)
         _report_fixed_frame(session)
-        picture = snapshot(viz.server, chromium, width, height, session.views.camera)
+        # A browser takes seconds to start: what is wrong has been reported by now.
+        with Chromium() as chromium:
+            camera = session.views.camera
+            picture = snapshot(viz.server, chromium, width, height, camera)
     _write(output, picture)
     return 0
 
@@ -67,7 +69,7 @@ def _report_fixed_frame(session: Session) -> None:
 def _size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d+)[xX×](\d+)", text.strip())
     if match is None:
-        raise UsageError(f"--size {text} is no size in pixels, such as 800x600")
+        raise UsageError(f"--size {text} is not a size in pixels, such as 800x600")
     width, height = int(match[1]), int(match[2])
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise UsageError(f"--size {text}: each side must be 1 to {LARGEST} pixels")
@@ -77,7 +79,7 @@ def _size(text: str) -> tuple[int, int]:
 def _output(text: str) -> Path:
     path = Path(text)
     if path.suffix.lower() != ".png":
-        raise UsageError(f"-o {text}: only PNG is written; name it FILE.png")
+        raise UsageError(f"-o {text}: only PNG files can be written; name it FILE.png")
     if path.is_dir():
         raise UsageError(f"-o {text} is a folder; name a file in it")
     if not path.parent.is_dir():

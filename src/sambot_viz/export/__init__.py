@@ -1,1 +1,1 @@
-"""Pictures and pages for people who are not at this machine."""
+"""Pictures of the 3D view, drawn by a Chromium or Chrome of this machine."""

@@ -1,13 +1,9 @@
-"""One page of a running browser: its script, its picture, its input, its records."""
+"""One page of a running browser: go to an address, run a script, wait for it."""
 
 from __future__ import annotations
 
-import base64
-import json
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
-from sambot_viz.export.browser_input import Keyboard, Mouse, Touch
 from sambot_viz.export.devtools import BrowserError, DevTools, Fields
 
 _WAIT = """
@@ -34,33 +30,11 @@ new Promise((resolve, reject) => {
 """
 
 
-@dataclass(frozen=True, slots=True)
-class ConsoleMessage:
-    """A line of the page's console.
-
-    Attributes:
-        level: "error", "warning", "log", "info", "debug", …
-        text: what it says.
-        url: the script or address it is about; may be empty.
-    """
-
-    level: str
-    text: str
-    url: str = ""
+_Page = TypeVar("_Page", bound="BrowserPage")
 
 
 class BrowserPage:
-    """A page in a window of its own. Made by `Chromium.open`.
-
-    Attributes:
-        console: every console line so far, of the page and of its workers.
-        exceptions: every exception that no script caught.
-        requests: the address of everything that was asked for, websockets included.
-        failures: (address, reason) of every request that got no answer.
-        mouse: its mouse.
-        keyboard: its keyboard.
-        touch: fingers on it.
-    """
+    """A page in a window of its own. Made by `Chromium.open`."""
 
     def __init__(
         self, devtools: DevTools, context: str, session: str, timeout: float
@@ -71,18 +45,10 @@ class BrowserPage:
         self._session = session
         self._timeout = timeout
         self._loads = 0
-        self._urls_by_request: dict[str, str] = {}
-        self.console: list[ConsoleMessage] = []
-        self.exceptions: list[str] = []
-        self.requests: list[str] = []
-        self.failures: list[tuple[str, str]] = []
-        self.mouse = Mouse(self)
-        self.keyboard = Keyboard(self)
-        self.touch = Touch(self)
 
     @classmethod
-    def create(cls, devtools: DevTools, timeout: float = 30.0) -> BrowserPage:
-        """Open an empty window with storage of its own and start recording.
+    def create(cls: type[_Page], devtools: DevTools, timeout: float = 30.0) -> _Page:
+        """Open an empty window with storage of its own.
 
         Raises:
             BrowserError: the browser refuses.
@@ -96,16 +62,21 @@ class BrowserPage:
             "Target.attachToTarget", {"targetId": target, "flatten": True}
         )["sessionId"]
         page = cls(devtools, context, session, timeout)
-        devtools.listen(session, page._on_event)
-        for domain in ("Page", "Runtime", "Network", "Log"):
-            page.call(f"{domain}.enable")
-        # viser's page reconnects only while it has the focus, and so does each of ours.
-        page.call("Emulation.setFocusEmulationEnabled", {"enabled": True})
-        page.call(
-            "Target.setAutoAttach",
-            {"autoAttach": True, "waitForDebuggerOnStart": True, "flatten": True},
-        )
+        devtools.listen(session, page.on_event)
+        page.begin()
         return page
+
+    def begin(self) -> None:
+        """Ask the browser for the page's events and settings."""
+        self.call("Page.enable")
+        # viser's page reconnects only while it has the focus, and so does each of ours.
+        self.call("Emulation.setFocusEmulationEnabled", {"enabled": True})
+
+    def on_event(self, method: str, fields: Fields) -> None:
+        """Take an event of the page; runs on the thread that reads the connection."""
+        del fields
+        if method == "Page.loadEventFired":
+            self._loads += 1
 
     def call(
         self, method: str, params: Fields | None = None, timeout: float | None = None
@@ -122,7 +93,7 @@ class BrowserPage:
         """Go to `url` and wait until it has loaded.
 
         Raises:
-            BrowserError: nobody answers there, or it takes too long.
+            BrowserError: there is no answer, or it takes too long.
         """
         before = self._loads
         answer = self.call("Page.navigate", {"url": url})
@@ -135,7 +106,7 @@ class BrowserPage:
         """The value of a JavaScript expression; a promise is waited for.
 
         Args:
-            expression: its value must be one that JSON can say.
+            expression: its value must be one that JSON can hold.
             timeout: how long it may take [s]; None for the browser's own.
 
         Raises:
@@ -152,7 +123,9 @@ class BrowserPage:
             timeout,
         )
         if "exceptionDetails" in answer:
-            raise BrowserError(f"script failed: {_explain(answer['exceptionDetails'])}")
+            raise BrowserError(
+                f"script failed: {explain_exception(answer['exceptionDetails'])}"
+            )
         return answer["result"].get("value")
 
     def wait_for(self, condition: str, timeout: float = 10.0) -> None:
@@ -170,16 +143,13 @@ class BrowserPage:
             why = f" ({trouble})" if trouble else ""
             raise BrowserError(f"not true after {timeout:g} s: {condition}{why}")
 
-    def set_viewport(
-        self, width: int, height: int, *, scale: float = 1.0, touch: bool = False
-    ) -> None:
+    def set_viewport(self, width: int, height: int, scale: float = 1.0) -> None:
         """Give the page a size.
 
         Args:
             width: of its content [CSS pixels].
             height: of its content [CSS pixels].
             scale: device pixels per CSS pixel.
-            touch: whether it is a phone or tablet, with fingers.
         """
         self.call(
             "Emulation.setDeviceMetricsOverride",
@@ -187,32 +157,9 @@ class BrowserPage:
                 "width": width,
                 "height": height,
                 "deviceScaleFactor": scale,
-                "mobile": touch,
+                "mobile": False,
             },
         )
-        self.call("Emulation.setTouchEmulationEnabled", {"enabled": touch})
-
-    def set_dark(self, dark: bool) -> None:
-        """Let the page believe that the system is dark, or light."""
-        feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self.call("Emulation.setEmulatedMedia", {"features": [feature]})
-
-    def screenshot(
-        self, clip: tuple[float, float, float, float] | None = None
-    ) -> bytes:
-        """The page as a PNG file.
-
-        Args:
-            clip: x, y, width, height of a part of it [CSS pixels]; None for all.
-
-        Raises:
-            BrowserError: the browser cannot take it.
-        """
-        params: Fields = {"format": "png"}
-        if clip is not None:
-            names = ("x", "y", "width", "height")
-            params["clip"] = dict(zip(names, clip, strict=True)) | {"scale": 1}
-        return base64.b64decode(self.call("Page.captureScreenshot", params)["data"])
 
     def close(self) -> None:
         """Close the window and forget its storage."""
@@ -220,58 +167,9 @@ class BrowserPage:
             "Target.disposeBrowserContext", {"browserContextId": self._context}
         )
 
-    # What the page does by itself. These run on the reading thread.
 
-    def _on_event(self, method: str, fields: Fields) -> None:
-        match method:
-            case "Page.loadEventFired":
-                self._loads += 1
-            case "Runtime.consoleAPICalled":
-                text = " ".join(_show(part) for part in fields["args"])
-                self.console.append(ConsoleMessage(fields["type"], text))
-            case "Runtime.exceptionThrown":
-                self.exceptions.append(_explain(fields["exceptionDetails"]))
-            case "Log.entryAdded":
-                entry = fields["entry"]
-                self.console.append(
-                    ConsoleMessage(entry["level"], entry["text"], entry.get("url", ""))
-                )
-            case "Network.requestWillBeSent":
-                self._record_request(fields["requestId"], fields["request"]["url"])
-            case "Network.webSocketCreated":
-                self.requests.append(fields["url"])
-            case "Network.loadingFailed":
-                url = self._urls_by_request.get(fields["requestId"], "")
-                self.failures.append((url, fields["errorText"]))
-            case "Target.attachedToTarget":
-                self._record_child(fields["sessionId"])
-            case _:
-                pass
-
-    def _record_request(self, request: str, url: str) -> None:
-        # What the page carries within itself is no request, and can be very long.
-        if not url.startswith(("data:", "blob:")):
-            self._urls_by_request[request] = url
-            self.requests.append(url)
-
-    def _record_child(self, session: str) -> None:
-        """Record a worker or frame as part of the page, then let it run."""
-        self._devtools.listen(session, self._on_event)
-        for method in ("Network.enable", "Runtime.enable"):
-            self._devtools.post(method, session=session)
-        self._devtools.post("Runtime.runIfWaitingForDebugger", session=session)
-
-
-def _explain(details: Fields) -> str:
-    """An exception's text with its first lines of stack."""
+def explain_exception(details: Fields) -> str:
+    """The text of a JavaScript exception, with its first lines of stack."""
     thrown = details.get("exception", {})
     text = thrown.get("description") or thrown.get("value") or details.get("text", "")
     return str(text)
-
-
-def _show(part: Fields) -> str:
-    """One argument of console.log as text."""
-    if "value" in part:
-        value = part["value"]
-        return value if isinstance(value, str) else json.dumps(value)
-    return str(part.get("description", part.get("type", "")))

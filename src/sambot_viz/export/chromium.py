@@ -71,7 +71,7 @@ class Chromium:
 
     with Chromium() as browser:
         page = browser.open(url, width=800, height=600)
-        png = page.screenshot()
+        title = page.evaluate("document.title")
     """
 
     def __init__(
@@ -154,7 +154,7 @@ class Chromium:
             BrowserError: the page does not load.
         """
         page = BrowserPage.create(self.devtools, timeout=self._timeout)
-        page.set_viewport(width, height, scale=scale)
+        page.set_viewport(width, height, scale)
         if url != "about:blank":
             page.goto(url)
         return page

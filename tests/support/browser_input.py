@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Protocol
 
-from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.errors import did_you_mean
 from sambot_viz.export.devtools import Fields
 
 Point = tuple[float, float]
@@ -46,7 +46,7 @@ class Caller(Protocol):
 def _modifier_bits(names: tuple[str, ...]) -> int:
     for name in names:
         if name not in _MODIFIER_BITS:
-            raise UsageError(
+            raise ValueError(
                 f"no modifier '{name}'; {did_you_mean(name, _MODIFIER_BITS)}"
             )
     return sum(_MODIFIER_BITS[name] for name in set(names))
@@ -148,7 +148,7 @@ class Keyboard:
         """Press and release a key, named as in JavaScript ("ArrowLeft", "a", "Home").
 
         Raises:
-            UsageError: no such key or modifier.
+            ValueError: no such key or modifier.
         """
         fields = self._fields(key, modifiers)
         self._page.call("Input.dispatchKeyEvent", {"type": "keyDown", **fields})
@@ -171,7 +171,7 @@ class Keyboard:
             fields = {"windowsVirtualKeyCode": ord(upper), "code": name}
             text = key
         else:
-            raise UsageError(f"no key '{key}'; {did_you_mean(key, _KEY_CODES)}")
+            raise ValueError(f"no key '{key}'; {did_you_mean(key, _KEY_CODES)}")
         # With Control, Alt or Meta a key is a command and writes nothing.
         if text and not bits & ~_MODIFIER_BITS["Shift"]:
             fields["text"] = text
