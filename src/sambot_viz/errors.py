@@ -6,6 +6,9 @@ The tree of errors; nothing else is raised to a caller on purpose::
     ├── RobotError                  a model that cannot be shown (.problems)
     │   └── MeshError               a mesh file that cannot be read
     ├── ConfigError                 a file that is not a .rviz document (.problems)
+    ├── NamedFileError              a file that a mesh names and that cannot be used
+    │   └── LfsPointerError         a git-LFS pointer in place of the file itself
+    ├── TextureError                an image that cannot be used
     ├── FrameError                  a transform that cannot be looked up or set
     │   ├── LookupRefused           no transform between two frames (.tf2_text)
     │   ├── TransformRefused        a transform that tf2 would not take
