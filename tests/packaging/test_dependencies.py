@@ -1,0 +1,62 @@
+"""The packages that pyproject.toml declares are those that the code imports."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from importlib import metadata
+from pathlib import Path
+
+NOT_IMPORTED_YET = {"trimesh"}
+"""Declared for code that is being written."""
+
+
+def declared(repository: Path) -> dict[str, str]:
+    """Distribution → the comment on its line: why it is needed."""
+    text = (repository / "pyproject.toml").read_text("utf-8")
+    block = text.partition("\ndependencies = [\n")[2].partition("\n]")[0]
+    lines = [
+        re.match(r'\s*"([\w.-]+)[^"]*",\s*(?:#\s*(.*))?', x) for x in block.split("\n")
+    ]
+    assert all(lines), block
+    return {line[1]: line[2] or "" for line in lines if line}
+
+
+def imported(repository: Path) -> set[str]:
+    """The distributions that the code imports when it runs."""
+    homes = metadata.packages_distributions()
+    names = {
+        name
+        for path in (repository / "src").rglob("*.py")
+        for name in imports(ast.parse(path.read_text("utf-8")))
+    }
+    others = names - set(sys.stdlib_module_names) - {"sambot_viz"}
+    return {homes[name][0].lower() for name in others}
+
+
+def imports(node: ast.AST) -> Iterator[str]:
+    """The top packages that a file imports, those for type checkers left out."""
+    if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+        return
+    if isinstance(node, ast.Import):
+        yield from (alias.name.partition(".")[0] for alias in node.names)
+    elif isinstance(node, ast.ImportFrom) and node.module:
+        yield node.module.partition(".")[0]
+    elif isinstance(node, ast.Call) and "import_module" in ast.dump(node.func):
+        if isinstance(node.args[0], ast.Constant):
+            yield str(node.args[0].value).partition(".")[0]
+    for child in ast.iter_child_nodes(node):
+        yield from imports(child)
+
+
+def test_what_is_imported_is_declared_and_the_other_way_round(
+    repository: Path,
+) -> None:
+    wanted = {name.lower() for name in declared(repository)}
+    assert wanted - NOT_IMPORTED_YET == imported(repository) - NOT_IMPORTED_YET
+
+
+def test_every_declared_package_says_why(repository: Path) -> None:
+    assert [name for name, why in declared(repository).items() if not why] == []
