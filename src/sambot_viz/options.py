@@ -38,7 +38,8 @@ class Flag:
     """How an option is written on the command line, and what it means.
 
     Attributes:
-        help: what the option does; also its documentation as a keyword argument.
+        help: what the option does, without its default; also its documentation as a
+            keyword argument.
         names: its flags, such as ``("-d", "--display-config")``; none for an option
             of the Python interface only.
         group: which commands take it.
@@ -198,17 +199,15 @@ class Options:
     )
     gui: bool = _option(
         True,
-        "the Joints panel with its sliders (default: yes)",
+        "the Joints panel with its sliders",
         "--gui",
         word="gui",
         switch="yes-no",
     )
-    host: str = _option(
-        "127.0.0.1", "the address to listen on (default: %(default)s)", "--host"
-    )
+    host: str = _option("127.0.0.1", "the address to listen on", "--host")
     port: int = _option(
         0,
-        "the port to listen on; 0 takes any free one (default: %(default)s)",
+        "the port to listen on; 0 takes any free one",
         "--port",
         type=int,
         flag_default=8080,
@@ -223,14 +222,13 @@ class Options:
     )
     session: SessionMode = _option(
         "shared",
-        "one robot for all browsers, or one for each (default: %(default)s)",
+        "one robot for all browsers, or one for each",
         "--session",
         choices=("shared", "private"),
     )
     watch: bool = _option(
         False,
-        "show the model, its meshes and the config again when they are saved "
-        "(default: %(default)s)",
+        "show the model, its meshes and the config again when they are saved",
         "--watch",
         switch="yes-no",
         flag_default=True,
@@ -325,9 +323,9 @@ def keyword_help() -> str:
     lines = ["Args:"]
     for each in declared():
         flag = flag_of(each)
-        default = "" if each.default is MISSING else repr(each.default)
-        text = flag.help.replace("%(default)s", default).removesuffix(_AGAIN)
-        lines.append(f"    {each.name}: {text}.")
+        given = each.default not in (MISSING, None, ())
+        default = f" (default: {each.default!r})" if given else ""
+        lines.append(f"    {each.name}: {flag.help.removesuffix(_AGAIN)}{default}.")
     return "\n".join(lines)
 
 

@@ -15,16 +15,7 @@ from sambot_viz.options import Options
 
 def run(words: list[str]) -> int:
     """Check a model; 0 when it has no errors (it may have warnings), else 1."""
-    parser = Parser(
-        prog="sambot-viz check",
-        groups=("model",),
-        description="List what is wrong with a model and its mesh files, where, and "
-        "how to fix it; of a package folder also what is wrong with its .rviz, launch "
-        "files and setup.py. "
-        "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
-    )
-    parser.add_argument("--format", choices=("text", "json"), default="text")
-    given, options = parse(parser, words)
+    given, options = parse(parser(), words)
     found = find(model_path(options))
     model, problems = found.model, _problems(options, found)
     if given.format == "json":
@@ -37,8 +28,22 @@ def run(words: list[str]) -> int:
     return int(any(problem.severity == "error" for problem in problems))
 
 
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
+        prog="sambot-viz check",
+        groups=("model",),
+        description="List what is wrong with a model and its mesh files, where, and "
+        "how to fix it; of a package folder also what is wrong with its .rviz, launch "
+        "files and setup.py. "
+        "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
+    )
+    made.add_argument("--format", choices=("text", "json"), default="text")
+    return made
+
+
 def _problems(options: Options, found: Found) -> list[Problem]:
-    """Of a model, or of a package folder with its config and launch files."""
+    """The findings about a model, or about all files of a package folder."""
     args, packages = options.xacro_args, options.package_path
     folder = model_path(options)
     if folder is None or not folder.is_dir():

@@ -115,7 +115,7 @@ def _is_taken(flag: Flag, groups: Sequence[Group]) -> bool:
 def _add(parser: Parser, option: Field[Any]) -> None:
     flag = flag_of(option)
     default = option.default if flag.default is None else flag.default
-    given: dict[str, Any] = {"dest": option.name, "help": flag.help}
+    given: dict[str, Any] = {"dest": option.name}
     if flag.switch == "yes-no":
         given |= {"action": argparse.BooleanOptionalAction, "default": default}
     elif flag.switch == "off":
@@ -126,7 +126,17 @@ def _add(parser: Parser, option: Field[Any]) -> None:
             given |= {"choices": flag.choices}
         if flag.read is not None:
             given |= {"action": "append", "default": []}
-    parser.add_argument(*flag.names, **given)
+    action = parser.add_argument(*flag.names, **given)
+    # Some versions of Python add their own words to the help of a switch.
+    action.help = flag.help + _default_in_words(flag, default)
+
+
+def _default_in_words(flag: Flag, default: object) -> str:
+    if flag.switch == "yes-no":
+        return " (default: yes)" if default else " (default: no)"
+    if isinstance(default, str | int) and not flag.switch:
+        return f" (default: {default})"
+    return ""
 
 
 def _as_flag(flag: Flag, value: str) -> list[str]:

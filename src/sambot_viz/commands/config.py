@@ -1,4 +1,4 @@
-"""``sambot-viz config``: what of an .rviz file is shown, and what is only kept."""
+"""``sambot-viz config``: what of a .rviz file is shown, and what is only kept."""
 
 from __future__ import annotations
 
@@ -12,16 +12,8 @@ from sambot_viz.errors import UsageError
 
 
 def run(words: list[str]) -> int:
-    """Report on a config; 0 when it can be shown, 1 when it is no .rviz document."""
-    parser = Parser(
-        prog="sambot-viz config",
-        description="Say what of a .rviz file is shown, approximated, or kept without "
-        "being shown, display by display. Exit status: 0 fine, 1 no .rviz file, "
-        "2 usage.",
-    )
-    parser.add_argument("file", metavar="FILE.rviz", help="of ROS 2 or ROS 1")
-    parser.add_argument("--format", choices=("text", "json"), default="text")
-    options = parser.parse_args(words)
+    """Report on a config; 0 when it can be shown, 1 when it is not a .rviz document."""
+    options = parser().parse_args(words)
     if not Path(options.file).is_file():
         raise UsageError(f"no config '{options.file}': there is no such file")
     from sambot_viz.open_config import load_config
@@ -34,3 +26,16 @@ def run(words: list[str]) -> int:
         sys.stdout.write(found.as_text())
         problem_text.write(found.problems, most=None)
     return 0
+
+
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
+        prog="sambot-viz config",
+        description="Report what of a .rviz file is shown, approximated, or kept "
+        "without being shown, display by display. Exit status: 0 fine, 1 not a .rviz "
+        "file, 2 usage.",
+    )
+    made.add_argument("file", metavar="FILE.rviz", help="of ROS 2 or ROS 1")
+    made.add_argument("--format", choices=("text", "json"), default="text")
+    return made

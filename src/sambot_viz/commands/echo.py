@@ -22,7 +22,7 @@ class _AnyOrder(Parser):
 
 def run(words: list[str]) -> int:
     """Print the pose of TARGET in SOURCE; 0 when there is one."""
-    given, options = parse(_parser(), words)
+    given, options = parse(parser(), words)
     robot = Inputs(options).robot()
     found = [p for p in robot.problems if p.severity != "info"]
     problem_text.write(found, model=options.model)
@@ -45,15 +45,16 @@ def _no_answer(found: Explanation) -> str:
     return f"{tf2_text}\n  {found.reason}"
 
 
-def _parser() -> Parser:
-    parser = _AnyOrder(
+def parser() -> Parser:
+    """The flags of the command."""
+    made = _AnyOrder(
         prog="sambot-viz echo",
         groups=("model", "pose"),
         description="Print the pose of the frame TARGET, seen from the frame SOURCE, "
         "as tf2_echo does: the transform that takes coordinates in TARGET to SOURCE. "
         "Exit status: 0 printed, 1 no such transform, 2 usage.",
     )
-    parser.add_argument("source", metavar="SOURCE", help="the frame to look from")
-    parser.add_argument("target", metavar="TARGET", help="the frame to look at")
-    parser.add_argument("--format", choices=("text", "json"), default="text")
-    return parser
+    made.add_argument("source", metavar="SOURCE", help="the frame to look from")
+    made.add_argument("target", metavar="TARGET", help="the frame to look at")
+    made.add_argument("--format", choices=("text", "json"), default="text")
+    return made

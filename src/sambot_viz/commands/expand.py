@@ -11,12 +11,7 @@ from sambot_viz.robot.load import expand
 
 def run(words: list[str]) -> int:
     """Print the URDF."""
-    parser = Parser(
-        prog="sambot-viz expand",
-        groups=("model",),
-        description="Print the URDF that xacro makes from a model.",
-    )
-    _, options = parse(parser, words)
+    _, options = parse(parser(), words)
     text = expand(
         find(model_path(options)).model,
         xacro_args=options.xacro_args,
@@ -26,3 +21,13 @@ def run(words: list[str]) -> int:
     sys.stdout.write(text)
     sys.stdout.flush()
     return 0
+
+
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
+        prog="sambot-viz expand",
+        groups=("model",),
+        description="Print the URDF that xacro makes from a model.",
+    )
+    return made

@@ -27,19 +27,7 @@ FORMATS: dict[str, Draw] = {
 
 def run(words: list[str]) -> int:
     """Draw the frames of a model; returns 0."""
-    parser = Parser(
-        prog="sambot-viz frames",
-        groups=("model", "pose"),
-        description="Draw the tree of frames with joint name and type, xyz [m] and "
-        "rpy [rad]. Exit status: 0 drawn, 1 errors found, 2 usage.",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="where to write it: .svg, .dot or .json (default: DOT on standard output)",
-    )
-    given, options = parse(parser, words)
+    given, options = parse(parser(), words)
     output = Path(given.output) if given.output else None
     draw = tree_dot if output is None else _format(output)
     robot = Inputs(options).robot()
@@ -52,6 +40,23 @@ def run(words: list[str]) -> int:
     else:
         _write(output, drawing)
     return 0
+
+
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
+        prog="sambot-viz frames",
+        groups=("model", "pose"),
+        description="Draw the tree of frames with joint name and type, xyz [m] and "
+        "rpy [rad]. Exit status: 0 drawn, 1 errors found, 2 usage.",
+    )
+    made.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="where to write it: .svg, .dot or .json (default: DOT on standard output)",
+    )
+    return made
 
 
 def _format(path: Path) -> Draw:

@@ -40,7 +40,7 @@ move its joints; without --host only this machine can
 
 def run(words: list[str]) -> int:
     """Serve until Ctrl-C."""
-    given, options = parse(_parser(), words, on_reload=_report_reload)
+    given, options = parse(parser(), words, on_reload=_report_reload)
     inputs = Inputs(options)
     # viser is imported and the port opened while the robot is loaded; the rest of the
     # program is imported while a browser loads the page.
@@ -64,18 +64,19 @@ def run(words: list[str]) -> int:
     return 0
 
 
-def _parser() -> Parser:
-    parser = Parser(
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
         prog="sambot-viz",
         groups=("model", "view", "pose", "server"),
         description="Show a URDF or xacro robot in the browser: no ROS, no X server.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    add = parser.add_argument
+    add = made.add_argument
     add("--version", action="version", version=f"sambot-viz {__version__}")
     add("--open", action="store_true", help="open the page in this machine's browser")
-    return parser
+    return made
 
 
 def _report_reload(problems: Sequence[Problem]) -> None:

@@ -23,7 +23,7 @@ LARGEST = 8192
 
 def run(words: list[str]) -> int:
     """Write a picture of a model; 0 when the file is written."""
-    given, options = parse(_parser(), words, panels=False)
+    given, options = parse(parser(), words, panels=False)
     width, height = _size(given.size)
     output = _output(given.output)
     inputs = Inputs(options)
@@ -45,17 +45,18 @@ def run(words: list[str]) -> int:
     return 0
 
 
-def _parser() -> Parser:
-    parser = Parser(
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
         prog="sambot-viz snapshot",
         groups=("model", "view", "pose"),
         description="Write a PNG of the 3D view alone, drawn by a Chromium or Chrome "
         "of this machine. Exit status: 0 written, 1 errors found, 2 usage.",
     )
-    add = parser.add_argument
+    add = made.add_argument
     add("-o", "--output", required=True, metavar="FILE.png", help="where to write it")
     add("--size", default="800x600", metavar="WxH", help="default: %(default)s")
-    return parser
+    return made
 
 
 def _report_fixed_frame(session: Session) -> None:

@@ -1,0 +1,64 @@
+"""The documents say what the program does."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from command_line_page import PAGE, page, parser_of
+
+from sambot_viz.cli import COMMANDS
+from sambot_viz.options import declared, flag_of
+from sambot_viz.visualizer import Visualizer
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def written_commands() -> list[str]:
+    """Every line in the README that calls the program, as somebody would type it."""
+    text = (ROOT / "README.md").read_text("utf-8")
+    blocks = re.findall(r"```(?:sh|console|text)\n(.*?)```", text, re.DOTALL)
+    lines = [line.removeprefix("$ ") for block in blocks for line in block.split("\n")]
+    return [line for line in lines if line.startswith("sambot-viz ")]
+
+
+def test_the_page_of_the_command_line_is_that_of_the_parsers() -> None:
+    assert PAGE.read_text("utf-8") == page(), (
+        "run: PYTHONPATH=tests/support python tests/support/command_line_page.py"
+    )
+
+
+def test_the_readme_calls_every_command_that_it_names() -> None:
+    assert len(written_commands()) >= 6
+
+
+@pytest.mark.parametrize("line", written_commands())
+def test_a_command_line_of_the_readme_is_accepted(line: str) -> None:
+    words = shlex.split(line)[1:]
+    command = words.pop(0) if words[0] in COMMANDS else "show"
+    parser_of(command).parse_args([word for word in words if ":=" not in word])
+
+
+def test_every_option_is_explained_to_python_users() -> None:
+    doc = Visualizer.__doc__ or ""
+    for option in declared():
+        assert f"    {option.name}: " in doc
+        assert flag_of(option).help
+
+
+def test_links_of_the_documents_lead_to_files() -> None:
+    for name in ("README.md", ".github/CONTRIBUTING.md", "CHANGELOG.md"):
+        document = ROOT / name
+        for link in re.findall(r"\]\(([^)#]+)", document.read_text("utf-8")):
+            if not link.startswith("http"):
+                assert (document.parent / link).exists(), f"{name}: {link}"
+
+
+def test_the_rooms_of_the_contributors_map_exist() -> None:
+    text = (ROOT / ".github" / "CONTRIBUTING.md").read_text("utf-8")
+    rows = re.findall(r"^\| (`\w+/`.*?) \|", text, re.MULTILINE)
+    rooms = {room for row in rows for room in re.findall(r"`(\w+)/`", row)}
+    package = ROOT / "src" / "sambot_viz"
+    assert rooms == {path.parent.name for path in package.glob("*/__init__.py")}
