@@ -88,7 +88,7 @@ ROOMS: Mapping[str, Row] = {
     "frames": Row("robot", "numpy"),
     "joints": Row("robot", "numpy yaml"),
     "drive": Row("joints robot", "numpy"),
-    "checks": Row("meshes robot rviz", "numpy yaml"),
+    "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "displays": Row("frames meshes robot rviz viser_private", "numpy viser"),
     "views": Row("rviz", "numpy"),
@@ -97,7 +97,7 @@ ROOMS: Mapping[str, Row] = {
         "bundled checks displays drive frames joints meshes options robot rviz tools "
         "views viser_private",
         "numpy viser",
-        "asyncio",
+        "asyncio concurrent",
     ),
     # From the scene to the page.
     "page": Row(),
