@@ -142,12 +142,15 @@ ROOMS: Mapping[str, Row] = {
     "text": Row(),
     "viser_private": Row("", "rich viser websockets"),
     "visualizer": Row(
-        "frames inputs joints open_config options robot rviz server session", "viser"
+        "displays frames inputs joints open_config options robot rviz server session",
+        "viser",
     ),
 }
 
 EXCEPTIONS: Mapping[str, str] = {
     "session/worker.py": "asyncio threading",  # each session has one worker thread
+    # Reads second models; a thread that belongs to server/, beside the mesh thread.
+    "displays/robot_model/model_reader.py": "threading",
     "robot/xacro/expand.py": "signal subprocess",  # xacro runs in a child process
     # In that child: the one thread of the pure rooms watches for the parent's end.
     "robot/xacro/child/main.py": "_thread signal",
@@ -157,6 +160,7 @@ EXCEPTIONS: Mapping[str, str] = {
 RINGS = [
     {"robot.kinematics", "robot.model"},  # a Robot offers its own kinematics
     {"tools.picking", "tools.tool"},
+    {"displays.display", "displays.robot_model"},  # the reader of second models
 ]
 """Modules or folders beside each other that import each other, as known today."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import socket
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -188,11 +189,84 @@ def test_an_address_of_another_machine_is_an_error() -> None:
         Visualizer(host="203.0.113.7", port=0)
 
 
-def test_a_wrong_model_leaves_no_server_behind(tmp_path: Path) -> None:
+@pytest.fixture
+def free_port() -> int:
+    """A port that was free a moment ago."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def answers(port: int) -> bool:
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+def test_an_ill_formed_model_leaves_no_server_behind(
+    tmp_path: Path, free_port: int
+) -> None:
     model = tmp_path / "wrong.urdf"
     model.write_text('<robot name="r">\n  <link name="a">\n</robot>\n')
     with pytest.raises(RobotError):
-        Visualizer(model=model, port=0)
+        Visualizer(model=model, port=free_port)
+    assert not answers(free_port)
+
+
+def test_a_model_that_urdf_refuses_leaves_no_server_behind(
+    tmp_path: Path, free_port: int
+) -> None:
+    model = tmp_path / "wrong.urdf"
+    model.write_text('<robot name="r"><link name="a"/><link name="b"/></robot>')
+    with pytest.raises(RobotError):
+        Visualizer(model=model, port=free_port)
+    assert not answers(free_port)
+
+
+def test_a_ring_of_static_transforms_leaves_no_server_behind(free_port: int) -> None:
+    ring = ["0 0 0 0 0 0 a b", "0 0 0 0 0 0 b a"]
+    with pytest.raises(FrameError):
+        Visualizer(port=free_port, static_transforms=ring)
+    assert not answers(free_port)
+
+
+def test_a_start_position_that_is_refused_leaves_no_server_behind(
+    free_port: int,
+) -> None:
+    with pytest.raises(JointError):
+        Visualizer(port=free_port, joint_positions={"no_such_joint": 1.0})
+    assert not answers(free_port)
+
+
+def test_stopping_twice_is_fine_and_ends_the_wait() -> None:
+    viz = Visualizer(port=0)
+    waiting = threading.Thread(target=viz.wait)
+    waiting.start()
+    viz.stop()
+    waiting.join(timeout=30)
+    assert not waiting.is_alive()
+    viz.stop()
+
+
+def test_an_exception_in_the_with_block_stops_the_server(free_port: int) -> None:
+    with pytest.raises(KeyError), Visualizer(port=free_port):
+        assert answers(free_port)
+        raise KeyError("a mistake of the script")
+    assert not answers(free_port)
+
+
+def test_no_thread_is_left_after_the_end() -> None:
+    before = set(threading.enumerate())
+    with Visualizer(port=0, watch=True):
+        pass
+    left = [t for t in threading.enumerate() if t not in before]
+    for thread in left:
+        thread.join(timeout=30)
+    assert [t.name for t in left if t.is_alive()] == []
+
+
+def test_a_misspelled_option_is_refused_by_name() -> None:
+    with pytest.raises(TypeError, match="prot"):
+        Visualizer(prot=0)  # type: ignore[call-arg]
 
 
 def test_a_missing_file_is_an_error_with_the_nearest_name(tmp_path: Path) -> None:
