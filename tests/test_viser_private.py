@@ -73,3 +73,11 @@ def test_a_command_has_the_name_that_the_page_is_sent(
     command = server.gui.add_command("Measure")
     sent = protocol(server.get_port()).uuid_of("Measure")
     assert viser_private.command_uuid(command) == sent
+
+
+def test_a_pose_is_set_as_by_visers_own_setters(server: viser.ViserServer) -> None:
+    node = server.scene.add_frame("/a")
+    viser_private.set_pose(node, (0.0, 1.0, 0.0, 0.0), None)
+    assert (tuple(node.wxyz), tuple(node.position)) == ((0, 1, 0, 0), (0, 0, 0))
+    viser_private.set_pose(node, None, (1.0, 2.0, 3.0))
+    assert (tuple(node.wxyz), tuple(node.position)) == ((0, 1, 0, 0), (1, 2, 3))

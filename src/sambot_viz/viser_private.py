@@ -21,6 +21,8 @@ from viser import (
 )
 from websockets.asyncio.server import ServerConnection
 
+from sambot_viz.geometry import Vector3, Wxyz
+
 _prepared: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
 
 
@@ -107,6 +109,29 @@ def larger_messages(client: viser.ClientHandle, most: int) -> Generator[None]:
 def node_count(scene: viser.SceneApi) -> int:
     """How many nodes a scene has: a page that shows as many shows all of it."""
     return len(scene._handle_from_node_name)  # pyright: ignore[reportPrivateUsage]
+
+
+def set_pose(
+    handle: viser.SceneNodeHandle, wxyz: Wxyz | None, position: Vector3 | None
+) -> None:
+    """Give a node another rotation, position [m] or both, and send them.
+
+    viser's own setters compare every value with the last one by `numpy.allclose`, which
+    is two thirds of what a step of a joint costs, and which drops small steps.
+
+    Args:
+        handle: the node; it was not removed.
+        wxyz: a unit quaternion; None leaves the rotation as it is.
+        position: finite numbers; None leaves the position as it is.
+    """
+    state: Any = handle._impl  # pyright: ignore[reportPrivateUsage]
+    send = state.api._queue_scene_message
+    if wxyz is not None:
+        state.wxyz[:] = wxyz
+        send(_messages.SetOrientationMessage(state.name, wxyz))
+    if position is not None:
+        state.position[:] = position
+        send(_messages.SetPositionMessage(state.name, position))
 
 
 def is_removed(handle: viser.SceneNodeHandle | viser.GuiInputHandle[Any]) -> bool:

@@ -1,4 +1,4 @@
-"""Motion by itself: joint_state_publisher's delta, and wheels that keep turning."""
+"""Motion by itself: wheels that keep turning."""
 
 from __future__ import annotations
 
@@ -9,34 +9,10 @@ import pytest
 
 from sambot_viz.errors import JointError
 from sambot_viz.joints import JointState
-from sambot_viz.joints.animation import DeltaMotion, turn, wrap_angle
-from sambot_viz.robot.model import Joint, Limit, Robot
+from sambot_viz.joints.animation import turn, wrap_angle
+from sambot_viz.robot.model import Robot
 
 MakeRobot = Callable[..., Robot]
-
-
-def test_a_limited_joint_goes_to_and_fro_and_stands_twice_at_each_end(
-    make_robot: MakeRobot,
-) -> None:
-    # spec/ros-nodes.md §1.6: … 0.8, 1.0, 0.6 … −1.0, −1.0, −0.6 …
-    state = JointState(make_robot(Joint("j", "revolute", "a", "b", limit=Limit(-1, 1))))
-    motion, seen = DeltaMotion(0.4), list[float]()
-    for _ in range(14):
-        state.set_all(motion.step(state))
-        seen.append(round(state.positions["j"], 9))
-    assert seen == [0.4, 0.8, 1, 0.6, 0.2, -0.2, -0.6, -1, -1, -0.6, -0.2, 0.2, 0.6, 1]
-
-
-def test_a_continuous_joint_jumps_to_its_minimum(make_robot: MakeRobot) -> None:
-    state = JointState(make_robot(Joint("j", "continuous", "a", "b")))
-    motion = DeltaMotion(2.0)
-    state.set("j", 2.0)
-    assert motion.step(state) == {"j": -math.pi}
-
-
-@pytest.mark.parametrize("delta", [0.0, -0.1, math.nan])
-def test_without_a_positive_delta_nothing_moves(arm: Robot, delta: float) -> None:
-    assert DeltaMotion(delta).step(JointState(arm)) == {}
 
 
 def test_a_wheel_keeps_turning_and_counts_its_turns(arm: Robot) -> None:

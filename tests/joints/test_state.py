@@ -41,7 +41,7 @@ def test_a_joint_starts_at_zero_or_in_the_middle_of_a_range_without_zero(
     assert JointState(arm).positions == {"wheel": 0, "j": 0, "lift": 2, "stuck": 0.5}
 
 
-def test_soft_limits_count_for_range_and_start_unless_switched_off(
+def test_soft_limits_count_for_range_and_start(
     make_robot: MakeRobot,
 ) -> None:
     limit, soft_limit = Limit(-1, 1), SoftLimit(lower=0.2, upper=0.6)
@@ -50,9 +50,6 @@ def test_soft_limits_count_for_range_and_start_unless_switched_off(
     )
     assert JointState(robot).positions["j"] == pytest.approx(0.4)
     assert JointState(robot).joints["j"].range == (0.2, 0.6)
-    plain = JointState(robot, use_smallest_joint_limits=False)
-    assert plain.positions["j"] == 0
-    assert plain.joints["j"].range == (-1, 1)
 
 
 def test_reversed_limits_start_at_zero(make_robot: MakeRobot) -> None:
@@ -105,13 +102,10 @@ def test_values_are_kept_exactly(arm: Robot) -> None:
 
 def test_setting_tells_what_moved_followers_included(arm: Robot) -> None:
     state = JointState(arm)
-    heard: list[tuple[str, ...]] = []
-    state.listeners.append(heard.append)
     assert state.set("j", 1.0)
     assert not state.set("j", 1.0)
     assert state.set_all({"wheel": 2.0, "j": 1.0}) == ("wheel",)
-    assert heard == [("j", "l", "k"), ("wheel",)]
-    assert state.revision == 2
+    assert state.set_all({"wheel": 3.0, "j": 2.0}) == ("wheel", "j", "l", "k")
 
 
 def test_values_over_a_limit_pass_and_are_marked(arm: Robot) -> None:
@@ -125,7 +119,9 @@ def test_a_value_that_is_no_finite_number_changes_nothing(
     arm: Robot, bad: float
 ) -> None:
     state = JointState(arm)
-    with pytest.raises(JointError, match=r"^joint 'j' cannot be set to .*: no finite"):
+    with pytest.raises(
+        JointError, match=r"^joint 'j' cannot be set to .*: it is not a"
+    ):
         state.set_all({"wheel": 1.0, "j": bad})
     assert state.positions["wheel"] == 0
 
@@ -162,20 +158,6 @@ def test_center_goes_to_the_start_values_not_to_the_middle(
     state.randomize(seed=1)
     assert state.center() == ("j",)
     assert state.positions["j"] == 0.0
-
-
-def test_without_mimic_tags_every_joint_is_free(arm: Robot) -> None:
-    state = JointState(arm, use_mimic_tags=False)
-    assert state.free == ("l", "wheel", "k", "j", "lift", "stuck")
-    assert not state.followers
-
-
-def test_dependent_joints_are_mimic_by_parameter(arm: Robot) -> None:
-    state = JointState(arm, dependent_joints={"wheel": Mimic("j", 0.5)})
-    state.set("j", 0.5)
-    assert state.all_positions()["wheel"] == 0.25
-    with pytest.raises(JointError, match=r"^no joint 'x'; "):
-        JointState(arm, dependent_joints={"x": Mimic("j")})
 
 
 def test_a_ring_of_mimic_joints_is_told_once_and_stops_nothing(
@@ -223,7 +205,6 @@ def test_a_reload_keeps_the_values_of_joints_that_still_exist(
 ) -> None:
     state = JointState(arm)
     state.set_all({"j": 1.5, "wheel": 3.0, "stuck": 0.7})
-    version = state.version
     edited = make_robot(
         Joint("wheel", "revolute", "base_link", "d", limit=Limit(-1, 1)),
         Joint("j", "revolute", "base_link", "a", limit=Limit(-1, 1)),
@@ -234,4 +215,3 @@ def test_a_reload_keeps_the_values_of_joints_that_still_exist(
     # The wheel has another type; the lift stood at its start, and still does.
     assert state.positions == {"wheel": 0, "j": 1.5, "lift": 6, "new": 0}
     assert state.over_limit() == ("j",)
-    assert state.version > version

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames.frame_tree import FrameTree
@@ -14,40 +14,63 @@ from sambot_viz.robot.model import Robot
 def robot_frames(
     robot: Robot, positions: Mapping[str, float] | None = None, *, prefix: str = ""
 ) -> FrameTree:
-    """A new tree with the frames of a robot (spec/ros-nodes.md §3.2).
+    """A new tree with the frames of a robot.
 
     Fixed and planar joints are static, the moving ones change. A floating joint gives
     no transform, so that what hangs below it is a tree of its own.
 
     Args:
         robot: the robot.
-        positions: joint → position [rad or m]; the others stand at their start values,
+        positions: joint → position [rad or m]; the others have their start values,
             mimic joints follow.
         prefix: is put before every frame name as it is (RSP's frame_prefix).
 
     Raises:
-        JointError: an unknown joint, or a position that is no finite number.
+        JointError: an unknown joint, or a position that is not a finite number.
     """
-    kinematics = Kinematics(robot)
-    values = kinematics.positions(positions or {})
     tree = FrameTree()
+    joints = [j.name for j in robot.joints.values() if j.type != "floating"]
+    hang_robot(tree, robot, Kinematics(robot), positions or {}, joints, prefix)
+    return tree
+
+
+def hang_robot(
+    tree: FrameTree,
+    robot: Robot,
+    kinematics: Kinematics,
+    positions: Mapping[str, float],
+    joints: Iterable[str] | None = None,
+    prefix: str = "",
+) -> None:
+    """Set the frames of a robot in a tree.
+
+    Args:
+        tree: where they are set.
+        robot: the robot.
+        kinematics: of that robot.
+        positions: joint → position [rad or m]; the others have their start values.
+        joints: the joints that hold a frame at another one; None means all.
+        prefix: is put before every frame name as it is.
+
+    Raises:
+        JointError: an unknown joint, or a position that is not a finite number.
+    """
     tree.declare(prefix + robot.root)
-    for name, joint in robot.joints.items():
-        if joint.type == "floating":
-            continue
-        matrix = kinematics.joint_transform(name, values[name])
+    values = kinematics.positions(positions)
+    names = robot.joints if joints is None else joints
+    for name, matrix in kinematics.joint_transforms(names, values).items():
+        joint = robot.joints[name]
         matrix.flags.writeable = False
         set_transform = tree.set if joint.movable else tree.set_static
         transform = Transform.trusted(matrix)
         set_transform(prefix + joint.parent, prefix + joint.child, transform)
-    return tree
 
 
 def floating_problems(robot: Robot) -> tuple[Problem, ...]:
     """What to say about floating joints where their children are shown all the same.
 
-    ROS publishes no transform for them (spec/ros-nodes.md §3.2), and RViz then draws
-    what hangs below in white at the origin of the fixed frame.
+    ROS publishes no transform for them, and RViz then draws what hangs below in white
+    at the origin of the fixed frame.
     """
     return tuple(
         Problem(

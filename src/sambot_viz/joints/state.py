@@ -1,27 +1,23 @@
 """The positions of a robot's joints, as joint_state_publisher keeps them.
 
-The rules are those of spec/ros-nodes.md §1 and §2, without the faults listed there:
-values are exact (no 10000 steps), a reload keeps them, a bad mimic stops nothing.
+Where that node has faults, this has none: values are exact (not one of 10000 steps), a
+reload keeps them, and a mimic joint that cannot follow stops nothing.
 """
 
 from __future__ import annotations
 
-import math
 import random
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from sambot_viz.errors import JointError, Problem, did_you_mean
+from sambot_viz.geometry import Matrix, finite
 from sambot_viz.joints.mimic import Follower, find_followers
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.model import Joint, Mimic, Robot
+from sambot_viz.robot.model import Joint, Robot
 
 _LARGEST = 1e18
 """A pose farther away than this cannot be drawn, nor composed with others."""
-
-JointListener = Callable[[tuple[str, ...]], None]
-"""Is called with the names of the joints that moved, followers included."""
 
 
 class JointState:
@@ -33,49 +29,36 @@ class JointState:
     Args:
         robot: the robot whose joints these are.
         zeros: joint → start value, also outside the limits (``--zeros``).
-        dependent_joints: joint → what it mimics, instead of what the file says.
-        use_mimic_tags: False makes the mimic joints of the file free joints.
-        use_smallest_joint_limits: False leaves soft limits out.
 
     Attributes:
-        version: grows when joints appear or disappear.
-        revision: grows at every change of a position.
-        listeners: called after every change with the names of the joints that moved.
+        kinematics: of the same robot.
 
     Raises:
-        JointError: `zeros` or `dependent_joints` name a joint that is not there, or
-            hold a number that is not finite.
+        JointError: `zeros` name a joint that is not there, or hold a number that is
+            not finite.
     """
+
+    kinematics: Kinematics
 
     def __init__(
         self,
         robot: Robot,
         *,
         zeros: Mapping[str, float] | None = None,
-        dependent_joints: Mapping[str, Mimic] | None = None,
-        use_mimic_tags: bool = True,
-        use_smallest_joint_limits: bool = True,
     ) -> None:
-        self.version = 0
-        self.revision = 0
-        self.listeners: list[JointListener] = []
-        self._use_mimic_tags = use_mimic_tags
-        self._use_soft_limits = use_smallest_joint_limits
-        self._dependent = dict(dependent_joints or {})
         self._zeros: dict[str, float] = {}
         self._positions: dict[str, float] = {}
         self._take(robot)
-        for name in self._dependent:
-            self._require(name, self._joints)
         for name, value in (zeros or {}).items():
             self._zeros[name] = self.checked(name, value)
         self._positions = {name: self.start(name) for name in self._free}
+        self._follow()
 
     # Which joints there are
 
     @property
     def joints(self) -> Mapping[str, Joint]:
-        """The joints that have a position, in document order, as the options say."""
+        """The joints that have a position, in document order."""
         return MappingProxyType(self._joints)
 
     @property
@@ -115,8 +98,11 @@ class JointState:
 
         These are the names and positions of joint_state_publisher's message.
         """
-        positions = self._kinematics.positions(self._positions)
-        return {name: positions[name] for name in self._joints}
+        return dict(self._all)
+
+    def transforms(self, names: Iterable[str]) -> dict[str, Matrix]:
+        """Joint → (4, 4) T_parent_child at its position, of some joints."""
+        return self.kinematics.joint_transforms(names, self._all)
 
     def set(self, name: str, value: float) -> bool:
         """Set one free joint; values outside its range pass (see `over_limit`).
@@ -189,7 +175,7 @@ class JointState:
         )
 
     def over_limit(self) -> tuple[str, ...]:
-        """The joints that stand outside their range, followers included.
+        """The joints whose position is outside their range, followers included.
 
         A continuous joint has no limit (its range is the slider's), and neither has a
         mimic joint whose file gives none.
@@ -207,8 +193,8 @@ class JointState:
     def reload(self, robot: Robot) -> tuple[str, ...]:
         """Take another robot, or the same after an edit.
 
-        A joint that still exists with the same type keeps its value; if it stood at
-        its start value it stands at the new one.
+        A joint that still exists with the same type keeps its value; one that was at
+        its start value goes to the new start value.
 
         Returns:
             The names of all joints whose position is new or other than before.
@@ -223,35 +209,29 @@ class JointState:
             else self.start(name)
             for name, j in self._free.items()
         }
-        self.version += 1
-        now = self.all_positions()
-        changed = tuple(n for n, v in now.items() if former.get(n) != v)
-        self._tell(changed)
-        return changed
+        self._follow()
+        return tuple(n for n, v in self._all.items() if former.get(n) != v)
 
     # Inside
 
     def _take(self, robot: Robot) -> None:
-        effective = {name: self._effective(j) for name, j in robot.joints.items()}
-        self._kinematics = Kinematics(replace(robot, joints=effective))
-        self._joints = {n: j for n, j in effective.items() if j.movable}
-        self._followers, self._problems = find_followers(effective)
+        self.kinematics = Kinematics(robot)
+        self._joints = {n: j for n, j in robot.joints.items() if j.movable}
+        self._followers, self._problems = find_followers(robot.joints)
         self._free = {n: j for n, j in self._joints.items() if j.mimic is None}
         self._skipped = {
             n: f"{j.type}: has no position in ROS"
-            for n, j in effective.items()
+            for n, j in robot.joints.items()
             if not j.movable
         }
         self._led: dict[str, list[str]] = {}
         for name, follower in self._followers.items():
             self._led.setdefault(follower.leader, []).append(name)
 
-    def _effective(self, joint: Joint) -> Joint:
-        mimic = self._dependent.get(
-            joint.name, joint.mimic if self._use_mimic_tags else None
-        )
-        soft_limit = joint.soft_limit if self._use_soft_limits else None
-        return replace(joint, mimic=mimic, soft_limit=soft_limit)
+    def _follow(self) -> None:
+        """Work out all positions from those of the free joints."""
+        positions = self.kinematics.positions(self._positions)
+        self._all = {name: positions[name] for name in self._joints}
 
     def _require(self, name: str, among: Iterable[str]) -> None:
         if name in among:
@@ -276,24 +256,18 @@ class JointState:
         for name in changed:
             moved.append(name)
             moved.extend(self._led.get(name, ()))
-        self._tell(tuple(moved))
+            self._all[name] = self._positions[name]
+        if not self._led.keys().isdisjoint(moved):
+            self._follow()
         return tuple(moved)
-
-    def _tell(self, moved: tuple[str, ...]) -> None:
-        if not moved:
-            return
-        self.revision += 1
-        for listener in tuple(self.listeners):
-            listener(moved)
 
 
 def _number(name: str, value: float) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError, OverflowError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise JointError(f"joint '{name}' cannot be set to {value!r}: no finite number")
+    number = finite(value)
+    if number is None:
+        raise JointError(
+            f"joint '{name}' cannot be set to {value!r}: it is not a finite number"
+        )
     if abs(number) > _LARGEST:
         raise JointError(
             f"joint '{name}' cannot be set to {value!r}: more than {_LARGEST:g}"

@@ -1,9 +1,8 @@
-"""Forward kinematics as robot_state_publisher computes it (spec/ros-nodes.md §8)."""
+"""Forward kinematics as robot_state_publisher computes it."""
 
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -11,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import JointError, did_you_mean
-from sambot_viz.geometry import Matrix, rotation_from_axis
+from sambot_viz.geometry import Matrix, finite, rotation_from_axis, rotations_from_axes
 from sambot_viz.robot.model import Joint, Robot
 
 _Ints = npt.NDArray[np.int64]
@@ -24,7 +23,7 @@ def forward_kinematics(
 ) -> dict[str, Matrix]:
     """Poses of all links in the root link.
 
-    Whoever asks more than once keeps a `Kinematics` instead.
+    A caller that asks more than once keeps a `Kinematics` instead.
 
     Args:
         robot: the robot.
@@ -57,8 +56,12 @@ class _Follow:
     offset: float
 
 
+FEW = 12
+"""Up to so many joints are cheaper one by one than all of the robot together."""
+
+
 class Kinematics:
-    """What of a robot's kinematics can be worked out once.
+    """The poses that joint positions give: prepared once, then asked often.
 
     Attributes:
         links: link names, the root first, then by depth.
@@ -88,16 +91,15 @@ class Kinematics:
         axes: _Floats = np.zeros((count, 3))
         for row, joint in enumerate(order):
             axes[row] = joint.axis
-        self._outer = axes[self._spin, :, None] * axes[self._spin, None, :]
-        self._cross = _cross_matrices(axes[self._spin])
+        self._spins = axes[self._spin]
         self._slides = axes[self._slide]
 
     def positions(self, given: Mapping[str, float]) -> dict[str, float]:
         """The position of every joint [rad or m].
 
         Args:
-            given: joint name → position. A joint that is not given stands at its
-                start value, a mimic joint follows its leader.
+            given: joint name → position. A joint that is not given has its start
+                value, a mimic joint follows its leader.
 
         Raises:
             JointError: an unknown joint, or a value that is not finite.
@@ -149,6 +151,24 @@ class Kinematics:
             T[:3, :3] = T[:3, :3] @ np.array(rotation_from_axis(this.axis, q))
         return T
 
+    def joint_transforms(
+        self, names: Iterable[str], positions: Mapping[str, float]
+    ) -> dict[str, Matrix]:
+        """T_parent_child (4, 4) of some joints.
+
+        Args:
+            names: the joints.
+            positions: the positions of all joints [rad or m].
+
+        Raises:
+            JointError: an unknown joint, or a position that is not finite.
+        """
+        wanted = list(names)
+        if len(wanted) <= FEW:
+            return {n: self.joint_transform(n, positions[n]) for n in wanted}
+        T_parent_child = self._transforms(self._filled(positions))
+        return {name: T_parent_child[self._row_of(name)] for name in wanted}
+
     def moved_by(self, joint: str) -> tuple[str, ...]:
         """The joint itself and every mimic joint that follows it, through chains.
 
@@ -184,10 +204,7 @@ class Kinematics:
     def _transforms(self, q: _Floats) -> Matrix:
         T: _Floats = np.array(self._origins)
         if self._spin.size:
-            angle = q[self._spin]
-            cos = np.cos(angle)[:, None, None]
-            sin = np.sin(angle)[:, None, None]
-            turned = cos * np.eye(3) + (1.0 - cos) * self._outer + sin * self._cross
+            turned = rotations_from_axes(self._spins, q[self._spin])
             T[self._spin, :3, :3] = T[self._spin, :3, :3] @ turned
         if self._slide.size:
             shift = self._slides * q[self._slide, None]
@@ -220,7 +237,7 @@ def _by_depth(robot: Robot) -> tuple[list[Joint], list[int], list[int]]:
 def _follows(order: Iterable[Joint], rows: Mapping[str, int]) -> list[_Follow]:
     """The mimic joints, leaders first; rings and unknown leaders stay where they are.
 
-    ROS stops at those (spec/ros-nodes.md §1.6); a Problem tells of them.
+    joint_state_publisher ends at those with an exception; here a Problem names them.
     """
     waiting = {
         rows[joint.name]: (rows[joint.mimic.joint], joint.mimic)
@@ -251,25 +268,12 @@ def _rows(order: Iterable[Joint], types: Iterable[str]) -> _Ints:
     return np.array(found, np.int64)
 
 
-def _cross_matrices(axes: _Floats) -> _Floats:
-    """[a]× for each row a: (N, 3, 3)."""
-    result: _Floats = np.zeros((len(axes), 3, 3))
-    x, y, z = axes[:, 0], axes[:, 1], axes[:, 2]
-    result[:, 0, 1], result[:, 0, 2] = -z, y
-    result[:, 1, 0], result[:, 1, 2] = z, -x
-    result[:, 2, 0], result[:, 2, 1] = -y, x
-    return result
-
-
 _FARTHEST = 1e30
 """A chain of mimic joints with large factors stops growing here."""
 
 
 def _finite(joint: str, value: float) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
+    number = finite(value)
+    if number is None:
         raise JointError(f"joint '{joint}': {value!r} is not a finite number")
     return number

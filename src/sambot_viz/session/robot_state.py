@@ -7,16 +7,16 @@ from collections.abc import Iterable, Mapping
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.start import StartPose
-from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.user_frames import UserFrames
 
 
 class RobotState:
-    """See the module. Not thread-safe: the session that owns it holds the lock.
+    """What a session shows of a robot; not thread-safe, the session holds the lock.
 
     Args:
         tree: the frames; this fills them.
@@ -32,14 +32,12 @@ class RobotState:
         self.joints: JointState | None = None
         self._tree = tree
         self._added = added
-        self._kinematics: Kinematics | None = None
         self._moved: dict[str, None] = {}
         self._swept: dict[str, Matrix] = {}
 
     def take(self, robot: Robot, start: StartPose) -> None:
         """Take a robot, or the same after an edit: joints keep their values."""
         self.robot = robot
-        self._kinematics = Kinematics(robot)
         if self.joints is None:
             self.joints = start.state(robot)
         else:
@@ -47,16 +45,12 @@ class RobotState:
 
     def build_tree(self) -> tuple[Problem, ...]:
         """The frames of the robot, then the added ones again; why some cannot be."""
-        robot, kinematics, joints = self.robot, self._kinematics, self.joints
-        if robot is None or kinematics is None or joints is None:
+        if self.robot is None or self.joints is None:
             return ()
-        positions = joints.all_positions()
         self._tree.clear()
-        self._tree.declare(robot.root)
-        for name, joint in robot.joints.items():
-            T = kinematics.joint_transform(name, positions.get(name, joint.start))
-            set_transform = self._tree.set if joint.movable else self._tree.set_static
-            set_transform(joint.parent, joint.child, Transform.trusted(T))
+        hang_robot(
+            self._tree, self.robot, self.joints.kinematics, self.joints.positions
+        )
         return self._added.set_again()
 
     @property
@@ -93,14 +87,10 @@ class RobotState:
         return frames
 
     def _joint_frames(self, moved: Iterable[str]) -> dict[str, Matrix]:
-        robot, kinematics, joints = self.robot, self._kinematics, self.joints
-        if robot is None or kinematics is None or joints is None:
+        robot, joints = self.robot, self.joints
+        if robot is None or joints is None:
             return {}
-        positions = joints.all_positions()
-        frames: dict[str, Matrix] = {}
-        for name in moved:
-            frame = plain_name(robot.joints[name].child)
-            # A frame that was hung elsewhere by hand no longer follows its joint.
-            if frame not in self._added:
-                frames[frame] = kinematics.joint_transform(name, positions[name])
-        return frames
+        frames = {name: plain_name(robot.joints[name].child) for name in moved}
+        # A frame that was hung elsewhere by hand no longer follows its joint.
+        free = [name for name, frame in frames.items() if frame not in self._added]
+        return {frames[name]: T for name, T in joints.transforms(free).items()}

@@ -386,15 +386,16 @@ class Session:
     def _draw_moved(self) -> None:
         """Send the poses of all that moved since the last time."""
         with self.lock:
+            frames = self._posed.settle()
+            if not frames:
+                return
             with self.audience.atomic():
-                frames = self._posed.settle()
-                if not frames:
-                    return
                 self.context.nodes.place(self.tree, self.context.fixed_frame, frames)
                 for display in self.displays:
                     display.frames_moved(frames)
-                self._tell("joints")
+            # The poses leave before any panel is told.
             self.audience.flush()
+            self._tell("joints")
 
     def _frames_changed(self) -> None:
         self._drawn_tree = self.tree.version

@@ -1,8 +1,8 @@
 """Frames are the scene tree: one viser frame node per TF frame, under its parent's.
 
 Everything that is drawn at a frame hangs below its node, so a joint that moves is
-one message, whatever the size of the robot (DESIGN §4.2). The node of a root frame
-carries the fixed frame: its pose is T_fixed_root.
+one message, whatever the size of the robot. The node of a root frame carries the fixed
+frame: its pose is T_fixed_root.
 """
 
 from __future__ import annotations
@@ -15,9 +15,17 @@ import viser
 
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.frames import FrameTree
-from sambot_viz.geometry import Matrix, inverse_matrix, wxyz_from_matrix
-from sambot_viz.viser_private import is_removed
+from sambot_viz.geometry import (
+    Matrix,
+    Vector3,
+    Wxyz,
+    inverse_matrix,
+    wxyz_from_matrix,
+)
+from sambot_viz.viser_private import is_removed, set_pose
 
+_AS_CREATED = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""The pose of a node that was just added."""
 _DIGITS = string.digits + string.ascii_lowercase
 
 
@@ -33,13 +41,14 @@ class FrameNodes:
     """The frames of one session as viser nodes.
 
     A frame whose tree does not contain the fixed frame has no place in the picture;
-    its node is hidden, and `connected` tells.
+    its node is hidden, and `connected` says so.
     """
 
     def __init__(self, scene: viser.SceneApi) -> None:
         self._scene = scene
         self._handles: dict[str, viser.FrameHandle] = {}
         self._paths: dict[str, str] = {}
+        self._sent: dict[str, tuple[Wxyz, Vector3]] = {}
         self._ids: dict[str, str] = {}
         self._root_of: dict[str, str] = {}
         self._fixed_root: str | None = None
@@ -57,6 +66,7 @@ class FrameNodes:
         wanted = self._wanted_paths(tree)
         for frame in [f for f, path in self._paths.items() if wanted.get(f) != path]:
             del self._paths[frame]
+            self._sent.pop(frame, None)
             handle = self._handles.pop(frame)
             # A node that hung below another one has gone with it.
             if not is_removed(handle):
@@ -73,7 +83,7 @@ class FrameNodes:
         for frame in frames:
             parent = tree.parent(frame)
             if parent is not None:
-                self._set(frame, tree.hop(frame).transform.matrix)
+                self._set(frame, tree.lookup(parent, frame).matrix)
         self._place_roots(tree, fixed_frame)
 
     def _place_roots(self, tree: FrameTree, fixed_frame: str) -> None:
@@ -87,9 +97,16 @@ class FrameNodes:
                 self._set(root, inverse_matrix(T_root_fixed))
 
     def _set(self, frame: str, T: Matrix) -> None:
-        handle = self._handles[frame]
-        handle.wxyz = wxyz_from_matrix(T)
-        handle.position = position_of(T)
+        """Send the pose of a node; what of it has not changed is not sent again."""
+        wxyz, position = now = (wxyz_from_matrix(T), position_of(T))
+        before = self._sent.get(frame, _AS_CREATED)
+        if now != before:
+            self._sent[frame] = now
+            set_pose(
+                self._handles[frame],
+                wxyz if wxyz != before[0] else None,
+                position if position != before[1] else None,
+            )
 
     def _wanted_paths(self, tree: FrameTree) -> dict[str, str]:
         paths: dict[str, str] = {}
