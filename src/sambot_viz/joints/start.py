@@ -16,9 +16,11 @@ class StartPose:
     Attributes:
         zeros: joint → start value [rad or m], which Center goes back to.
         recorded: joint → position of a recorded message. As joint_state_publisher
-            does, joints that follow others or are not there are passed over
-            (spec/ros-nodes.md §1.6).
-        positions: joint → position; every one must be there and free.
+            does, joints that are not there are passed over.
+        positions: joint → position; every one must be there and able to move.
+
+    Real messages contain the joints that mimic others too. These follow what they
+    mimic; a position that disagrees with that is a warning.
     """
 
     zeros: Mapping[str, float] = field(default_factory=dict[str, float])
@@ -34,7 +36,10 @@ class StartPose:
         """
         state = JointState(robot, zeros=self.zeros)
         state.set_all({n: v for n, v in self.recorded.items() if n in state.free})
-        state.set_all(self.positions)
+        following = {n: v for n, v in self.positions.items() if n in state.followers}
+        state.set_all({n: v for n, v in self.positions.items() if n not in following})
+        recorded = {n: v for n, v in self.recorded.items() if n in state.followers}
+        state.compare_followers(recorded | following)
         return state
 
     def passed_over(self, state: JointState) -> tuple[str, ...]:

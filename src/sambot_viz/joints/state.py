@@ -16,6 +16,8 @@ from sambot_viz.joints.mimic import Follower, find_followers
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Joint, Robot
 
+AGREES = 1e-3
+"""Positions that differ less are the same: messages are rounded [rad or m]."""
 _LARGEST = 1e18
 """A pose farther away than this cannot be drawn, nor composed with others."""
 
@@ -83,7 +85,7 @@ class JointState:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """The mimic joints that cannot follow, and why not."""
+        """Why mimic joints cannot follow, or disagree with what was given."""
         return self._problems
 
     # Their positions
@@ -173,6 +175,25 @@ class JointState:
         return self.set_all(
             {n: source.uniform(*j.range) for n, j in self._free.items()}
         )
+
+    def compare_followers(self, given: Mapping[str, float]) -> None:
+        """Add a warning for each mimic joint that was given another position.
+
+        Args:
+            given: mimic joint → position [rad or m], from a message or an argument.
+        """
+        found = [
+            Problem(
+                "warning",
+                "mimic-joint-disagrees",
+                f"joint '{name}' was given {value:g}, but it mimics "
+                f"'{self._followers[name].leader}' and so is at {self._all[name]:g}",
+                f"set '{self._followers[name].leader}' instead",
+            )
+            for name, value in given.items()
+            if not abs(value - self._all[name]) <= AGREES
+        ]
+        self._problems = (*self._problems, *found)
 
     def over_limit(self) -> tuple[str, ...]:
         """The joints whose position is outside their range, followers included.
