@@ -13,7 +13,7 @@ import viser
 
 from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.errors import ServerError
-from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
@@ -25,6 +25,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.reload import Documents, Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
+from sambot_viz.session.frame_view import FrameView
 
 _P = ParamSpec("_P")
 
@@ -150,9 +151,10 @@ class Visualizer:
             return MappingProxyType({} if joints is None else joints.all_positions())
 
     @property
-    def frames(self) -> FrameTree:
+    def frames(self) -> FrameView:
         """The frames, for look-ups: ``viz.frames.lookup(target, source)``."""
-        return self._first().tree
+        session = self._first()
+        return FrameView(session.tree, session.lock)
 
     def set_joint_positions(self, positions: Mapping[str, float]) -> None:
         """Move some joints, in every browser.

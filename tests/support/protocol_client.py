@@ -37,6 +37,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
+import time
 import weakref
 from collections import Counter
 from collections.abc import Callable
@@ -321,7 +322,10 @@ def wait_for_workers(timeout: float = 10.0) -> None:
         if isinstance(thread, Worker):
             done = threading.Event()
             thread.post(done.set)
-            assert done.wait(timeout) or not thread.is_alive()
+            end = time.monotonic() + timeout
+            # A worker that is closed meanwhile drops what was posted to it.
+            while not done.wait(0.02) and thread.is_alive():
+                assert time.monotonic() < end, "a session hangs"
 
 
 def _build_fence(server: viser.ViserServer) -> None:

@@ -19,6 +19,9 @@ def posed_frames(robot: Robot, options: Options) -> FrameTree:
     state = options.start_pose.state(robot)
     for name in options.start_pose.passed_over(state):
         warn(f"--joint-state: the robot has no joint '{name}'; ignored")
+    for problem in state.problems:
+        if problem.code == "mimic-joint-disagrees":
+            warn(f"{problem.message}; {problem.hint}")
     tree = robot_frames(robot, state.all_positions())
     for added in options.transforms:
         tree.set_static(added.parent, added.child, added.transform)

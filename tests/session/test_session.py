@@ -1,0 +1,278 @@
+"""A session under many hands: threads of the program, browsers, saves, failures."""
+
+from __future__ import annotations
+
+import logging
+import math
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from inside import session_of
+from protocol_client import ProtocolClient
+
+from sambot_viz import FrameError, JointError, Visualizer, load_robot
+from sambot_viz.frames import Transform
+from sambot_viz.session import Session
+from sambot_viz.session.session import Event
+
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+ARM = """<robot name="arm">
+  <link name="base"/><link name="upper"/><link name="hand"/>
+  <joint name="shoulder" type="revolute">
+    <parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+  <joint name="wrist" type="revolute">
+    <parent link="upper"/><child link="hand"/><origin xyz="1 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    return session_of(viz)
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    model = tmp_path / "arm.urdf"
+    model.write_text(ARM, "utf-8")
+    return model
+
+
+def in_threads(*actions: Callable[[], object]) -> list[BaseException]:
+    """Run actions at the same time; returns what they raised."""
+    raised: list[BaseException] = []
+
+    def run(action: Callable[[], object]) -> None:
+        try:
+            action()
+        except BaseException as error:
+            raised.append(error)
+
+    threads = [threading.Thread(target=run, args=(action,)) for action in actions]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(30)
+        assert not thread.is_alive(), "a thread hangs"
+    return raised
+
+
+def test_threads_a_browser_and_reloads_together_end_in_one_state(
+    viz: Visualizer, session: Session, protocol: Callable[..., ProtocolClient]
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    robot = session.robot
+    assert robot is not None
+
+    def move() -> None:
+        for step in range(100):
+            viz.set_joint_positions({LEFT: 0.01 * step})
+
+    def drag() -> None:
+        for step in range(1, 101):
+            client.set_value(client.uuid_of(RIGHT), round(0.01 * step, 6))
+
+    def reload() -> None:
+        for _ in range(5):
+            session.show_robot(robot)
+
+    def look() -> None:
+        for _ in range(200):
+            T = viz.frames.lookup("base_link", "drivewhl_l_link")
+            assert math.isfinite(T.matrix.sum())
+
+    assert in_threads(move, drag, reload, look) == []
+    client.settle(viz.viser)
+    assert viz.joint_positions[LEFT] == pytest.approx(0.99)
+    assert viz.joint_positions[RIGHT] == pytest.approx(1.0)
+    assert client.value_of(RIGHT) == pytest.approx(1.0)
+    assert session.reload_problems == {}
+
+
+def test_a_listener_that_fails_is_shown_and_the_others_are_called(
+    viz: Visualizer, session: Session, caplog: pytest.LogCaptureFixture
+) -> None:
+    heard: list[Event] = []
+
+    def fail(event: Event) -> None:
+        raise RuntimeError("the panel is broken")
+
+    session.listeners.insert(0, fail)
+    session.listeners.append(heard.append)
+    with caplog.at_level(logging.ERROR):
+        viz.set_joint_positions({LEFT: 0.5})
+        viz.set_joint_positions({LEFT: 0.6})
+    assert "joints" in heard
+    (problem,) = session.reload_problems["fault"]
+    assert (problem.severity, problem.code) == ("error", "internal-error")
+    assert problem.message == "internal error: RuntimeError: the panel is broken"
+    assert len(caplog.records) == 1, "the same error is logged once"
+
+
+def test_a_refused_call_changes_nothing(viz: Visualizer, session: Session) -> None:
+    with pytest.raises(JointError, match="no joint 'x'"):
+        viz.set_joint_positions({LEFT: 1.0, "x": 1.0})
+    with pytest.raises(FrameError):
+        viz.set_static_transform("drivewhl_l_link", "base_link")
+    assert viz.joint_positions[LEFT] == 0.0
+    viz.set_joint_positions({LEFT: 1.0})
+    assert viz.joint_positions[LEFT] == 1.0
+    assert session.reload_problems == {}
+
+
+def test_stopping_ends_motion_and_waits_for_no_lock(
+    viz: Visualizer, session: Session
+) -> None:
+    session.motion.turn(LEFT, 1.0)
+    with session.lock:
+        viz.stop()
+    assert not session.worker.is_alive()
+    viz.stop()
+
+
+def test_a_listener_may_stop_the_viewer(viz: Visualizer, session: Session) -> None:
+    stopped = threading.Event()
+
+    def stop(event: Event) -> None:
+        if event == "joints" and not stopped.is_set():
+            stopped.set()
+            viz.stop()
+
+    session.listeners.append(stop)
+    session.worker.post(lambda: session.set_joint_positions({LEFT: 1.0}))
+    assert stopped.wait(10)
+    session.worker.join(10)
+    assert not session.worker.is_alive()
+
+
+def test_a_step_of_motion_that_fails_stops_the_motion_and_is_shown(
+    viz: Visualizer, session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = threading.Event()
+
+    def broken(dt: float) -> None:
+        raise ZeroDivisionError("no time at all")
+
+    def hear(event: Event) -> None:
+        if event == "problems":
+            shown.set()
+
+    session.listeners.append(hear)
+    with monkeypatch.context() as patch:
+        patch.setattr(session.motion, "advance", broken)
+        session.motion.turn(LEFT, 1.0)
+        assert shown.wait(10)
+    assert not session.motion.moving
+    moved = threading.Event()
+    session.listeners.append(lambda event: moved.set() if event == "joints" else None)
+    session.motion.turn(LEFT, 1.0)
+    assert moved.wait(10), "what is started later moves again"
+
+
+def test_private_sessions_are_independent(
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    with Visualizer(port=0, session="private") as viz:
+        first, second = (protocol(viz.viser.get_port()) for _ in range(2))
+        for client in (first, second):
+            client.settle(viz.viser)
+        sessions = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
+        first.set_value(first.uuid_of(LEFT), 0.5)
+        first.settle(viz.viser)
+        second.settle(viz.viser)
+        positions = [s.joints.positions[LEFT] for s in sessions if s.joints]
+        assert sorted(positions) == [0.0, 0.5]
+        assert second.value_of(LEFT) == 0.0
+        first.close()
+        second.settle(viz.viser)
+        second.set_value(second.uuid_of(LEFT), -0.5)
+        second.settle(viz.viser)
+        (left,) = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
+        assert left.joints is not None
+        assert left.joints.positions[LEFT] == -0.5
+
+
+def test_a_private_page_that_opens_during_a_save_shows_the_new_robot(
+    arm: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    edited = arm.with_name("edited.urdf")
+    edited.write_text(ARM.replace("hand", "claw"), "utf-8")
+    old, new = load_robot(arm), load_robot(edited)
+    with Visualizer(old, port=0, session="private") as viz:
+        server = viz._server  # pyright: ignore[reportPrivateUsage]
+        for robot in (new, old, new):
+            browser = protocol(viz.viser.get_port())
+            server.show_robot(robot)
+            browser.settle(viz.viser)
+            shown = {
+                s.robot.links.keys() >= {"claw"} for s in server.sessions() if s.robot
+            }
+            assert shown == {robot is new}
+
+
+def test_a_reload_keeps_joints_added_frames_and_the_place_in_odom(
+    arm: Path,
+) -> None:
+    with Visualizer(arm, port=0) as viz:
+        session = session_of(viz)
+        viz.set_joint_positions({"shoulder": 0.5})
+        viz.set_static_transform("hand", "camera", xyz=(0.1, 0, 0))
+        session.add_frame(
+            "odom", "base", Transform.from_xyz_rpy((2, 0, 0)), static=False
+        )
+        arm.write_text(ARM.replace('xyz="1 0 0"', 'xyz="3 0 0"'), "utf-8")
+        session.show_robot(load_robot(arm))
+        assert viz.joint_positions["shoulder"] == 0.5
+        assert viz.frames.lookup("upper", "camera").translation[0] == pytest.approx(3.1)
+        assert viz.frames.lookup("odom", "base").translation[0] == 2.0
+
+
+def test_an_added_frame_that_an_edit_makes_impossible_is_a_warning(arm: Path) -> None:
+    with Visualizer(arm, port=0) as viz:
+        session = session_of(viz)
+        viz.set_static_transform("hand", "tool")
+        arm.write_text(
+            ARM.replace(
+                '<link name="base"/>', '<link name="tool"/><link name="base"/>'
+            ).replace(
+                "</robot>",
+                '<joint name="m" type="fixed"><parent link="tool"/>'
+                '<child link="base"/></joint></robot>',
+            ),
+            "utf-8",
+        )
+        session.show_robot(load_robot(arm))
+        assert "static-transform" in [p.code for p in session.problems]
+        assert "tool" in viz.frames
+
+
+def test_a_small_step_reaches_the_browser(
+    viz: Visualizer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    client = protocol(viz.viser.get_port())
+    viz.set_joint_positions({LEFT: 1.0})
+    client.settle(viz.viser)
+    mark = client.mark()
+    viz.set_joint_positions({LEFT: 1.0 + 1e-6})
+    client.wait_until(lambda: client.types(mark)["SetOrientationMessage"] == 1)
+
+
+def test_the_frames_of_a_viewer_can_be_asked(viz: Visualizer) -> None:
+    assert "base_link" in viz.frames
+    assert "nowhere" not in viz.frames
+    assert viz.frames.parent("drivewhl_l_link") == "base_link"
+    assert viz.frames.can_lookup("base_link", "drivewhl_l_link")
+    assert not viz.frames.can_lookup("base_link", "nowhere")
+    assert "drivewhl_l_link" in viz.frames.frames
