@@ -1,4 +1,6 @@
+import os
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
@@ -171,3 +173,47 @@ def test_a_named_robot_with_undefined_links_is_still_refused(tmp_path: Path):
     model = tmp_path / "robot.urdf"
     model.write_text(PIECE.replace("<robot>", '<robot name="r">'))
     assert {p.code for p in errors(model)} == {"robot-without-links"}
+
+
+def test_a_pipe_is_read_once_and_works(tmp_path: Path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    text = '<robot name="r" xmlns:xacro="x"><xacro:arg name="a" default="1"/>'
+    writer = Thread(target=pipe.write_text, args=(text + '<link name="l"/></robot>',))
+    writer.start()
+    assert load_robot(pipe).root == "l"
+    writer.join()
+
+
+def test_a_device_is_refused_without_reading_it():
+    assert errors(Path("/dev/zero"))[0].code == "model-unreadable"
+
+
+def test_a_home_folder_that_does_not_exist_is_a_missing_file():
+    assert errors("~no-such-user/robot.urdf")[0].code == "model-not-found"
+
+
+@pytest.mark.parametrize("name", ["undefined", "punycode", "rot13", "idna", "base64"])
+def test_an_encoding_that_no_xml_file_has_is_a_clear_error(name: str, tmp_path: Path):
+    model = tmp_path / "r.urdf"
+    head = f'<?xml version="1.0" encoding="{name}"?>'.encode()
+    model.write_bytes(head + b'<robot name="\xff\xfe"><link name="a"/></robot>')
+    (problem,) = errors(model)
+    assert (problem.code, problem.line) == ("xml-encoding", 1)
+
+
+def test_arguments_only_in_file_names_are_missing_files_as_for_ros(tmp_path: Path):
+    model = tmp_path / "tool.urdf"
+    model.write_text(
+        '<robot name="tool">\n<link name="a"><visual><geometry>\n'
+        '<mesh filename="$(arg folder)/body.stl"/></geometry></visual>\n'
+        '<visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>'
+    )
+    robot = load_robot(model)
+    assert len(robot.links["a"].visuals) == 2
+    told = {p.code: (p.severity, p.line) for p in robot.problems}
+    assert told["xacro-argument-missing"] == ("warning", 3)
+    assert "mesh-not-found" in told
+    (tmp_path / "body.stl").write_text("solid")
+    given = load_robot(model, xacro_args={"folder": str(tmp_path)})
+    assert [p.code for p in given.problems] == ["xacro-in-urdf"]

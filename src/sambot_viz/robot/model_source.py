@@ -1,18 +1,16 @@
-"""What was given as a model: a file or text, and whether it needs xacro.
-
-The content decides, not the file's ending (spec/real-files.md §2 number 12).
-"""
+"""The text of a model, and whether xacro has to expand it."""
 
 from __future__ import annotations
 
 import os
 import re
+import stat
 from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError, did_you_mean
 from sambot_viz.robot.xml.decode import decode, repaired_prolog
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 TEXT_LABEL = "<text>"
 """The file name in problems of a model that was given as text."""
@@ -29,7 +27,7 @@ class ModelSource:
         label: the file as the user wrote it, or `TEXT_LABEL`.
         text: the content.
         path: the file, or None for text.
-        problems: what was odd about the file itself.
+        problems: what is unusual about the file itself.
     """
 
     label: str
@@ -37,29 +35,43 @@ class ModelSource:
     path: Path | None
     problems: tuple[Problem, ...] = ()
 
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the file, or None for text."""
+        return None if self.path is None else self.path.absolute().parent
+
 
 def read_source(model: str | os.PathLike[str]) -> ModelSource:
-    """Take a model as a path, or as text when it looks like XML.
+    """Read a model from a path, or take it as text when it looks like XML.
 
     Raises:
         RobotError: there is no such file, or it cannot be read.
         XmlFault: the bytes are not in the encoding they claim.
     """
     if isinstance(model, str) and _looks_like_text(model):
-        return _mended(TEXT_LABEL, model, None)
+        return _with_good_prolog(TEXT_LABEL, model, None)
     label = os.fspath(model)
-    path = Path(label).expanduser()
-    return _mended(label, decode(_read(path, label)), path)
+    path = _path(label)
+    return _with_good_prolog(label, decode(_read(path, label)), path)
 
 
 def _looks_like_text(model: str) -> bool:
     return model.lstrip("\ufeff \t\r\n").startswith("<") or "\n" in model
 
 
-def _mended(label: str, text: str, path: Path | None) -> ModelSource:
+def _path(label: str) -> Path:
+    try:
+        return Path(label).expanduser()
+    except RuntimeError:
+        raise _refusal(
+            "model-not-found", "there is no such user", "write the whole path", label
+        ) from None
+
+
+def _with_good_prolog(label: str, text: str, path: Path | None) -> ModelSource:
     text = text.removeprefix("\ufeff")
-    mended = repaired_prolog(text)
-    if mended == text:
+    repaired = repaired_prolog(text)
+    if repaired == text:
         return ModelSource(label, text, path)
     problem = Problem(
         "warning",
@@ -71,38 +83,49 @@ def _mended(label: str, text: str, path: Path | None) -> ModelSource:
         1,
         1,
     )
-    return ModelSource(label, mended, path, (problem,))
+    return ModelSource(label, repaired, path, (problem,))
 
 
 def _read(path: Path, label: str) -> bytes:
     try:
-        if path.is_dir():
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
             raise _refusal(
                 "model-is-folder",
                 "this is a folder, not a model file",
                 _models_in(path),
                 label,
             )
-        if path.stat().st_size > _LARGEST:
+        if stat.S_ISCHR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
             raise _refusal(
-                "model-too-large",
-                "the file is larger than 64 MB, which no robot description is",
-                "open the URDF or xacro file itself",
+                "model-unreadable",
+                "this is a device or a socket, not a file",
+                "give the URDF or xacro file",
                 label,
             )
-        return path.read_bytes()
+        # A pipe, such as the shell's <(…), can be read only once and has no size.
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
     except FileNotFoundError:
         raise _refusal(
             "model-not-found", "there is no such file", _nearest(path), label
         ) from None
-    except OSError as error:
-        reason = error.strerror or str(error)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
         raise _refusal(
             "model-unreadable",
             f"the file cannot be read: {reason}",
             "check its permissions",
             label,
         ) from None
+    if len(data) > _LARGEST:
+        raise _refusal(
+            "model-too-large",
+            "the file is larger than 64 MB, too large for a robot description",
+            "open the URDF or xacro file itself",
+            label,
+        )
+    return data
 
 
 def _refusal(code: str, message: str, hint: str, label: str) -> RobotError:
@@ -130,16 +153,14 @@ def _nearest(path: Path) -> str:
 
 
 def first_xacro(document: Element) -> Element | None:
-    """The first element for which a document has to go through xacro, or None.
+    """The first element for which a document has to be expanded by xacro, or None.
 
-    It has to when it has xacro's own elements or attributes, or when a substitution
-    stands where URDF wants a value. ``$(find …)`` in a Gazebo plugin or in a comment
-    is no reason: xacro would fail there needlessly.
+    These are xacro's own elements and attributes, and a substitution where URDF needs
+    a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
+    would fail there needlessly.
     """
     for element in document.iter():
-        if element.tag.startswith("xacro:"):
-            return element
-        if any(name.startswith("xacro:") for name in element.attributes):
+        if _is_own(element):
             return element
     robot = document if document.tag == "robot" else document.find("robot")
     parts = robot.children if robot is not None else []
@@ -149,11 +170,27 @@ def first_xacro(document: Element) -> Element | None:
             for part in parts
             if part.tag in ("link", "joint", "material")
             for element in part.iter()
-            if _has_substitution(element)
+            if any(_SUBSTITUTION.search(v) for v in element.attributes.values())
         ),
         None,
     )
 
 
-def _has_substitution(element: Element) -> bool:
-    return any(_SUBSTITUTION.search(value) for value in element.attributes.values())
+def _is_own(element: Element) -> bool:
+    names = (element.tag, *element.attributes)
+    return any(name.startswith("xacro:") for name in names)
+
+
+def only_names_files(document: Element) -> bool:
+    """Whether all substitutions of a document are in file names.
+
+    Then it is a plain URDF for urdfdom, which does not open these files.
+    """
+    return not any(
+        _is_own(element)
+        or any(
+            name != "filename" and _SUBSTITUTION.search(value)
+            for name, value in element.attributes.items()
+        )
+        for element in document.iter()
+    )

@@ -91,7 +91,7 @@ def test_every_limit_ends_the_child_and_collects_it(
     assert found.startswith(kind) or (found == "Refused" and not trusted)
     assert [child.returncode is not None for child in started] == [True]
     if files:
-        assert len(os.listdir("/proc/self/fd")) == files
+        assert len(os.listdir("/proc/self/fd")) <= files
 
 
 def test_two_loads_at_once_do_not_wait_for_each_others_children(
@@ -113,9 +113,12 @@ def test_a_large_text_is_handed_over_whole() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
-def test_the_child_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "text", [ENDLESS, HEAD + "<link name='${sum(range(10**10))}'/></robot>"]
+)
+def test_the_child_ends_when_its_parent_is_killed(text: str, tmp_path: Path) -> None:
     model = tmp_path / "endless.urdf.xacro"
-    model.write_text(ENDLESS)
+    model.write_text(text.replace("sum(", "python.sum("))
     with subprocess.Popen(
         [sys.executable, "-c", TELLING, str(model)], stdout=subprocess.PIPE, text=True
     ) as parent:

@@ -238,6 +238,27 @@ def test_secrets_are_not_in_the_environment_of_an_expansion(
     assert read("ROS_VERSION") == "2"
 
 
+def test_an_argument_of_the_root_tag_has_to_be_given(tmp_path: Path):
+    model = tmp_path / "m.xacro"
+    model.write_text(
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="$(arg name)">\n'
+        '<xacro:arg name="name" default="ur"/>\n<link name="a"/></robot>'
+    )
+    problem = errors(model)[0]
+    assert (problem.code, problem.line) == ("xacro-arg-after-use", 1)
+    assert problem.hint == "give it on the command line: name:=ur"
+    assert load_robot(model, xacro_args={"name": "ur"}).name == "ur"
+
+
+def test_expressions_that_make_no_xml_are_an_error(tmp_path: Path):
+    for inside in (
+        '<link name="a"/><xacro:element xacro:name="${\'x y\'}"/>',
+        "<link name=\"a${'\\x01'}\"/>",
+    ):
+        problem = errors(write(tmp_path / "m.xacro", inside))[0]
+        assert problem.code == "xacro-output-not-xml"
+
+
 # --- limits -------------------------------------------------------------------
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot import load_robot
+from sambot_viz.robot.packages.package_index import Lookup
 from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
 from sambot_viz.robot.xacro.result import Definition, XacroCall, XacroFailure
 
@@ -42,7 +43,7 @@ def test_a_misspelt_property_gets_the_nearest_one_with_its_line(
     problem = explain(
         '<xacro:property name="radius" value="1"/>\n<link name="${radus*2}"/>',
         *undefined("radus"),
-        expression="radus*2",
+        expressions=("radus*2",),
         line=3,
     )
 
@@ -58,7 +59,7 @@ def test_the_macro_call_is_named_beside_the_macro_body(
     problem = explain(
         '<xacro:macro name="m">\n<link name="${x}"/>\n</xacro:macro>\n<xacro:m/>',
         *undefined("x"),
-        expression="x",
+        expressions=("x",),
         line=3,
         macros=(("m", file),),
         calls=(XacroCall("m", file, 5),),
@@ -74,7 +75,6 @@ def test_the_expression_is_found_where_a_lazy_property_holds_it(
     problem = explain(
         '<xacro:property name="a" value="${b + 1}"/>\n<link name="${a}"/>',
         *undefined("b"),
-        expression="b + 1",
         expressions=("b + 1", "a"),
         line=3,
     )
@@ -86,7 +86,7 @@ def test_an_expression_in_a_comment_is_not_taken_for_the_failed_one(
     explain: Explain,
 ) -> None:
     problem = explain(
-        '<!-- ${x} -->\n<link name="${x}"/>', *undefined("x"), expression="x"
+        '<!-- ${x} -->\n<link name="${x}"/>', *undefined("x"), expressions=("x",)
     )
 
     assert problem.line == 3
@@ -178,7 +178,13 @@ def test_an_unknown_parameter_gets_the_nearest_one(
 def test_the_missing_argument_is_pointed_at_where_it_is_asked_for(
     explain: Explain,
 ) -> None:
-    problem = explain('<link name="$(arg base)"/>', "base", kind="ArgException", line=2)
+    problem = explain(
+        '<link name="$(arg base)"/>',
+        "base",
+        kind="ArgException",
+        line=2,
+        macros=(("m", "m.xacro"),),
+    )
 
     assert problem.code == "xacro-argument-missing"
     assert (problem.line, problem.column) == (2, 13)
@@ -188,15 +194,14 @@ def test_the_missing_argument_is_pointed_at_where_it_is_asked_for(
 def test_a_missing_package_lists_where_we_looked_and_what_was_there(
     explain: Explain, tmp_path: Path
 ) -> None:
-    folder = tmp_path / "ws" / "sam_bot"
-    folder.mkdir(parents=True)
-    (folder / "package.xml").write_text("<package><name>sam_bot</name></package>")
     problem = explain(
         '<xacro:include filename="$(find sambot)/a.xacro"/>',
         "package 'sambot' not found",
         kind="PackageNotFoundError",
         line=2,
-        missing_package=("sambot", (str(tmp_path / "ws"), "/nowhere")),
+        missing_package=Lookup(
+            "sambot", None, (str(tmp_path / "ws"), "/nowhere"), ("other", "sam_bot")
+        ),
     )
 
     assert f"looked in {tmp_path / 'ws'}, /nowhere" in problem.message

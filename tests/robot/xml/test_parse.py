@@ -11,7 +11,6 @@ def test_every_element_knows_its_line_and_column():
     link = root.find("link")
     assert link is not None
     assert link.place == Place("f", 2, 3)
-    assert link.end_line == 3
     assert link.children[0].place == Place("f", 3, 5)
     assert link.children[0].parent is link
 

@@ -10,7 +10,7 @@ from sambot_viz.files import is_below
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 _DOUBTS = {
     "letter-case": (

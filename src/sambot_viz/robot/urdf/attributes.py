@@ -14,7 +14,7 @@ from sambot_viz.robot.urdf.numbers import (
     read_number,
     read_numbers,
 )
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 Report = Callable[[str, str, str, Element, "str | None"], None]
 """`UrdfFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""

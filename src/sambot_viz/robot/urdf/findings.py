@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz.errors import Findings, Place, Severity
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 
 class UrdfFindings(Findings):
@@ -61,8 +61,8 @@ class UrdfFindings(Findings):
         attribute: str | None,
     ) -> None:
         if at.call is not None:
-            here = at.call_file in (None, at.place.file)
-            where = f"line {at.call}" if here else f"{at.call_file}:{at.call}"
+            here = at.call.file == at.place.file
+            where = f"line {at.call.line}" if here else f"{at.call.file}:{at.call.line}"
             message = f"{message}, from the macro call on {where}"
         line = at.line_of(attribute)
         column = at.place.column if line == at.place.line else None

@@ -14,7 +14,7 @@ from sambot_viz.robot.model import Joint, JointType, Mimic, Origin
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.limits import LimitReader
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
 _REFUSED = "ROS refuses the model"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sambot_viz.robot.model import JointType, Limit, SoftLimit
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 _REFUSED = "ROS refuses the model"
 _LIMIT_EXAMPLE = 'lower="-1.57" upper="1.57" effort="10" velocity="1"'

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.model import Joint, Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 DEEPEST = 350
 """Measured with Chromium: 350 joints in a row are drawn, 500 are not."""

@@ -27,7 +27,7 @@ from sambot_viz.robot.model import (
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.material_table import MaterialTable
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 FindMesh = Callable[[str, Element], "Path | None"]
 """Mesh file name as written and its element → the file, or None."""

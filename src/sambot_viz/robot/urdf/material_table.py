@@ -11,7 +11,7 @@ from sambot_viz.geometry import Rgba
 from sambot_viz.robot.model import Material
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.numbers import BadNumber, read_numbers
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
 _COLOURS = {

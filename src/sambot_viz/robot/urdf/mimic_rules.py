@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.model import Joint
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 
 def check_mimics(

@@ -16,7 +16,7 @@ from sambot_viz.robot.urdf.link_tree import RobotParts, build_tree, is_fragment
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
 from sambot_viz.robot.urdf.material_table import FindTexture, MaterialTable
 from sambot_viz.robot.urdf.mimic_rules import check_mimics
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 _OTHER_ROOTS = {
     "sdf": "an SDF file of Gazebo",

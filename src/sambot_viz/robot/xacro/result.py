@@ -1,9 +1,10 @@
-"""What is said of an expansion that failed, and of its way there."""
+"""Why and where an expansion failed, as the xacro child reports it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sambot_viz.robot.packages.package_index import Lookup
 from sambot_viz.robot.xml.decode import XmlFault
 
 
@@ -37,28 +38,26 @@ class XacroCall:
 
 @dataclass(frozen=True, slots=True)
 class XacroFailure:
-    """Why an expansion ended, as far as xacro and the child can say.
+    """The cause of a failed expansion, as far as xacro and the child know it.
 
     Attributes:
         kind: class name of the underlying exception ("NameError", "SyntaxError",
             "ZeroDivisionError", "XacroException", "ArgException" for an argument
             without a value, "PackageNotFoundError", "FileNotFoundError",
-            "RecursionError", "MemoryError", …), or one of our own: "Timeout",
-            "OutputLimit", "Refused" (the untrusted mode forbids it), "Crash".
+            "RecursionError", "MemoryError", …), or one of ours: "Timeout",
+            "OutputLimit", "Refused" (the untrusted mode forbids it), "NotXml" (the
+            output cannot be written as XML), "Crash".
         text: the underlying exception's own text, without location lines.
         file: the file being processed when it failed.
         line: line of the element being processed in `file`, from 1, or None. Inside
             a macro that is the line in the macro's body.
         column: its column, from 1, or None.
-        expression: the innermost ``${…}`` text that failed, or None.
-        expressions: all nested ``${…}`` texts, innermost first.
+        expressions: the nested ``${…}`` texts, innermost first.
         element: tag of the element being processed ("xacro:wheell"), or None.
         macros: macros being expanded, innermost first, as (name, file of the macro).
         calls: the same chain as places of the calls, innermost first.
         includes: files being read, innermost first; the last is the main file.
-        missing_package: (name, places searched) when ``$(find name)`` failed.
-        known_packages: names of the packages that were found while searching.
-        lazy: properties whose value was being worked out, innermost first.
+        missing_package: the failed look-up of ``$(find name)``, or None.
         definitions: what was defined so far, for near names.
     """
 
@@ -67,15 +66,12 @@ class XacroFailure:
     file: str
     line: int | None = None
     column: int | None = None
-    expression: str | None = None
     expressions: tuple[str, ...] = ()
     element: str | None = None
     macros: tuple[tuple[str, str], ...] = ()
     calls: tuple[XacroCall, ...] = ()
     includes: tuple[str, ...] = ()
-    missing_package: tuple[str, tuple[str, ...]] | None = None
-    known_packages: tuple[str, ...] = ()
-    lazy: tuple[str, ...] = ()
+    missing_package: Lookup | None = None
     definitions: tuple[Definition, ...] = ()
 
 
@@ -88,7 +84,7 @@ class ExpansionError(Exception):
 
 
 class ExpansionXmlError(Exception):
-    """A file that xacro reads is no XML: `file`, and the `fault` in it."""
+    """A file that xacro reads is not XML: `file`, and the `fault` in it."""
 
     def __init__(self, file: str, fault: XmlFault) -> None:
         super().__init__(str(fault))

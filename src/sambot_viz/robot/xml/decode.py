@@ -1,4 +1,4 @@
-"""From the bytes of an XML file to its text, and the error when it is no XML.
+"""From the bytes of an XML file to its text, and the error when it is not XML.
 
 Only the standard library is used here: the xacro child reads this module too and
 must start fast.
@@ -57,24 +57,25 @@ def decode(data: bytes) -> str:
 
 def _decoded(data: bytes, encoding: str) -> str:
     try:
-        return data.decode(encoding)
-    except LookupError:
-        text = data.decode("utf-8", "replace")
-        raise XmlFault(f"unknown encoding '{encoding}'", 1, 1, text) from None
+        text = data.decode(encoding)
     except UnicodeDecodeError as error:
         before = data[: error.start]
         line = before.count(b"\n") + 1
         column = len(before) - (before.rfind(b"\n") + 1) + 1
-        text = data.decode(encoding, "replace")
         message = f"bytes that are not {encoding}"
+        text = data.decode("utf-8", "replace")
         raise XmlFault(message, line, column, text) from None
+    except (LookupError, UnicodeError):
+        text = data.decode("utf-8", "replace")
+        raise XmlFault(f"unknown encoding '{encoding}'", 1, 1, text) from None
+    return text
 
 
 def repaired_prolog(text: str) -> str:
     """The text with a declaration that expat can read, every line in its place.
 
-    Real files say ``<?xml version="0.0" ?>`` or ``<?xml?>``; urdfdom does not mind
-    (spec/real-files.md §2 number 5). Only the declaration's own text is replaced.
+    Real files have ``<?xml version="0.0" ?>`` or ``<?xml?>``, which urdfdom accepts.
+    Only the declaration's own text is replaced.
     """
     match = _DECLARATION.match(text)
     if match is None or _GOOD_VERSION.match(match[1]):

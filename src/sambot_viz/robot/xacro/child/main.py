@@ -1,8 +1,8 @@
-"""The child process that runs xacro on somebody's file (spec/ros-nodes.md §5.5).
+"""The program of the child process that runs xacro.
 
-Started as a script by `robot/expansion.py`: a job as JSON on standard input (its
-length first), the outcome as JSON on standard output. Only what this needs is
-imported, never the package's own `__init__` files, so that the start stays cheap.
+`xacro/expand.py` starts it as a script: a job as JSON on standard input (its length
+first), the answer as JSON on standard output. Only what this needs is imported, never
+the package's own `__init__` files, so that it starts fast.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def make_packages(root: str, *names: str) -> None:
 
 
 def keep_result_channel() -> int:
-    """Move standard output away, so that nothing but the outcome is written there."""
+    """Move standard output away, so that only the answer is written there."""
     channel = os.dup(1)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
@@ -58,20 +58,44 @@ def keep_result_channel() -> int:
 
 
 def end_with_parent() -> None:
-    """Wait for the end of standard input, which is the end of the parent."""
+    """Let this process and what it starts be killed when the parent process dies.
+
+    The parent holds the other end of standard input. On Linux the kernel sends the
+    signal when that end closes, so that it works even inside a long call of C code; a
+    thread that waits for the end does it elsewhere.
+    """
+    try:
+        import fcntl
+
+        fcntl.fcntl(0, fcntl.F_SETOWN, -os.getpgrp())
+        fcntl.fcntl(0, fcntl.F_SETSIG, signal.SIGKILL)
+        flags = fcntl.fcntl(0, fcntl.F_GETFL)
+        fcntl.fcntl(0, fcntl.F_SETFL, flags | os.O_ASYNC)
+    except (ImportError, AttributeError, OSError):
+        _thread.start_new_thread(_wait_for_end, ())
+        return
+    # The parent may have died before the kernel was asked.
+    os.set_blocking(0, False)
+    try:
+        if not os.read(0, 1):
+            os._exit(1)
+    except BlockingIOError:
+        pass
+
+
+def _wait_for_end() -> None:
     while os.read(0, 4096):
         pass
     if hasattr(os, "killpg"):
-        # What a model has started belongs to the session of this process.
         os.killpg(0, signal.SIGKILL)
     os._exit(1)
 
 
 def main() -> None:
-    """Read the job, expand, write the outcome."""
+    """Read the job, expand, write the answer."""
     size = int(sys.stdin.buffer.read(16))
     job: dict[str, Any] = json.loads(sys.stdin.buffer.read(size))
-    _thread.start_new_thread(end_with_parent, ())
+    end_with_parent()
     channel = keep_result_channel()
     limit_resources(job["megabytes"], job["seconds"])
     os.environ.clear()
@@ -83,10 +107,10 @@ def main() -> None:
     make_packages(root, "sambot_viz", "sambot_viz.robot")
     from sambot_viz.robot.xacro.child.run import run
 
-    outcome = json.dumps(run(job)).encode("utf-8", "surrogatepass")
+    answer = run(job)
     with os.fdopen(channel, "wb") as stream:
-        stream.write(outcome)
-    # Nothing is left to do; a model's leftovers (threads, hooks at exit) do not run.
+        stream.write(answer)
+    # Threads and exit hooks that the model has left behind do not run.
     os._exit(0)
 
 

@@ -17,12 +17,11 @@ from sambot_viz.robot.xacro.child.sandbox import Guard
 
 
 class PackageNotFoundError(KeyError):
-    """What ament_index_python raises; with what the look-up found."""
+    """The error of ament_index_python, with the result of the look-up."""
 
     def __init__(self, lookup: Lookup) -> None:
         super().__init__(f"package '{lookup.name}' not found")
-        self.missing_package = (lookup.name, lookup.searched)
-        self.known_packages = lookup.known
+        self.missing_package = (lookup.name, lookup.searched, lookup.known)
 
 
 class XacroFiles:

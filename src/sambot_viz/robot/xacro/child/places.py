@@ -17,6 +17,7 @@ from sambot_viz.robot.xml.decode import XmlFault
 
 _minidom: Any = xml.dom.minidom
 _ELEMENT = _minidom.Node.ELEMENT_NODE
+_TEXTS = (_minidom.Node.TEXT_NODE, _minidom.Node.CDATA_SECTION_NODE)
 
 Call = tuple[str, str, int]
 """Macro, and the file and line of the call."""
@@ -96,17 +97,26 @@ def elements(root: Any) -> Iterator[Any]:
         stack.extend(reversed(children))
 
 
-def packed(node: Any, names: dict[str, int]) -> list[int]:
-    """A place as numbers: file, line, column, and the outermost call's file and line.
+def packed(root: Any) -> tuple[list[list[Any]], list[str]]:
+    """The tree as plain lists for the parent process, see `answer.py`.
 
-    Args:
-        node: the element.
-        names: file names met so far, each with its number; grows.
+    Returns:
+        One list per element in document order: tag, attributes, text, number of
+        child elements, file number, line, column, and the file number and line of
+        the outermost macro call, if any; and the file names by number.
     """
-    file, line, column = node.sambot_place
-    numbers = [names.setdefault(file, len(names)), line, column]
-    calls: tuple[Call, ...] = getattr(node, "sambot_calls", ())
-    if calls:
-        _, call_file, call_line = calls[0]
-        numbers += [names.setdefault(call_file, len(names)), call_line]
-    return numbers
+    numbers: dict[str, int] = {}
+    nodes: list[list[Any]] = []
+    for node in elements(root):
+        file, line, column = node.sambot_place
+        texts = [child.data for child in node.childNodes if child.nodeType in _TEXTS]
+        count = sum(child.nodeType == _ELEMENT for child in node.childNodes)
+        attributes = {name: value for name, value in node.attributes.items()}
+        place = [numbers.setdefault(file, len(numbers)), line, column]
+        calls: tuple[Call, ...] = getattr(node, "sambot_calls", ())
+        if calls:
+            _, call_file, call_line = calls[0]
+            place += [numbers.setdefault(call_file, len(numbers)), call_line]
+        text = "".join(texts).strip()
+        nodes.append([node.tagName, attributes, text, count, *place])
+    return nodes, list(numbers)

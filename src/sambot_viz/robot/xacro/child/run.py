@@ -1,10 +1,11 @@
-"""Inside the child: run the real xacro and tell what happened, and where."""
+"""Inside the child: run the real xacro and report what happened, and where."""
 
 from __future__ import annotations
 
 import functools
 import gc
 import importlib
+import json
 import os
 import re
 import sys
@@ -34,22 +35,31 @@ class OutputLimit(Exception):
     """The expanded text is longer than allowed."""
 
 
-def run(job: dict[str, Any]) -> dict[str, Any]:
-    """Expand as the job says; never raises for what the model does."""
+def run(job: dict[str, Any]) -> bytes:
+    """Expand as the job says and give the answer as JSON.
+
+    An exception that the model causes becomes a part of the answer.
+    """
     sys.setrecursionlimit(2500)
-    # The trees are large and die with the process: looking for garbage is waste.
+    # The trees are large and end with the process: collecting garbage is useless.
     gc.set_threshold(100_000)
     expansion = Expansion(job)
     try:
-        return expansion.result()
+        return _encoded(expansion.result())
     except XmlFault as fault:
-        return {
-            "xml_fault": [fault.message, fault.line, fault.column, fault.code],
-            "file": expansion.reading,
-            "text": fault.text,
-        }
+        return _encoded(
+            {
+                "xml_fault": [fault.message, fault.line, fault.column, fault.code],
+                "file": expansion.reading,
+                "text": fault.text,
+            }
+        )
     except Exception as error:
-        return {"failure": expansion.failure(error)}
+        return _encoded({"failure": expansion.failure(error)})
+
+
+def _encoded(answer: dict[str, Any]) -> bytes:
+    return json.dumps(answer, separators=(",", ":")).encode()
 
 
 class Expansion:
@@ -62,10 +72,10 @@ class Expansion:
         self._places = PlaceKeeper()
         self._node: Any = None
         self._failed_at: tuple[Any, list[Call], list[str]] | None = None
-        self._lazy: list[str] = []
         self._definitions: dict[tuple[str, str], list[Any]] = {}
         self._warnings: list[list[Any]] = []
         self._files: list[str] = []
+        self._main_text: str | None = job["text"]
         self.reading = ""
         self._guard = Guard(job["folder"]) if job["untrusted"] else None
         self._patch()
@@ -77,22 +87,18 @@ class Expansion:
             XmlFault: a file is no XML.
             Exception: whatever xacro or the model's expressions raise.
         """
-        x, job = self._xacro, self._job
-        if job["text"] is None:
-            document = x.process_file(job["file"], mappings=dict(job["arguments"]))
-        else:
-            x.init_stacks(job["file"])
-            document = self._parse(job["text"])
-            x.process_doc(document, mappings=dict(job["arguments"]))
+        job = self._job
+        document = self._xacro.process_file(
+            job["file"], mappings=dict(job["arguments"])
+        )
         text: str = document.toprettyxml(indent="  ")
         if len(text) > job["output_limit"]:
             raise OutputLimit(f"{len(text)} characters")
-        names: dict[str, int] = {}
-        places = [packed(node, names) for node in elements(document.documentElement)]
+        nodes, names = packed(document.documentElement)
         return {
             "xml": text,
-            "names": list(names),
-            "places": places,
+            "nodes": nodes,
+            "names": names,
             "files": list(dict.fromkeys(self._files)),
             "warnings": self._warnings,
             "unprefixed": self._unprefixed(document.documentElement),
@@ -131,9 +137,7 @@ class Expansion:
             "macros": macros,
             "calls": [list(call) for call in reversed(calls)],
             "includes": stack,
-            "lazy": self._lazy,
             "missing_package": getattr(cause, "missing_package", None),
-            "known_packages": getattr(cause, "known_packages", ()),
             "definitions": list(self._definitions.values()),
         }
 
@@ -148,7 +152,6 @@ class Expansion:
         x.process_include = self._touching(x.process_include)
         x.check_attrs = self._touching(x.check_attrs)
         x.reqd_attrs = self._touching(x.reqd_attrs)
-        x.Table._resolve_ = self._resolving(x.Table._resolve_)
         x.warning = x.error = self._warn
         x.message = x.print_location = _say_nothing
         for name, function in (
@@ -174,6 +177,10 @@ class Expansion:
         return parse_placed(source, file)
 
     def _read(self, filename: str) -> str:
+        if self._main_text is not None:
+            # The first file is the model, which the parent process has read.
+            text, self._main_text = self._main_text, None
+            return text
         try:
             if self._guard is not None:
                 self._guard.check_path(filename)
@@ -256,19 +263,6 @@ class Expansion:
                 raise
             self._places.calls.pop()
             return outcome
-
-        return wrapper
-
-    def _resolving(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        expansion = self
-
-        @functools.wraps(original)
-        def wrapper(table: Any, key: str) -> Any:
-            try:
-                return original(table, key)
-            except Exception:
-                expansion._lazy.append(key)
-                raise
 
         return wrapper
 

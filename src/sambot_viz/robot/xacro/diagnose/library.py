@@ -10,7 +10,7 @@ from pathlib import Path
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.packages.package_index import PackageIndex
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 _MOST_FILES = 400
 _LARGEST = 1_000_000

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.xml.parse import Element
+from sambot_viz.robot.xml.element import Element
 
 _PARTS = ("include", "macro")
 """Without these, a part of the robot is missing; a left-over property is harmless."""

@@ -1,4 +1,4 @@
-"""A source text with its lines: from an offset to a line and a column."""
+"""A source text: from offsets to lines and columns, and its tokens."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sambot_viz.robot.xml.diagnose.lexer import LexicalError, Token, tokenize
 
 @dataclass(frozen=True)
 class SourceText:
-    """A text with its lines, so that an offset can be told as line and column."""
+    """A text that knows its lines and, when asked, its tokens."""
 
     text: str
 
@@ -28,6 +28,10 @@ class SourceText:
     def column(self, offset: int) -> int:
         """Column of an offset in its line, counted from 1."""
         return offset - self._starts[self.line(offset) - 1] + 1
+
+    def offset(self, line: int, column: int) -> int:
+        """Offset of a line and a column, both counted from 1."""
+        return self._starts[min(line, len(self._starts)) - 1] + column - 1
 
     def line_text(self, line: int) -> str:
         """The text of a line, counted from 1, without its line break."""
