@@ -12,7 +12,7 @@ from problem_page import PAGE, problem_page
 from problem_samples import Sample, all_samples
 
 import sambot_viz
-from sambot_viz.robot.xml.diagnose.lexer import SlipKind
+from sambot_viz.robot.xml.diagnose.lexer import LexicalErrorKind
 
 
 @pytest.mark.parametrize("sample", all_samples(), ids=lambda sample: sample.code)
@@ -40,7 +40,7 @@ def test_every_code_in_the_source_has_a_sample() -> None:
     assert len(found) > 150
     unknown = [p for p in found if not any(re.fullmatch(p, c) for c in codes)]
     assert sorted(unknown) == []
-    assert {f"xml-{kind}" for kind in get_args(SlipKind)} <= codes
+    assert {f"xml-{kind}" for kind in get_args(LexicalErrorKind)} <= codes
 
 
 def test_a_new_code_without_a_sample_would_be_noticed(tmp_path: Path) -> None:

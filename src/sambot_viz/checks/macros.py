@@ -9,7 +9,8 @@ from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model_source import read_source
 from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.element import Element, parse_xml
+from sambot_viz.robot.xml.element import Element
+from sambot_viz.robot.xml.parse import parse_xml
 
 _EXPRESSION = re.compile(r"\$\{[^}]*\}")
 

@@ -252,11 +252,11 @@ def test_an_argument_of_the_root_tag_has_to_be_given(tmp_path: Path):
 
 def test_expressions_that_make_no_xml_are_an_error(tmp_path: Path):
     for inside in (
-        '<link name="a"/><xacro:element xacro:name="${\'x y\'}"/>',
-        "<link name=\"a${'\\x01'}\"/>",
+        '\n<link name="a"/><xacro:element xacro:name="${\'x y\'}"/>',
+        "\n<link name=\"a${'\\x01'}\"/>",
     ):
         problem = errors(write(tmp_path / "m.xacro", inside))[0]
-        assert problem.code == "xacro-output-not-xml"
+        assert (problem.code, problem.line) == ("xacro-output-not-xml", 3)
 
 
 # --- limits -------------------------------------------------------------------

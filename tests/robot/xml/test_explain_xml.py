@@ -82,7 +82,7 @@ CASES = [
     (ROBOT.format("<!-- a <!-- b --> -->\n"), "xml-comment-nested", 3, "inside"),
     (ROBOT.format("<!-- a\n"), "xml-comment-not-closed", 3, "swallows"),
     (ROBOT.format("<!- a ->\n"), "xml-comment-malformed", 3, "begins"),
-    (ROBOT.format("]]>\n"), "xml-not-well-formed", 3, "no XML"),
+    (ROBOT.format("]]>\n"), "xml-not-well-formed", 3, "not XML"),
     (
         '<!DOCTYPE robot [<!ENTITY a SYSTEM "a.xml">]>\n<robot/>',
         "xml-external-entity",
@@ -93,7 +93,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("text", "code", "line", "word"), CASES)
-def test_a_slip_is_named_with_its_line(
+def test_an_error_is_named_with_its_line(
     text: str | bytes, code: str, line: int, word: str
 ) -> None:
     problem = explained(text)[0]
@@ -106,7 +106,7 @@ def test_a_slip_is_named_with_its_line(
     assert problem.file == "r.urdf"
 
 
-def test_an_early_end_names_the_line_of_the_end_and_the_mend() -> None:
+def test_an_early_end_names_the_line_of_the_end_and_the_fix() -> None:
     problem = only('<robot name="r">\n</robot>\n<!-- c -->\n<link name="a"/>\n')
 
     assert problem.code == "xml-root-closed-early"
@@ -121,7 +121,7 @@ def test_an_early_end_with_a_second_end_is_to_be_deleted() -> None:
     assert problem.hint.startswith("delete </robot> on line 2")
 
 
-def test_an_unclosed_tag_is_told_where_it_was_opened_and_where_to_close_it() -> None:
+def test_an_unclosed_tag_is_reported_with_the_places_to_open_and_to_close() -> None:
     problem = only(
         '<robot name="r">\n  <link name="a">\n    <visual/>\n  <joint name="j"/>\n'
         "</robot>\n"
@@ -148,7 +148,7 @@ def test_a_robot_that_was_never_opened_is_one_problem() -> None:
     assert problem.line == 1
 
 
-def test_every_slip_is_told_at_once() -> None:
+def test_all_errors_are_reported_at_once() -> None:
     problems = explained("<robot name=r>\n<a b='1' b='2'/>\n<!-- - -- -->\n</robot>")
 
     assert [p.code for p in problems] == [
@@ -185,9 +185,62 @@ def test_torn_and_shuffled_text_always_gets_an_explanation_with_a_line() -> None
             assert all(p.line and p.line <= joined.count("\n") + 1 for p in problems)
 
 
-def test_a_long_broken_file_is_explained_in_good_time() -> None:
+def test_a_long_broken_file_is_explained_soon() -> None:
     text = "<robot>\n" + "<link name='a'><visual>\n" * 5000
     try:
         parse_xml(text, "r.urdf")
     except XmlFault as fault:
         assert len(explain_xml(text, "r.urdf", fault)) <= 12
+
+
+@pytest.mark.parametrize(
+    "junk",
+    [
+        "<",
+        "&",
+        '"',
+        "<a>",
+        "<a ",
+        "<!--",
+        "<a b='",
+        "<\\",
+        "</a>",
+        "<a b=",
+        "<!-",
+        "< ",
+        "é",
+    ],
+)
+def test_a_long_file_of_junk_is_refused_without_much_work(junk: str) -> None:
+    for text in (f"<robot name='r'>{junk * 20_000}", junk * 1_000_000):
+        problems = explained(text)
+        assert problems
+        assert len(problems) <= 12
+
+
+def test_many_attributes_of_one_element_are_read_in_one_pass() -> None:
+    text = "".join(f" a{number}\n= '{number}'" for number in range(10_000))
+    root = parse_xml(f"<robot{text}/>", "r.urdf")
+    assert root.line_of("a9999") == 10_000
+    assert only(f"<robot{text} b/>").code == "xml-attribute-without-value"
+
+
+def test_entities_that_grow_beyond_the_limit_are_refused() -> None:
+    entity = f"<!DOCTYPE robot [<!ENTITY a '{'x' * 400}'>]>"
+    problem = only(f"{entity}<robot>{'&a;' * 200_000}</robot>")
+    assert problem.code == "xml-external-entity"
+    problem = only(f"{entity}<robot name='{'&a;' * 200_000}'/>")
+    assert problem.code == "xml-external-entity"
+
+
+def test_tags_that_are_nested_far_too_deeply_are_refused() -> None:
+    text = "<robot>" + "<a>" * 1_000_000 + "</a>" * 1_000_000 + "</robot>"
+    assert only(text).code == "xml-not-well-formed"
+
+
+def test_a_document_with_too_many_elements_is_refused() -> None:
+    text = ROBOT.format("<a/>" * 20)
+    with pytest.raises(XmlFault) as caught:
+        parse_xml(text, "r.urdf", most_elements=10)
+    (problem,) = explain_xml(text, "r.urdf", caught.value)
+    assert problem.code == "model-too-large"

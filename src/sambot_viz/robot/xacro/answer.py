@@ -66,20 +66,17 @@ def read_answer(answer: Mapping[str, Any], file: str) -> ExpandedModel:
         for tag, is_macro, *place in answer["unprefixed"]
     ]
     names: list[str] = answer["names"]
-    root, unwritable = _tree(answer["nodes"], dict(enumerate(names)))
-    forbidden = _FORBIDDEN.search(answer["xml"])
-    if forbidden:
-        unwritable = f"the character U+{ord(forbidden[0]):04X}"
-    if unwritable:
-        raise ExpansionError(XacroFailure("NotXml", unwritable, file))
+    root, wrong_name = _tree(answer["nodes"], dict(enumerate(names)))
+    if wrong_name or _FORBIDDEN.search(answer["xml"]):
+        raise ExpansionError(_not_xml(root, file))
     files = tuple(Path(name) for name in answer["files"])
     return ExpandedModel(answer["xml"], root, files, tuple(dict.fromkeys(problems)))
 
 
 def _tree(
     nodes: Sequence[Sequence[Any]], files: Mapping[int, str]
-) -> tuple[Element, str]:
-    """The elements, and the first name that XML does not allow, or "".
+) -> tuple[Element, bool]:
+    """The elements, and whether one of their names is not allowed in XML.
 
     Each entry of `nodes` is: tag, attributes, text, number of children, file number,
     line, column, and for an element that came through a macro call the file number
@@ -104,8 +101,25 @@ def _tree(
                 attributes[name] = _BLANKS.sub(" ", value)
         if count:
             waiting.append((element, count))
-    wrong = next((name for name in sorted(names) if not _NAME.fullmatch(name)), None)
-    return top.children[0], "" if wrong is None else f"the name '{wrong}'"
+    return top.children[0], not all(_NAME.fullmatch(name) for name in names)
+
+
+def _not_xml(root: Element, file: str) -> XacroFailure:
+    """The failure for a name or a character that XML does not allow, with its place."""
+    for element in root.iter():
+        for name in (element.tag, *element.attributes):
+            if not _NAME.fullmatch(name):
+                return _failure_at(element, f"the name '{name}'")
+        for text in (*element.attributes.values(), element.text):
+            found = _FORBIDDEN.search(text)
+            if found:
+                return _failure_at(element, f"the character U+{ord(found[0]):04X}")
+    return XacroFailure("NotXml", "a control character in a comment", file)
+
+
+def _failure_at(element: Element, text: str) -> XacroFailure:
+    place = element.place
+    return XacroFailure("NotXml", text, place.file, place.line, place.column)
 
 
 def _failure(data: Mapping[str, Any]) -> XacroFailure:

@@ -15,29 +15,39 @@ from sambot_viz.robot.xml.element import Element
 
 _ATTRIBUTE = re.compile(rb"""\s([^\s=<>"'/]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 _EXTERNAL = "external entities and external document types are not read"
+_AMPLIFIED = "limit on input amplification by entities"
+_DEEPEST = 10_000
+_MOST_ELEMENTS = 1_000_000
+_MOST_CHARACTERS = 64_000_000
+"""Of values and texts, counted when the document defines entities of its own."""
 
 
-def parse_xml(text: str, file: str) -> Element:
+def parse_xml(text: str, file: str, *, most_elements: int = _MOST_ELEMENTS) -> Element:
     """Read a document strictly.
 
     Args:
-        text: the document; a declared encoding in it is ignored.
+        text: the document; an encoding that it declares is ignored.
         file: the name for places, as the user wrote it.
+        most_elements: a document with more is refused.
 
     Raises:
-        XmlFault: it is not well-formed, or it refers to something outside itself.
+        XmlFault: it is not well-formed, it refers to something outside itself, or it
+            is far larger or deeper than any robot.
     """
-    return _TreeBuilder(text, file).build()
+    return _TreeBuilder(text, file, most_elements).build()
 
 
 class _TreeBuilder:
-    def __init__(self, text: str, file: str) -> None:
+    def __init__(self, text: str, file: str, most_elements: int) -> None:
         self._text = text
         self._data = text.encode("utf-8", "surrogatepass")
         self._file = file
         self._stack: list[Element] = []
         self._pieces: list[list[str]] = []
         self._root: Element | None = None
+        self._elements_left = most_elements
+        self._has_entities = False
+        self._characters_left = _MOST_CHARACTERS
         parser = expat.ParserCreate("utf-8")
         parser.buffer_text = True
         parser.StartElementHandler = self._start
@@ -67,6 +77,7 @@ class _TreeBuilder:
         place = Place(self._file, line, self._parser.CurrentColumnNumber + 1)
         element = Element(tag, attributes, place)
         self._look_inside_tag(element, line)
+        self._check_limits(attributes)
         if self._stack:
             element.parent = self._stack[-1]
             self._stack[-1].children.append(element)
@@ -83,14 +94,31 @@ class _TreeBuilder:
             return
         lines: dict[str, int] = {}
         odd: set[str] = set()
+        counted = 0
         for match in _ATTRIBUTE.finditer(tag):
             name = match[1].decode("utf-8", "replace")
-            lines[name] = line + tag.count(b"\n", 0, match.start(1))
+            line += tag.count(b"\n", counted, match.start(1))
+            counted = match.start(1)
+            lines[name] = line
             value = match[2] if match[2] is not None else match[3]
             if any(blank in value for blank in (b"\n", b"\t", b"\r")):
                 odd.add(name)
         element.attribute_lines = lines
         element.odd_blanks = frozenset(odd)
+
+    def _check_limits(self, attributes: dict[str, str]) -> None:
+        self._elements_left -= 1
+        if self._elements_left < 0:
+            raise self._fault("too many elements")
+        if len(self._stack) > _DEEPEST:
+            raise self._fault("nested too deeply")
+        if self._has_entities:
+            self._spend(sum(len(value) for value in attributes.values()))
+
+    def _spend(self, characters: int) -> None:
+        self._characters_left -= characters
+        if self._characters_left < 0:
+            raise self._fault(_AMPLIFIED)
 
     def _end(self, _tag: str) -> None:
         element = self._stack.pop()
@@ -98,6 +126,8 @@ class _TreeBuilder:
 
     def _characters(self, data: str) -> None:
         self._pieces[-1].append(data)
+        if self._has_entities:
+            self._spend(len(data))
 
     def _doctype(
         self, _name: str, system: str | None, public: str | None, _internal: bool
@@ -117,6 +147,7 @@ class _TreeBuilder:
     ) -> None:
         if value is None:
             raise self._fault(_EXTERNAL)
+        self._has_entities = True
 
     def _fault(self, message: str) -> XmlFault:
         return XmlFault(

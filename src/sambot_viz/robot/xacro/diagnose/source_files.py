@@ -1,7 +1,7 @@
-"""Looking things up in xacro source files: definitions, calls, expressions.
+"""Finding definitions, calls and expressions in xacro source files.
 
-xacro gives no line numbers (spec/ros-nodes.md §5.3); the places in its errors come
-from this scan of the files that the user wrote.
+xacro gives no line numbers; the places in its errors come from this scan of the files
+that the user wrote.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ _MOST_NEIGHBOURS = 200
 
 @dataclass(frozen=True, slots=True)
 class NamedElement:
-    """A definition found in a file: <xacro:property>, <xacro:macro>, <xacro:arg>.
+    """A definition in a file: <xacro:property>, <xacro:macro> or <xacro:arg>.
 
     Attributes:
         kind: "property", "macro" or "arg".
         name: without the prefix.
-        place: where it stands.
+        place: where it is.
         prefixed: False when it lacks the prefix xacro:, so that xacro skips it.
         params: the parameter text of a macro.
-        inside: the macro in whose body it stands, or "".
+        inside: the macro in whose body it is, or "".
     """
 
     kind: str
@@ -52,7 +52,7 @@ def read_source(file: str | Path) -> SourceText | None:
     return SourceText(text.replace("\r\n", "\n"))
 
 
-def named_things(source: SourceText, file: str) -> Iterator[NamedElement]:
+def definitions_in(source: SourceText, file: str) -> Iterator[NamedElement]:
     """Every property, macro and argument that a file defines, in document order."""
     inside: list[str] = []
     for token in source.tags:
@@ -108,10 +108,10 @@ class SourceSet:
     def named(self, kind: str) -> list[NamedElement]:
         """Everything of one kind that the files define."""
         return [
-            thing
+            definition
             for file, source in self.sources()
-            for thing in named_things(source, file)
-            if thing.kind == kind
+            for definition in definitions_in(source, file)
+            if definition.kind == kind
         ]
 
     def find(self, pattern: str, near: Place | None = None) -> Place | None:
@@ -119,13 +119,13 @@ class SourceSet:
 
         Args:
             pattern: a regular expression.
-            near: the match in the tag that stands here comes before all others.
+            near: a match in the tag at this place comes before all others.
         """
         for file, source in self.sources():
             hits = [
                 Place(file, source.line(m.start()), source.column(m.start()))
                 for m in re.finditer(pattern, source.text)
-                if not _in_comment(source, m.start())
+                if not source.in_comment(m.start())
             ]
             if near is not None and file == near.file:
                 end = _last_line_of_tag(source, near.line)
@@ -160,7 +160,7 @@ class SourceSet:
                     yield token_place(source, file, token), token
 
     def neighbours_with_macro(self, name: str) -> list[NamedElement]:
-        """Macros of that name in files that lie beside or below the known ones."""
+        """Macros of that name in files beside or below the known ones."""
         found: list[NamedElement] = []
         for folder in dict.fromkeys(Path(f).parent for f in self.files):
             for path in _xacro_files(folder):
@@ -170,9 +170,9 @@ class SourceSet:
                 if source is None or name not in source.text:
                     continue
                 found += [
-                    thing
-                    for thing in named_things(source, str(path))
-                    if thing.kind == "macro" and thing.name == name
+                    definition
+                    for definition in definitions_in(source, str(path))
+                    if definition.kind == "macro" and definition.name == name
                 ]
         return found
 
@@ -185,12 +185,6 @@ def _xacro_files(folder: Path) -> list[Path]:
             if len(found) >= _MOST_NEIGHBOURS:
                 return found
     return found
-
-
-def _in_comment(source: SourceText, offset: int) -> bool:
-    text = source.text
-    opened = text.rfind("<!--", 0, offset)
-    return opened >= 0 and text.find("-->", opened, offset) < 0
 
 
 def _last_line_of_tag(source: SourceText, line: int) -> int:

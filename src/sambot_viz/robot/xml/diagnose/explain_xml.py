@@ -1,65 +1,56 @@
-"""From expat's "not well-formed" to the cause and its mend (spec/ros-nodes.md §6.7)."""
+"""Explain why a text is not XML: the cause and the fix, not expat's symptom."""
 
 from __future__ import annotations
 
-from typing import Protocol
-
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.lexer import SlipKind, Token
-from sambot_viz.robot.xml.diagnose.lexical import SAYINGS
-from sambot_viz.robot.xml.diagnose.prolog import prolog_problems, whole_file_problem
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.diagnose.lexer import (
+    MOST_ERRORS,
+    LexicalErrorKind,
+    Token,
+)
+from sambot_viz.robot.xml.diagnose.lexical import lexical_problem
+from sambot_viz.robot.xml.diagnose.prolog import other_file_problem, prolog_problems
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 from sambot_viz.robot.xml.diagnose.structure import structure_problems
 
 _MOST = 12
-"""More findings than this come from one cause; the rest would bury it."""
+"""More findings than this come from one cause; the rest would hide it."""
+
+_LARGEST = 1_000_000
+"""In a longer text [characters] only the place that expat names is reported."""
 
 _KNOWN_PREFIXES = {"xacro": "http://www.ros.org/wiki/xacro"}
 
-_MISLEADING: frozenset[SlipKind] = frozenset(
+_MISLEADING: frozenset[LexicalErrorKind] = frozenset(
     {"quote-not-closed", "comment-not-closed", "comment-nested", "tag-not-ended"}
 )
-"""Behind these it is a guess where the text goes on: nothing later is told."""
+"""After one of these nothing is reported: where the text goes on is a guess."""
 
 
-class Fault(Protocol):
-    """What expat said: `message`, and the place counted from 1."""
-
-    @property
-    def message(self) -> str:
-        """Expat's own text."""
-        ...
-
-    @property
-    def line(self) -> int:
-        """Line, counted from 1."""
-        ...
-
-    @property
-    def column(self) -> int:
-        """Column, counted from 1."""
-        ...
-
-
-def explain_xml(text: str, file: str, fault: Fault) -> list[Problem]:
+def explain_xml(text: str, file: str, fault: XmlFault) -> list[Problem]:
     """Find the cause of an XML error, not its symptom.
 
     Args:
-        text: the file as text; bytes that are no UTF-8 may stand in it as U+FFFD
-            or as lone surrogates.
+        text: the file as text; bytes that are not UTF-8 may be in it as U+FFFD or as
+            lone surrogates.
         file: the path as the user wrote it.
-        fault: what expat said about it.
+        fault: what expat reported.
 
     Returns:
         One or more problems of severity "error", in document order, each with a
-        line and a mend. Never empty.
+        line and a fix. Never empty.
     """
+    other = other_file_problem(text, file)
+    if other is not None:
+        return [other]
+    if len(text) > _LARGEST:
+        return [_plain(fault, file)]
     source = SourceText(text.replace("\r\n", "\n"))
-    whole = whole_file_problem(source, file)
-    if whole is not None:
-        return [whole]
-    problems = prolog_problems(source, file) + _slip_problems(source, file)
-    if not any(slip.kind in _MISLEADING for slip in source.slips):
+    errors = source.lexical_errors
+    problems = prolog_problems(source, file) + _lexical_problems(source, file)
+    unclear = any(error.kind in _MISLEADING for error in errors)
+    if not unclear and len(errors) < MOST_ERRORS:
         problems += structure_problems(source, file)
     problems += _prefix_problems(source, file)
     if not problems:
@@ -67,7 +58,7 @@ def explain_xml(text: str, file: str, fault: Fault) -> list[Problem]:
     return sorted(problems, key=lambda p: p.line or 0)[:_MOST]
 
 
-def _plain(fault: Fault, file: str) -> Problem:
+def _plain(fault: XmlFault, file: str) -> Problem:
     known = (row for row in _FROM_EXPAT if fault.message.startswith(row[0]))
     _, code, message, hint = next(known, _UNKNOWN)
     message = message.format(fault.message, fault.line)
@@ -90,44 +81,53 @@ _FROM_EXPAT = (
     (
         "external entities",
         "xml-external-entity",
-        "the document type would read other files, which is not done",
+        "the document type would read other files, which is not supported",
         "delete <!DOCTYPE …> and write the content itself, or use xacro:include",
     ),
     (
         "limit on input amplification",
         "xml-external-entity",
-        "the entities of the document type grow without end, which is not done",
+        "the entities of the document type grow without end, which is not supported",
         "delete <!DOCTYPE …>",
     ),
+    (
+        "nested too deeply",
+        "xml-not-well-formed",
+        "the tags are nested more deeply than in any robot",
+        "look for a tag that is opened again and again and never closed",
+    ),
+    (
+        "too many elements",
+        "model-too-large",
+        "the model has more elements than can be shown",
+        "open the URDF or xacro file itself",
+    ),
 )
-"""Faults that expat or the reader names well enough: (beginning, code, what, mend)."""
+"""What expat or the parser reports clearly enough: beginning, code, message, hint."""
 
 _UNKNOWN = (
     "",
     "xml-not-well-formed",
-    "this is no XML from line {1} on ({0})",
+    "this is not XML from line {1} on ({0})",
     "look at this line and the one before it: every tag closed, every value in quotes",
 )
 
 
-def _slip_problems(source: SourceText, file: str) -> list[Problem]:
+def _lexical_problems(source: SourceText, file: str) -> list[Problem]:
     problems: list[Problem] = []
-    for slip in source.slips:
-        message, hint = SAYINGS[slip.kind](source, slip)
-        line, column = source.line(slip.offset), source.column(slip.offset)
-        code = f"xml-{slip.kind}"
-        problems.append(Problem("error", code, message, hint, file, line, column))
-        if slip.kind in _MISLEADING:
+    for error in source.lexical_errors[:_MOST]:
+        problems.append(lexical_problem(source, file, error))
+        if error.kind in _MISLEADING:
             break
     return problems
 
 
 def _prefix_problems(source: SourceText, file: str) -> list[Problem]:
     """Prefixes that are used but declared nowhere."""
-    opened = [t for t in source.tags if not t.closes]
-    robots = [t.closes for t in source.tags if t.name == "robot"]
+    opened = [tag for tag in source.tags if not tag.closes]
+    robots = [tag.closes for tag in source.tags if tag.name == "robot"]
     if not opened or (robots and all(robots)):
-        # Without its root the declarations are lost too; that is told already.
+        # Without its root the declarations are lost too; that is reported already.
         return []
     known = {"xml", "xmlns"} | {
         a.name[6:] for t in opened for a in t.attributes if a.name.startswith("xmlns:")

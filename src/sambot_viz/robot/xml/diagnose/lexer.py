@@ -1,22 +1,22 @@
-"""A tolerant reader of XML text: tokens with places, and every slip it meets.
+"""A tolerant reader of XML text: tokens with offsets, and lexical errors.
 
-expat stops at the first slip and names the symptom. This reader never stops: it
-notes the slip, guesses what was meant and goes on, so that the cause can be told
-(`xml_faults`), and lines can be found in files that xacro reads without lines
-(`xacro_faults`, the checks). It decides nothing: whether a text is XML is expat's
-word alone.
+expat stops at the first error and names the symptom. This reader notes the error,
+guesses what was meant and goes on, so that `explain_xml` can name the cause and
+`explain_xacro` can find lines in source files. Whether a text is XML is decided by
+expat alone.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Literal
 
 TokenKind = Literal[
     "open", "close", "empty", "text", "comment", "instruction", "doctype", "cdata"
 ]
-SlipKind = Literal[
+LexicalErrorKind = Literal[
     "ampersand",
     "attribute-twice",
     "attribute-without-value",
@@ -55,11 +55,12 @@ _EQUALS = re.compile(r"\s*=\s*")
 _SPACE = re.compile(r"\s*")
 _UNQUOTED = re.compile(r"(?:(?!/>)[^\s<>])+")
 _LOOSE_COMMENT = re.compile(r"<(?:!\s*-\s*-?|--)")
+MOST_ERRORS = 50
 _KNOWN_ENTITIES = frozenset({"amp", "lt", "gt", "quot", "apos"})
 
 
 def _cut_expression(value: str) -> bool:
-    """Whether a value ends inside ${…}: its quote stands in the expression."""
+    """Whether a value ends inside ${…}: its quote is inside the expression."""
     return "${" in value and "}" not in value[value.rfind("${") :]
 
 
@@ -84,9 +85,9 @@ class Token:
     Attributes:
         kind: "open" and "empty" are <a> and <a/>, "close" is </a>.
         start: offset of the first character.
-        end: offset behind the last character.
-        name: element name; empty for everything that is no tag.
-        attributes: those that could be read, in document order.
+        end: offset after the last character.
+        name: element name; empty for everything that is not a tag.
+        attributes: those that could be read, each name once, in document order.
     """
 
     kind: TokenKind
@@ -115,39 +116,44 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class LexicalError:
-    """Something that is not XML: where, and the piece of text it is about."""
+    """Something that is not XML: its offset, and the piece of text it is about."""
 
-    kind: SlipKind
+    kind: LexicalErrorKind
     offset: int
     text: str = ""
     tag: str = ""
 
 
 def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
-    """The tokens of a text and the slips in it, both in document order."""
-    reader = _Reader(text)
+    """The tokens of a text and its errors, both in document order.
+
+    Reading ends after `MOST_ERRORS` errors: such a text is not XML at all.
+    """
+    reader = _Tokenizer(text)
     reader.run()
-    return reader.tokens, sorted(reader.slips, key=lambda slip: slip.offset)
+    return reader.tokens, sorted(reader.errors, key=lambda error: error.offset)
 
 
 @dataclass
-class _Reader:
+class _Tokenizer:
     text: str
     tokens: list[Token] = field(default_factory=list["Token"])
-    slips: list[LexicalError] = field(default_factory=list["LexicalError"])
+    errors: list[LexicalError] = field(default_factory=list["LexicalError"])
     has_doctype: bool = False
 
     def run(self) -> None:
         position = 0
-        while position < len(self.text):
+        while position < len(self.text) and len(self.errors) < MOST_ERRORS:
             mark = self.text.find("<", position)
             mark = len(self.text) if mark < 0 else mark
             if mark > position:
                 self._text(position, mark)
             position = self._markup(mark) if mark < len(self.text) else mark
 
-    def _slip(self, kind: SlipKind, offset: int, text: str = "", tag: str = "") -> None:
-        self.slips.append(LexicalError(kind, offset, text, tag))
+    def _note_error(
+        self, kind: LexicalErrorKind, offset: int, text: str = "", tag: str = ""
+    ) -> None:
+        self.errors.append(LexicalError(kind, offset, text, tag))
 
     def _token(self, kind: TokenKind, start: int, end: int) -> int:
         self.tokens.append(Token(kind, start, end))
@@ -161,11 +167,14 @@ class _Reader:
         """Note bare ampersands and unknown entities between two offsets."""
         if "&" not in self.text[start:end]:
             return
-        for found in _BARE_AMPERSAND.finditer(self.text, start, end):
-            self._slip("ampersand", found.start())
+        ampersands = _BARE_AMPERSAND.finditer(self.text, start, end)
+        for found in islice(ampersands, MOST_ERRORS):
+            self._note_error("ampersand", found.start())
         for found in _ENTITY.finditer(self.text, start, end):
+            if len(self.errors) >= MOST_ERRORS:
+                return
             if found[1] not in _KNOWN_ENTITIES and not self.has_doctype:
-                self._slip("entity-undefined", found.start(), found[1])
+                self._note_error("entity-undefined", found.start(), found[1])
 
     def _markup(self, start: int) -> int:
         text = self.text
@@ -186,7 +195,7 @@ class _Reader:
             return self._doctype(start)
         return self._loose_markup(start)
 
-    def _behind_space(self, position: int) -> int:
+    def _after_space(self, position: int) -> int:
         space = _SPACE.match(self.text, position)
         return space.end() if space else position
 
@@ -206,16 +215,16 @@ class _Reader:
     def _comment(self, start: int) -> int:
         close = self.text.find("-->", start + 4)
         if close < 0:
-            self._slip("comment-not-closed", start)
+            self._note_error("comment-not-closed", start)
             return self._token("comment", start, len(self.text))
         inner = self.text[start + 4 : close]
         nested = inner.find("<!--")
         hyphens = inner.find("--")
         if nested >= 0:
-            self._slip("comment-nested", start + 4 + nested)
+            self._note_error("comment-nested", start + 4 + nested)
         elif hyphens >= 0 or inner.endswith("-"):
             at = hyphens if hyphens >= 0 else len(inner) - 1
-            self._slip("comment-double-hyphen", start + 4 + at, inner.strip())
+            self._note_error("comment-double-hyphen", start + 4 + at, inner.strip())
         return self._token("comment", start, close + 3)
 
     def _loose_markup(self, start: int) -> int:
@@ -226,22 +235,22 @@ class _Reader:
             return self._loose_tag(start, name[0], name.end())
         close = _LOOSE_CLOSE_TAG.match(text, start)
         if close:
-            self._slip("tag-malformed", start, close[0].strip(), close[1])
+            self._note_error("tag-malformed", start, close[0].strip(), close[1])
             self.tokens.append(Token("close", start, close.end(), close[1]))
             return close.end()
         if _LOOSE_COMMENT.match(text, start):
             end = text.find(">", start)
-            self._slip("comment-malformed", start)
+            self._note_error("comment-malformed", start)
             return self._token("comment", start, len(text) if end < 0 else end + 1)
         spaced = _LOOSE_OPEN_TAG.match(text, start)
         if spaced:
-            self._slip("tag-malformed", start, spaced[0], spaced[1])
+            self._note_error("tag-malformed", start, spaced[0], spaced[1])
             return self._loose_tag(start, spaced[1], spaced.end())
-        self._slip("less-than", start)
+        self._note_error("less-than", start)
         return self._token("text", start, start + 1)
 
     def _good_tag(self, found: re.Match[str]) -> int:
-        attributes: list[Attribute] = []
+        attributes: dict[str, Attribute] = {}
         pieces = list(_ATTRIBUTE.finditer(self.text, found.start(2), found.end(2)))
         if any(_ends_oddly(piece[2] or piece[3] or "") for piece in pieces):
             return self._loose_tag(found.start(), found[1], found.end(1))
@@ -251,24 +260,31 @@ class _Reader:
         self._references(found.start(2), found.end(2))
         kind: TokenKind = "empty" if found[3] else "open"
         self.tokens.append(
-            Token(kind, found.start(), found.end(), found[1], tuple(attributes))
+            Token(
+                kind, found.start(), found.end(), found[1], tuple(attributes.values())
+            )
         )
         return found.end()
 
-    def _add(self, known: list[Attribute], new: Attribute, tag: str) -> None:
-        if any(new.name == old.name for old in known):
-            self._slip("attribute-twice", new.offset, new.name, tag)
-        known.append(new)
+    def _add(self, known: dict[str, Attribute], new: Attribute, tag: str) -> None:
+        if new.name in known:
+            self._note_error("attribute-twice", new.offset, new.name, tag)
+        known.setdefault(new.name, new)
 
     def _loose_tag(self, start: int, tag: str, position: int) -> int:
-        """A start tag with slips in it, read attribute by attribute."""
-        attributes: list[Attribute] = []
+        """A start tag with errors, read attribute by attribute."""
+        attributes: dict[str, Attribute] = {}
         text = self.text
         while True:
             before = position
-            position = self._behind_space(position)
+            if len(self.errors) >= MOST_ERRORS:
+                kind, end = "open", len(text)
+                break
+            position = self._after_space(position)
             if position >= len(text) or text[position] == "<":
-                self._slip("tag-not-ended", start, text[start:before].strip(), tag)
+                self._note_error(
+                    "tag-not-ended", start, text[start:before].strip(), tag
+                )
                 kind, end = "open", position
                 break
             if text.startswith("/>", position):
@@ -280,21 +296,23 @@ class _Reader:
             attribute = _NAME.match(text, position)
             if attribute:
                 if position == before:
-                    self._slip("attributes-run-together", position, attribute[0], tag)
+                    self._note_error(
+                        "attributes-run-together", position, attribute[0], tag
+                    )
                 position = self._loose_attribute(attribute, attributes, tag)
             else:
-                self._slip("tag-malformed", position, text[position], tag)
+                self._note_error("tag-malformed", position, text[position], tag)
                 position += 1
-        self.tokens.append(Token(kind, start, end, tag, tuple(attributes)))
+        self.tokens.append(Token(kind, start, end, tag, tuple(attributes.values())))
         return end
 
     def _loose_attribute(
-        self, name: re.Match[str], attributes: list[Attribute], tag: str
+        self, name: re.Match[str], attributes: dict[str, Attribute], tag: str
     ) -> int:
         text = self.text
         equals = _EQUALS.match(text, name.end())
         if not equals:
-            self._slip("attribute-without-value", name.start(), name[0], tag)
+            self._note_error("attribute-without-value", name.start(), name[0], tag)
             return name.end()
         start = equals.end()
         first = text[start : start + 1]
@@ -305,7 +323,7 @@ class _Reader:
         else:
             unquoted = _UNQUOTED.match(text, start)
             value, end = (unquoted[0], unquoted.end()) if unquoted else ("", start)
-            self._slip("quotes-missing", name.start(), f"{name[0]}={value}", tag)
+            self._note_error("quotes-missing", name.start(), f"{name[0]}={value}", tag)
         self._add(attributes, Attribute(name[0], value, name.start()), tag)
         return end
 
@@ -313,12 +331,12 @@ class _Reader:
         closing = _CURLY_END.search(self.text, start + 1)
         end = closing.start() if closing else len(self.text)
         value = self.text[start + 1 : end]
-        self._slip("quotes-curly", start, f"{name[0]}={value}", tag)
+        self._note_error("quotes-curly", start, f"{name[0]}={value}", tag)
         ends_here = closing is not None and closing[0] not in "<>\n"
         return value, end + 1 if ends_here else end
 
     def _quoted(self, start: int, name: re.Match[str], tag: str) -> tuple[str, int]:
-        """The value behind an opening quote, and where to read on."""
+        """The value after an opening quote, and where to read on."""
         text, quote = self.text, self.text[start]
         close = text.find(quote, start + 1)
         value = text[start + 1 : close] if close >= 0 else text[start + 1 :]
@@ -326,17 +344,17 @@ class _Reader:
             brace = text.find("}", close)
             again = text.find(quote, brace) if brace >= 0 else -1
             if again >= 0 and not re.search(r"[<>\n]", text[close:again]):
-                self._slip("quote-in-value", close, text[start + 1 : again], tag)
+                self._note_error("quote-in-value", close, text[start + 1 : again], tag)
                 return text[start + 1 : again], again + 1
         swallowed = _NEXT_ATTRIBUTE.search(value)
         if close < 0 or swallowed or ("<" in value and "\n" in value):
-            self._slip("quote-not-closed", start, f"{name[0]}={quote}", tag)
+            self._note_error("quote-not-closed", start, f"{name[0]}={quote}", tag)
             if swallowed and not re.search(r"[<\n]", value):
                 return value[: swallowed.start()], start + 1 + swallowed.start()
             stop = _VALUE_END.search(text, start + 1)
             end = stop.start() if stop else len(text)
             return text[start + 1 : end], end
         self._references(start, close)
-        for found in re.finditer("<", value):
-            self._slip("less-than", start + 1 + found.start(), value, tag)
+        for found in islice(re.finditer("<", value), MOST_ERRORS):
+            self._note_error("less-than", start + 1 + found.start(), value, tag)
         return value, close + 1

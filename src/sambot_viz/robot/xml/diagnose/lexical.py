@@ -1,163 +1,211 @@
-"""What each slip inside a text is called, and its mend (spec/ros-nodes.md §6.7)."""
+"""The sentences for lexical errors of XML: one row for each."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
-from sambot_viz.robot.xml.diagnose.lexer import CURLY, LexicalError, SlipKind
+from sambot_viz.errors import Problem
+from sambot_viz.robot.xml.diagnose.lexer import CURLY, LexicalError
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 
-
-def _ampersand(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return "a bare & is not allowed in XML", "write &amp; instead of &"
-
-
-def _attribute_twice(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return (
-        f"<{slip.tag}> has the attribute {slip.text} twice",
-        f"keep one {slip.text}",
-    )
-
-
-def _attribute_without_value(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return (
-        f"in <{slip.tag}> the word {slip.text} has no value",
-        f'write {slip.text}="…", or delete it',
-    )
-
-
-def _run_together(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return (
-        f"in <{slip.tag}> the attribute {slip.text} stands directly behind the "
-        "value before it",
-        f"put a blank before {slip.text}",
-    )
-
-
-def _double_hyphen(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    shown = re.sub("-{2,}", "-", slip.text.strip("- \n"))
-    comment = f"<!-- {shown} -->" if len(shown) <= 60 and "\n" not in shown else ""
-    return (
+_ROWS: tuple[tuple[str, str, str, str], ...] = (
+    ("xml-ampersand", "", "a bare & is not allowed in XML", "write &amp; instead of &"),
+    (
+        "xml-attribute-twice",
+        "",
+        "<{x.tag}> has the attribute {x.text} twice",
+        "keep one {x.text}",
+    ),
+    (
+        "xml-attribute-without-value",
+        "",
+        "in <{x.tag}> the word {x.text} has no value",
+        'write {x.text}="…", or delete it',
+    ),
+    (
+        "xml-attributes-run-together",
+        "",
+        "in <{x.tag}> the attribute {x.text} comes directly after the value before it",
+        "put a blank before {x.text}",
+    ),
+    (
+        "xml-comment-double-hyphen",
+        r"(?=.*[^\s-])[^\n]{1,60}$",
         'a comment may not contain "--" or end with "-"',
-        f"write {comment}" if shown and comment else "use one hyphen, or = signs",
-    )
-
-
-def _comment_malformed(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return "a comment begins with <!-- and nothing else", "write <!-- … -->"
-
-
-def _comment_nested(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    outer = next(
-        t.start for t in source.tokens if t.start < slip.offset and slip.offset < t.end
-    )
-    return (
-        f"the comment opened on line {source.line(outer)} contains another <!--: "
-        "comments cannot stand inside each other, the first --> ends both",
-        f"close the first comment with --> before line {source.line(slip.offset)}, "
-        "or delete the inner <!-- and its -->",
-    )
-
-
-def _comment_not_closed(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return (
-        f"the comment opened on line {source.line(slip.offset)} is never closed, so "
-        "it swallows the rest of the file",
+        "write <!-- {x.single_hyphens} -->",
+    ),
+    (
+        "xml-comment-double-hyphen",
+        "",
+        'a comment may not contain "--" or end with "-"',
+        "use one hyphen, or = signs",
+    ),
+    (
+        "xml-comment-malformed",
+        "",
+        "a comment begins with <!-- and nothing else",
+        "write <!-- … -->",
+    ),
+    (
+        "xml-comment-nested",
+        "",
+        "the comment opened on line {x.outer_line} contains another <!--: comments "
+        "cannot be inside each other, the first --> ends both",
+        "close the first comment with --> before line {x.line}, or delete the inner "
+        "<!-- and its -->",
+    ),
+    (
+        "xml-comment-not-closed",
+        "",
+        "the comment opened on line {x.line} is never closed, so it swallows the rest "
+        "of the file",
         "end it with -->",
-    )
-
-
-def _entity(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    return (
-        f"&{slip.text}; is not known in XML",
+    ),
+    (
+        "xml-entity-undefined",
+        "",
+        "&{x.text}; is not known in XML",
         "XML knows only &amp; &lt; &gt; &quot; &apos;: write the character itself",
-    )
-
-
-def _less_than(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    place = f" in a value of <{slip.tag}>" if slip.tag else ""
-    return f"a bare < is not allowed{place}", "write &lt; instead of <"
-
-
-def _quote_in_value(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    quote = source.text[slip.offset]
-    other = "'" if quote == '"' else '"'
-    return (
-        f"the quote {quote} inside the expression ends the value too early",
-        f"use the other quote inside: {slip.text.replace(quote, other)}",
-    )
-
-
-def _quote_not_closed(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    quote = source.text[slip.offset]
-    return (
-        f"the quote that opens {slip.text} in <{slip.tag}> is never closed",
-        f"write {quote} at the end of the value",
-    )
-
-
-def _curly(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    name, _, value = slip.text.partition("=")
-    return (
-        f"{name} in <{slip.tag}> has curly quotes (“ ”), probably pasted from a web "
-        "page or a document",
-        f'use straight quotes: {name}="{value}"',
-    )
-
-
-def _quotes_missing(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    name, _, value = slip.text.partition("=")
-    return (
-        f"the value of {name} in <{slip.tag}> has no quotes",
-        f'write {name}="{value.strip(CURLY)}"',
-    )
-
-
-def _tag_malformed(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    if slip.text.startswith("<"):
-        close = "/" if re.match(r"<\s*[/\\]", slip.text) else ""
-        return (
-            f"{slip.text} is no tag: the name follows < or </ at once, and a closing "
-            "tag holds nothing else",
-            f"write <{close}{slip.tag}>" if close else f"write <{slip.tag} …>",
-        )
-    if slip.text == "/":
-        return (
-            f"in <{slip.tag}> the slash is not directly before >",
-            "write /> without anything between",
-        )
-    return (
-        f"in <{slip.tag}> the character {slip.text} stands where an attribute or > "
-        "is expected",
+    ),
+    (
+        "xml-less-than",
+        "",
+        "a bare < is not allowed{x.in_value}",
+        "write &lt; instead of <",
+    ),
+    (
+        "xml-quote-in-value",
+        "",
+        "the quote {x.quote} inside the expression ends the value too early",
+        "use the other quote inside: {x.other_quotes}",
+    ),
+    (
+        "xml-quote-not-closed",
+        "",
+        "the quote that opens {x.text} in <{x.tag}> is never closed",
+        "write {x.quote} at the end of the value",
+    ),
+    (
+        "xml-quotes-curly",
+        "",
+        "{x.name} in <{x.tag}> has curly quotes (“ ”), probably pasted from a web page "
+        "or a document",
+        'use straight quotes: {x.name}="{x.value}"',
+    ),
+    (
+        "xml-quotes-missing",
+        "",
+        "the value of {x.name} in <{x.tag}> has no quotes",
+        'write {x.name}="{x.value}"',
+    ),
+    (
+        "xml-tag-malformed",
+        r"<\s*[/\\]",
+        "{x.text} is not a tag: the name follows < or </ at once, and a closing tag "
+        "contains nothing else",
+        "write </{x.tag}>",
+    ),
+    (
+        "xml-tag-malformed",
+        "<",
+        "{x.text} is not a tag: the name follows < or </ at once, and a closing tag "
+        "contains nothing else",
+        "write <{x.tag} …>",
+    ),
+    (
+        "xml-tag-malformed",
+        "/$",
+        "in <{x.tag}> the slash is not directly before >",
+        "write /> without anything between",
+    ),
+    (
+        "xml-tag-malformed",
+        "",
+        "in <{x.tag}> there is the character {x.text} where an attribute or > is "
+        "expected",
         "delete it, or look for a quote that is missing or too many before it",
-    )
-
-
-def _tag_not_ended(source: SourceText, slip: LexicalError) -> tuple[str, str]:
-    shown = slip.text.splitlines()[0][:60]
-    return (
-        f"the tag {shown} is not ended: its > is missing",
+    ),
+    (
+        "xml-tag-not-ended",
+        "",
+        "the tag {x.first_line} is not ended: its > is missing",
         "write > (or />) at its end",
+    ),
+)
+"""Code, a pattern for the text of the error, message, hint. The first row that fits
+counts; {x.…} is a property of `_Facts`."""
+
+
+def lexical_problem(source: SourceText, file: str, error: LexicalError) -> Problem:
+    """The problem for a lexical error.
+
+    Args:
+        source: the text.
+        file: its name, for the place.
+        error: an error of that text.
+    """
+    facts = _Facts(source, error)
+    code, _, message, hint = next(
+        row
+        for row in _ROWS
+        if row[0] == f"xml-{error.kind}" and re.match(row[1], error.text)
     )
+    message, hint = message.format(x=facts), hint.format(x=facts)
+    return source.error(file, code, error.offset, message, hint)
 
 
-SAYINGS: Mapping[SlipKind, Callable[[SourceText, LexicalError], tuple[str, str]]] = {
-    "ampersand": _ampersand,
-    "attribute-twice": _attribute_twice,
-    "attribute-without-value": _attribute_without_value,
-    "attributes-run-together": _run_together,
-    "comment-double-hyphen": _double_hyphen,
-    "comment-malformed": _comment_malformed,
-    "comment-nested": _comment_nested,
-    "comment-not-closed": _comment_not_closed,
-    "entity-undefined": _entity,
-    "less-than": _less_than,
-    "quote-in-value": _quote_in_value,
-    "quote-not-closed": _quote_not_closed,
-    "quotes-curly": _curly,
-    "quotes-missing": _quotes_missing,
-    "tag-malformed": _tag_malformed,
-    "tag-not-ended": _tag_not_ended,
-}
-"""Kind of slip → the function that gives message and hint."""
+@dataclass(frozen=True, slots=True)
+class _Facts:
+    """What a sentence can name."""
+
+    source: SourceText
+    error: LexicalError
+
+    @property
+    def tag(self) -> str:
+        return self.error.tag
+
+    @property
+    def text(self) -> str:
+        return self.error.text
+
+    @property
+    def line(self) -> int:
+        return self.source.line(self.error.offset)
+
+    @property
+    def name(self) -> str:
+        return self.text.partition("=")[0]
+
+    @property
+    def value(self) -> str:
+        return self.text.partition("=")[2].strip(CURLY)
+
+    @property
+    def first_line(self) -> str:
+        return self.text.splitlines()[0][:60]
+
+    @property
+    def single_hyphens(self) -> str:
+        return re.sub("-{2,}", "-", self.text.strip("- \n"))
+
+    @property
+    def in_value(self) -> str:
+        return f" in a value of <{self.tag}>" if self.tag else ""
+
+    @property
+    def quote(self) -> str:
+        return self.source.text[self.error.offset]
+
+    @property
+    def other_quotes(self) -> str:
+        return self.text.replace(self.quote, "'" if self.quote == '"' else '"')
+
+    @property
+    def outer_line(self) -> int:
+        offset = self.error.offset
+        tokens = self.source.tokens
+        return self.source.line(
+            next(t.start for t in tokens if t.start < offset < t.end)
+        )

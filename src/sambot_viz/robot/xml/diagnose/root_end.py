@@ -1,4 +1,4 @@
-"""What stands behind the end of the root element (spec/ros-nodes.md §6.7, §7.2)."""
+"""Content after the end of the root element."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 
 
-def behind_root(
+def after_root(
     source: SourceText, file: str, root: Token, root_end: Token
 ) -> Problem | None:
-    """The one problem of what follows the root element, or None.
+    """The problem of the content after the root element, or None.
 
     Args:
         source: the text.
@@ -60,8 +60,7 @@ def _closed_early(
         hint = f"delete </{name}> on line {end}; {right}"
     else:
         hint = f"move </{name}> from line {end} to the last line of the file"
-    # The place is the early tag itself, because there the mend is made; where the
-    # content goes on is told in the message.
+    # The place is the early tag, because that is what has to be changed.
     return source.error(file, "xml-root-closed-early", root_end.start, message, hint)
 
 

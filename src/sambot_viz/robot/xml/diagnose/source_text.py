@@ -46,6 +46,22 @@ class SourceText:
         line, column = self.line(offset), self.column(offset)
         return Problem("error", code, message, hint, file, line, column)
 
+    def starts_line(self, offset: int) -> bool:
+        """Whether only blanks are before an offset in its line."""
+        while offset and self.text[offset - 1] in " \t":
+            offset -= 1
+        return offset == 0 or self.text[offset - 1] == "\n"
+
+    @cached_property
+    def _comments(self) -> list[tuple[int, int]]:
+        pattern = re.compile(r"<!--.*?(?:-->|\Z)", re.DOTALL)
+        return [match.span() for match in pattern.finditer(self.text)]
+
+    def in_comment(self, offset: int) -> bool:
+        """Whether an offset is inside a comment."""
+        before = bisect.bisect_right(self._comments, (offset, len(self.text))) - 1
+        return before >= 0 and offset < self._comments[before][1]
+
     @cached_property
     def _read(self) -> tuple[list[Token], list[LexicalError]]:
         return tokenize(self.text)
@@ -56,8 +72,8 @@ class SourceText:
         return self._read[0]
 
     @property
-    def slips(self) -> list[LexicalError]:
-        """Everything that is not XML, in document order."""
+    def lexical_errors(self) -> list[LexicalError]:
+        """Errors inside the text, in document order."""
         return self._read[1]
 
     @cached_property

@@ -1,8 +1,8 @@
 """Why the tags of a text do not form one tree.
 
-A stack of open tags is kept beside the tokens; where a closing tag does not fit,
-the tag that was forgotten, crossed or misspelt is named together with the place to
-mend it. expat names only the place where it noticed (spec/ros-nodes.md §6.7).
+Where a closing tag does not fit the stack of open tags, the tag that was forgotten,
+crossed or misspelt is named together with the place to fix. expat names only the place
+where it noticed.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.diagnose.lexer import Token
-from sambot_viz.robot.xml.diagnose.root_end import behind_root
+from sambot_viz.robot.xml.diagnose.root_end import after_root
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 
 _LEAVES = frozenset(
@@ -22,7 +22,7 @@ _LEAVES = frozenset(
 """Elements that have attributes only: they are written <origin …/>."""
 
 _TOP_LEVEL = frozenset({"link", "joint", "transmission", "gazebo", "ros2_control"})
-"""Elements that never stand inside one of these:"""
+"""Elements that are never inside one of these:"""
 
 _HOLDS_NO_LINKS = frozenset({"link", "visual", "collision", "inertial", "geometry"})
 
@@ -44,7 +44,7 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
         file: its name, for the places.
 
     Returns:
-        At most one problem per slip; empty when the tags are in order.
+        At most one problem per error; empty when the tags are in order.
     """
     walk = _Walk(source, file)
     walk.run()
@@ -76,7 +76,7 @@ class _Walk:
             else:
                 self._start(token)
         if self.root is not None and self.root_end is not None:
-            found = behind_root(self.source, self.file, self.root, self.root_end)
+            found = after_root(self.source, self.file, self.root, self.root_end)
             self.problems += [found] if found else []
         elif self.stack:
             self._end_of_file()
@@ -141,13 +141,13 @@ class _Walk:
             "xml-tag-case",
             wrong.start,
             f"<{opened.name}> on line {self._line(opened)} is closed by "
-            f"</{closed.name}> on line {self._line(closed)}: XML tells capital "
-            "letters from small ones",
+            f"</{closed.name}> on line {self._line(closed)}: XML distinguishes "
+            "capital letters from small ones",
             f"write <{right}> and </{right}>",
         )
 
     def _not_closed(self, index: int, names: list[str]) -> None:
-        """The closing tag belongs further down: what lies above was not closed."""
+        """The closing tag belongs further down: the tags above it were not closed."""
         tags = self.source.tags
         token = tags[index]
         depth = len(names) - 1 - names[::-1].index(token.name)
@@ -157,7 +157,7 @@ class _Walk:
         if len(unclosed) == 1 and following and following.closes:
             if following.name == top.name and names.count(top.name) == 1:
                 self._crossed(top, token, following)
-                # The pair is taken as if it stood in the right order.
+                # Go on as if the pair were in the right order.
                 del self.stack[depth]
                 if not self.stack:
                     self.root_end = token
@@ -214,10 +214,10 @@ class _Walk:
         column = self.source.column(opened.start)
         for child in entry.children:
             stray = child.name in _TOP_LEVEL and opened.name in _HOLDS_NO_LINKS
-            starts_line = not self.source.line_text(self._line(child))[
-                : self.source.column(child.start) - 1
-            ].strip()
-            outdented = starts_line and self.source.column(child.start) <= column
+            outdented = (
+                self.source.starts_line(child.start)
+                and self.source.column(child.start) <= column
+            )
             if (stray or outdented) and self._line(child) > self._line(opened):
                 return child.start
         return closed.start if closed else 0
@@ -245,7 +245,7 @@ class _Walk:
                 f"{self._line(twin)} again: the slash before > has closed it already"
             )
             hint = (
-                f"take the slash away on line {self._line(twin)} if something belongs "
+                f"delete the slash on line {self._line(twin)} if something belongs "
                 f"inside, or delete </{token.name}>"
             )
         else:
