@@ -1,12 +1,14 @@
 import os
 from pathlib import Path
 from threading import Thread
+from typing import Any
 
+import numpy as np
 import pytest
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot import load_robot
-from sambot_viz.robot.model import MeshFile
+from sambot_viz.robot.model import MeshFile, Robot
 
 
 def errors(model: Path | str) -> list[Problem]:
@@ -25,7 +27,7 @@ def test_the_tutorials_xacro_and_its_urdf_are_the_same_robot(shared: Path):
     assert xacro.problems == ()
 
 
-def test_the_early_closing_tag_is_named_with_its_mend(shared: Path):
+def test_the_early_closing_tag_is_named_with_its_fix(shared: Path):
     found = errors(shared / "data" / "seed" / "robot_closed_too_early.urdf.xacro")
     assert len(found) == 1
     assert found[0].line == 4
@@ -33,7 +35,7 @@ def test_the_early_closing_tag_is_named_with_its_mend(shared: Path):
     assert "move </robot> from line 4" in found[0].hint
 
 
-def test_every_urdf_fault_of_the_collection_is_told_on_its_line(shared: Path):
+def test_every_urdf_fault_of_the_collection_is_reported_on_its_line(shared: Path):
     import yaml
 
     folder = shared / "data" / "bad-models"
@@ -86,7 +88,7 @@ def test_a_folder_with_korean_letters_and_blanks_works(tmp_path: Path):
     assert robot.problems == ()
 
 
-def test_the_same_missing_mesh_is_told_once():
+def test_the_same_missing_mesh_is_reported_once():
     mesh = '<geometry><mesh filename="package://none/a.stl"/></geometry>'
     shapes = f"<visual>{mesh}</visual><collision>{mesh}</collision>"
     robot = load_robot(f'<robot name="r"><link name="a">{shapes}</link></robot>')
@@ -109,7 +111,7 @@ def test_the_same_missing_mesh_is_told_once():
         "<robot name='r'><link name='ä'/></robot>".encode("latin-1"),
     ],
 )
-def test_a_file_that_is_no_model_is_one_clear_error(content: bytes, tmp_path: Path):
+def test_a_file_that_is_not_a_model_is_one_clear_error(content: bytes, tmp_path: Path):
     model = tmp_path / "m.urdf"
     model.write_bytes(content)
     found = errors(model)
@@ -118,14 +120,14 @@ def test_a_file_that_is_no_model_is_one_clear_error(content: bytes, tmp_path: Pa
     assert found[0].hint
 
 
-def test_a_file_that_is_not_there_is_told_with_its_neighbours(tmp_path: Path):
+def test_a_file_that_is_not_there_is_reported_with_its_neighbours(tmp_path: Path):
     (tmp_path / "sam_bot.urdf").write_text("<robot/>")
     problem = errors(tmp_path / "sambot.urdf")[0]
     assert problem.code == "model-not-found"
     assert "did you mean 'sam_bot.urdf'?" in problem.hint
 
 
-def test_a_folder_is_told_with_the_models_in_it(tmp_path: Path):
+def test_a_folder_is_reported_with_the_models_in_it(tmp_path: Path):
     (tmp_path / "urdf").mkdir()
     (tmp_path / "urdf" / "a.urdf").write_text("<robot/>")
     problem = errors(tmp_path)[0]
@@ -217,3 +219,35 @@ def test_arguments_only_in_file_names_are_missing_files_as_for_ros(tmp_path: Pat
     (tmp_path / "body.stl").write_text("solid")
     given = load_robot(model, xacro_args={"folder": str(tmp_path)})
     assert [p.code for p in given.problems] == ["xacro-in-urdf"]
+
+
+@pytest.mark.parametrize("name", ["sam_bot.urdf.xacro", "mbot.urdf.xacro"])
+def test_a_robot_comes_back_from_yourdfpy(name: str, repository: Path):
+    robot = load_robot(repository / "assets" / name)
+    back = Robot.from_yourdfpy(robot.to_yourdfpy())
+    assert (back.name, back.root, list(back.links)) == (
+        robot.name,
+        robot.root,
+        list(robot.links),
+    )
+    assert set(back.joints) == set(robot.joints)
+    poses, others = robot.forward_kinematics(), back.forward_kinematics()
+    assert all(np.allclose(poses[link], others[link]) for link in poses)
+    for link, other in zip(robot.links.values(), back.links.values(), strict=True):
+        assert [s.geometry for s in link.visuals] == [s.geometry for s in other.visuals]
+
+
+def test_meshes_of_yourdfpy_are_found_where_yourdfpy_finds_them(tmp_path: Path):
+    import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
+
+    (tmp_path / "a.stl").write_text("solid")
+    model = tmp_path / "m.urdf"
+    model.write_text(
+        '<robot name="r"><link name="a"><visual><geometry>'
+        '<mesh filename="a.stl"/></geometry></visual></link></robot>'
+    )
+    untyped: Any = yourdfpy
+    urdf = untyped.URDF.load(str(model), load_meshes=False, build_scene_graph=False)
+    mesh = Robot.from_yourdfpy(urdf).links["a"].visuals[0].geometry
+    assert isinstance(mesh, MeshFile)
+    assert mesh.path == tmp_path / "a.stl"

@@ -95,6 +95,9 @@ def load_robot(
     return _Loader(opened, xacro_args or {}, package_path, trusted).load()
 
 
+Robot.load_text = load_robot
+
+
 def expand(
     model: PathLike,
     *,

@@ -9,11 +9,11 @@ robot written in two files is equal.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -27,7 +27,7 @@ JointType = Literal[
     "revolute", "continuous", "prismatic", "fixed", "floating", "planar"
 ]
 MOVABLE_TYPES: frozenset[str] = frozenset({"revolute", "continuous", "prismatic"})
-"""The joint types that joint_state_publisher drives (spec/ros-nodes.md §1.3)."""
+"""The joint types that joint_state_publisher drives."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ class Shape:
         geometry: what is drawn.
         origin: pose of the shape in its link (T_link_shape).
         material: None means RViz's default red. For a collision it is the visual
-            material that RViz gives it (spec/rviz-core.md §5.6).
+            material, which RViz uses for it.
         name: the optional name attribute.
         place: where the element is.
         geometry_place: where its <box>, <mesh>, … is.
@@ -204,7 +204,7 @@ class Joint:
         limit: None when the file has no <limit>.
         soft_limit: soft limits, or None.
         mimic: the joint it follows, or None.
-        place: where the element stands.
+        place: where the element is.
     """
 
     name: str
@@ -228,7 +228,7 @@ class Joint:
         """Lower and upper position [rad or m], as joint_state_publisher takes them.
 
         Continuous joints have −π … π whatever the file says; soft limits narrow the
-        range (spec/ros-nodes.md §1.4).
+        range.
         """
         if self.type == "continuous":
             return (-math.pi, math.pi)
@@ -245,7 +245,7 @@ class Joint:
     def start(self) -> float:
         """The start position [rad or m]: 0, or the middle of a range without 0.
 
-        The rule is joint_state_publisher's (spec/ros-nodes.md §1.5).
+        The rule is joint_state_publisher's.
         """
         lower, upper = self.range
         return (lower + upper) / 2 if lower > 0 or upper < 0 else 0.0
@@ -276,6 +276,9 @@ class Robot:
     files: tuple[Path, ...] = field(default=(), compare=False, repr=False)
     file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
 
+    load_text: ClassVar[Callable[[str], Robot]]
+    # Set by `load.py`, which knows this module.
+
     def forward_kinematics(
         self, positions: Mapping[str, float] | None = None
     ) -> dict[str, Matrix]:
@@ -297,15 +300,18 @@ class Robot:
         return forward_kinematics(self, positions or {})
 
     def to_yourdfpy(self) -> yourdfpy.URDF:
-        """The same robot as a `yourdfpy.URDF`, meshes not loaded.
+        """The same robot as a `yourdfpy.URDF`, meshes not loaded."""
+        from sambot_viz.robot.yourdfpy_bridge import to_yourdfpy
 
-        It is built from the text that was validated here, never from the raw file,
-        because yourdfpy repairs broken files in silence.
+        return to_yourdfpy(self.urdf)
+
+    @classmethod
+    def from_yourdfpy(cls, urdf: yourdfpy.URDF) -> Robot:
+        """The robot of a `yourdfpy.URDF`, with the mesh files that yourdfpy finds.
+
+        Raises:
+            RobotError: ROS would refuse the model.
         """
-        import io
+        from sambot_viz.robot.yourdfpy_bridge import text_of
 
-        import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
-
-        return yourdfpy.URDF.load(  # pyright: ignore[reportUnknownMemberType]
-            io.BytesIO(self.urdf.encode()), build_scene_graph=True, load_meshes=False
-        )
+        return cls.load_text(text_of(urdf))

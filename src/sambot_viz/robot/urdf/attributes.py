@@ -1,4 +1,4 @@
-"""Reading attributes with urdfdom's rules and telling what is wrong with them."""
+"""Read attributes with urdfdom's rules and report what is wrong with them."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class AttributeReader:
         """A number, or the default when the attribute is absent.
 
         Raises:
-            Unreadable: it is no number.
+            Unreadable: it is not a number.
         """
         return default if element.get(name) is None else self.number(element, name)
 

@@ -1,6 +1,6 @@
 """Joints as urdfdom reads them; one wrong joint rejects the model.
 
-The rules are those of spec/ros-nodes.md §6.2 and the case tables of §6.7.
+What is refused here is what urdfdom 3 and 5 refuse.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _REFUSED = "ROS refuses the model"
 
 
 def read_joint(element: Element, findings: UrdfFindings) -> Joint | None:
-    """Read one <joint>; every fault in it is reported.
+    """Read one <joint>; everything wrong in it is reported.
 
     Returns:
         The joint, or None when it has no name, no known type or no ends. What else
@@ -156,13 +156,13 @@ class _JointReader:
             return (1.0, 0.0, 0.0)
         length = math.sqrt(x * x + y * y + z * z)
         if length == 0.0:
-            self._tell_zero_axis(element)
+            self._report_zero_axis(element)
             return (0.0, 0.0, 0.0)
         if abs(length - 1.0) < 1e-12:
             return (x, y, z)
         return (x / length, y / length, z / length)
 
-    def _tell_zero_axis(self, element: Element) -> None:
+    def _report_zero_axis(self, element: Element) -> None:
         if self._kind == "planar":
             return
         self._findings.error(

@@ -14,7 +14,7 @@ _LIMIT_EXAMPLE = 'lower="-1.57" upper="1.57" effort="10" velocity="1"'
 class LimitReader:
     """Reads <limit>, <safety_controller>, <dynamics> and <calibration> of one joint.
 
-    The rules are those of spec/ros-nodes.md §6.2.
+    What is refused here is what urdfdom refuses.
     """
 
     def __init__(
@@ -36,11 +36,11 @@ class LimitReader:
         element = self._element.find("limit")
         if element is None:
             if self._kind in ("revolute", "prismatic"):
-                self._tell_no_limit()
+                self._report_no_limit()
             return None
         missing = [n for n in ("effort", "velocity") if element.get(n) is None]
         if missing:
-            self._tell_incomplete(element, missing)
+            self._report_incomplete(element, missing)
         try:
             limit = Limit(
                 self._reader.optional(element, "lower", 0.0),
@@ -55,7 +55,7 @@ class LimitReader:
             self._check_range(element, limit)
         return limit
 
-    def _tell_no_limit(self) -> None:
+    def _report_no_limit(self) -> None:
         unit = "radians" if self._kind == "revolute" else "metres"
         other = ", or make the joint continuous" if self._kind == "revolute" else ""
         self._findings.reject(
@@ -65,7 +65,7 @@ class LimitReader:
             self._element,
         )
 
-    def _tell_incomplete(self, element: Element, missing: list[str]) -> None:
+    def _report_incomplete(self, element: Element, missing: list[str]) -> None:
         names = " and ".join(missing)
         add = " ".join(f'{n}="{10 if n == "effort" else 1}"' for n in missing)
         even = (

@@ -1,7 +1,7 @@
 """Whether links and joints make one tree, and what ROS would make of it.
 
 What urdfdom refuses rejects the model; what it accepts although it is wrong is kept
-as ROS would keep it, and reported (spec/ros-nodes.md §6.3, §6.4).
+as ROS would keep it, and reported.
 """
 
 from __future__ import annotations
@@ -70,14 +70,14 @@ def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
     rings = _rings(parts, holder)
     roots = [name for name in parts.links if name not in holder]
     if not roots:
-        _tell_rings(parts, findings, rings, None)
+        _report_rings(parts, findings, rings, None)
         return None
     if len(roots) > 1:
-        _tell_roots(parts, findings, roots, fragment)
+        _report_roots(parts, findings, roots, fragment)
     root = _largest(parts, roots)
-    _tell_rings(parts, findings, rings, root)
+    _report_rings(parts, findings, rings, root)
     tree = _reached(parts, holder, root)
-    _tell_depth(parts, findings, tree)
+    _report_depth(parts, findings, tree)
     return tree
 
 
@@ -127,7 +127,7 @@ def _check_ends(parts: RobotParts, findings: UrdfFindings) -> None:
         if link not in parts.links
     ]
     if parts.nameless and len({link for _, _, link in unknown}) <= parts.nameless:
-        # The link exists but lost its name; that has been told.
+        # The link exists but lost its name; that has been reported.
         unknown = []
     for joint, tag, link in unknown:
         element = parts.joint_elements[joint.name]
@@ -167,11 +167,11 @@ def _parent_joints(parts: RobotParts, findings: UrdfFindings) -> dict[str, Joint
     for link, joints in holders.items():
         chosen[link] = max(joints, key=lambda joint: joint.name)
         if len(joints) > 1 and link not in parts.doubled:
-            _tell_two_parents(parts, findings, link, joints, chosen[link].name)
+            _report_two_parents(parts, findings, link, joints, chosen[link].name)
     return chosen
 
 
-def _tell_two_parents(
+def _report_two_parents(
     parts: RobotParts, findings: UrdfFindings, link: str, joints: list[Joint], kept: str
 ) -> None:
     listed = " and ".join(
@@ -181,7 +181,7 @@ def _tell_two_parents(
     findings.error(
         "link-two-parents",
         f"link {link} is the child of more than one joint: {listed}; ROS keeps only "
-        f"{kept} without a word",
+        f"{kept} silently",
         "a link can be the child of one joint only: delete or correct the other",
         element.find("child") or element,
         "link",
@@ -206,7 +206,7 @@ def _rings(parts: RobotParts, holder: Mapping[str, Joint]) -> list[list[Joint]]:
     return rings
 
 
-def _tell_rings(
+def _report_rings(
     parts: RobotParts,
     findings: UrdfFindings,
     rings: Iterable[list[Joint]],
@@ -233,13 +233,13 @@ def _tell_rings(
             findings.error(
                 "joint-ring",
                 f"the joints form a ring: {names}; it is not connected to the root "
-                f"{root}, and ROS loses these links without a word",
+                f"{root}, and ROS loses these links silently",
                 hint,
                 at,
             )
 
 
-def _tell_roots(
+def _report_roots(
     parts: RobotParts, findings: UrdfFindings, roots: list[str], fragment: bool
 ) -> None:
     main = _largest(parts, roots)
@@ -258,28 +258,33 @@ def _tell_roots(
 
 def _largest(parts: RobotParts, roots: list[str]) -> str:
     """The root with the most links below it: that is the robot, the rest is loose."""
+    children = _children(parts.joints.values())
+    return max(roots, key=lambda root: len(_below(root, children)))
+
+
+def _children(joints: Iterable[Joint]) -> dict[str, list[str]]:
+    """Link → the links that hang on it."""
     children: dict[str, list[str]] = {}
-    for joint in parts.joints.values():
+    for joint in joints:
         children.setdefault(joint.parent, []).append(joint.child)
-
-    def size(root: str) -> int:
-        seen: set[str] = set()
-        stack = [root]
-        while stack:
-            link = stack.pop()
-            if link not in seen:
-                seen.add(link)
-                stack.extend(children.get(link, ()))
-        return len(seen)
-
-    return max(roots, key=size)
+    return children
 
 
-def _tell_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None:
+def _below(root: str, children: Mapping[str, list[str]]) -> set[str]:
+    """A link and all that hang below it."""
+    reached: set[str] = set()
+    stack = [root]
+    while stack:
+        link = stack.pop()
+        if link not in reached:
+            reached.add(link)
+            stack.extend(children.get(link, ()))
+    return reached
+
+
+def _report_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None:
     """Warn of a chain that a browser cannot draw: it stacks a call per link."""
-    children: dict[str, list[str]] = {}
-    for joint in tree.joints.values():
-        children.setdefault(joint.parent, []).append(joint.child)
+    children = _children(tree.joints.values())
     level, depth = [tree.root], 0
     while level and depth <= DEEPEST:
         depth += 1
@@ -296,16 +301,7 @@ def _tell_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None:
 
 
 def _reached(parts: RobotParts, holder: Mapping[str, Joint], root: str) -> Tree:
-    children: dict[str, list[str]] = {}
-    for child, joint in holder.items():
-        children.setdefault(joint.parent, []).append(child)
-    reached: set[str] = set()
-    stack = [root]
-    while stack:
-        link = stack.pop()
-        if link not in reached:
-            reached.add(link)
-            stack.extend(children.get(link, ()))
+    reached = _below(root, _children(holder.values()))
     links = {name: link for name, link in parts.links.items() if name in reached}
     joints = {
         name: joint

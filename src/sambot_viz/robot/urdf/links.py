@@ -1,7 +1,7 @@
 """Links with their shapes and inertia, in urdfdom's reading order.
 
 Inertia first, then all visuals, then all collisions; the first thing that cannot be
-read ends the link, and what was read before it stays (spec/ros-nodes.md §6.1).
+read ends the link, and what was read before it stays.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class LinkReader:
         self._find_mesh = find_mesh
 
     def read(self, element: Element, name: str) -> Link:
-        """The link with what ROS would keep of it; every fault in it is reported."""
+        """The link as ROS would keep it; everything wrong in it is reported."""
         inertial, complete = self._inertial(element, name)
         visuals, complete = self._visuals(element, name, complete)
         current = next((v.material for v in reversed(visuals) if v.material), None)
@@ -197,7 +197,7 @@ class LinkReader:
             case "capsule":
                 self._findings.warn(
                     "geometry-capsule",
-                    f"{owner} is a capsule, which is no standard URDF shape; it is "
+                    f"{owner} is a capsule, which is not a standard URDF shape; it is "
                     "drawn here, but ROS loads the robot without it",
                     "use box, cylinder, sphere or mesh",
                     element,

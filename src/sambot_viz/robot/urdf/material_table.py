@@ -1,4 +1,4 @@
-"""Materials by name and order, as urdfdom resolves them (spec/ros-nodes.md §6.2)."""
+"""Materials by name and order, as urdfdom resolves them."""
 
 from __future__ import annotations
 
@@ -86,15 +86,15 @@ class MaterialTable:
             return inline
         known = self._known.get(name)
         if known is not None:
-            self._tell_redefined(name, inline, known, element)
+            self._report_redefined(name, inline, known, element)
             return known.material
         if inline is None:
-            self._tell_undefined(name, element)
+            self._report_undefined(name, element)
             return None
         self._known[name] = _Known(inline, element)
         return inline
 
-    def _tell_redefined(
+    def _report_redefined(
         self, name: str, inline: Material | None, known: _Known, element: Element
     ) -> None:
         if inline is None or inline == known.material:
@@ -107,7 +107,7 @@ class MaterialTable:
             element,
         )
 
-    def _tell_undefined(self, name: str, element: Element) -> None:
+    def _report_undefined(self, name: str, element: Element) -> None:
         if element.find("color") is not None or name in self._undefined:
             return
         self._undefined.add(name)
@@ -149,7 +149,7 @@ class MaterialTable:
             self._findings.warn(
                 "color-count",
                 f"rgba=\"{text}\" of material '{name}' has {count} numbers, four are "
-                "needed; ROS shows black without a word",
+                "needed; ROS shows black silently",
                 f'write rgba="{_four(text)}"',
                 color,
                 "rgba",
@@ -186,7 +186,7 @@ class MaterialTable:
 
 
 def _guess(name: str) -> str:
-    """An rgba that somebody may have meant by the name."""
+    """An rgba that fits the name of the material."""
     found = (rgba for word, rgba in _COLOURS.items() if word in name.lower())
     return next(found, "0.5 0.5 0.5 1")
 

@@ -1,4 +1,4 @@
-"""Mimic joints that joint_state_publisher cannot follow (spec/ros-nodes.md §1.6)."""
+"""Mimic joints that joint_state_publisher cannot follow."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ def check_mimics(
     joints: Mapping[str, Joint], elements: Mapping[str, Element], findings: UrdfFindings
 ) -> None:
     """Report unknown, immovable and circular mimic joints; ROS's parser sees none."""
-    told: set[str] = set()
+    reported: set[str] = set()
     for name, joint in joints.items():
-        if joint.mimic is None or name in told:
+        if joint.mimic is None or name in reported:
             continue
         element = elements[name].find("mimic") or elements[name]
         leader = joints.get(joint.mimic.joint)
@@ -40,10 +40,10 @@ def check_mimics(
                 "joint",
             )
         else:
-            told |= _tell_ring(joint, joints, element, findings)
+            reported |= _report_ring(joint, joints, element, findings)
 
 
-def _tell_ring(
+def _report_ring(
     joint: Joint, joints: Mapping[str, Joint], element: Element, findings: UrdfFindings
 ) -> set[str]:
     """Report the ring that a joint's mimic chain runs into, if the joint is in it."""

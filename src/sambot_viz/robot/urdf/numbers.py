@@ -1,4 +1,4 @@
-"""Numbers as urdfdom reads them: C locale, blanks only (spec/ros-nodes.md §6.2)."""
+"""Numbers as urdfdom reads them: C locale, blanks only."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def read_numbers(text: str, count: int) -> tuple[float, ...]:
     """Exactly `count` finite numbers, separated by blanks.
 
     Raises:
-        BadNumber: another number of numbers, or something that is no number.
+        BadNumber: another number of numbers, or something that is not a number.
     """
     parts = text.split()
     if "," in text or ";" in text:
@@ -85,7 +85,7 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
             "declare xmlns:xacro on <robot>, or write the number",
         )
     if part.lower().lstrip("+-") in ("nan", "inf", "infinity"):
-        return f"holds {part}, which is no finite number", "write a finite number"
+        return f"holds {part}, which is not a finite number", "write a finite number"
     if re.fullmatch(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?[A-Za-z°]+", part):
         return (
             f"has a unit in {part}; URDF knows only metres and radians",
@@ -94,10 +94,10 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
     if re.search(r"pi|[*/()]|\d[+-]\d", part):
         shown = whole.replace(part, f"${{{part}}}")
         return (
-            f"holds {part}, which is no number: plain URDF cannot calculate",
+            f"holds {part}, which is not a number: plain URDF cannot calculate",
             f'write the number{_value_of(part)}, or use xacro: "{shown}"',
         )
-    return f"holds {part}, which is no number", "write a number such as 0.1"
+    return f"holds {part}, which is not a number", "write a number such as 0.1"
 
 
 def _value_of(part: str) -> str:

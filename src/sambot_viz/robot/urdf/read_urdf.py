@@ -1,8 +1,8 @@
-"""From the elements of a URDF to links and joints, with urdfdom's semantics.
+"""Read the elements of a URDF into links and joints, as urdfdom does.
 
-Three levels of failure (spec/ros-nodes.md §6.1): a wrong joint, name or tree rejects
+Three levels of failure: a wrong joint, name or tree rejects
 the model; a wrong shape costs the rest of its link; a wrong material costs its
-colour. Everything is read to the end, so that all faults are told at once.
+colour. Everything is read to the end, so that everything wrong is reported at once.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def read_urdf(
 
     Args:
         document: its root element.
-        findings: where problems go; `findings.rejected` tells whether ROS refuses it.
+        findings: where problems go; `findings.rejected` says whether ROS refuses it.
         find_mesh: mesh name → file.
         find_texture: texture name → file.
         expanded: the document came out of xacro.
@@ -72,7 +72,7 @@ def read_urdf(
     _check_slashes(parts, findings)
     _read_joints(parts, findings)
     if not parts.links and not parts.nameless and not is_fragment(parts):
-        _tell_no_links(robot, findings)
+        _report_no_links(robot, findings)
         return None
     name = _robot_name(parts, findings, expanded)
     check_mimics(parts.joints, parts.joint_elements, findings)
@@ -89,7 +89,7 @@ def _robot_element(document: Element, findings: UrdfFindings) -> Element | None:
     if inner is not None:
         findings.warn(
             "robot-not-root",
-            f"<robot> stands inside <{document.tag}>; joint_state_publisher takes it "
+            f"<robot> is inside <{document.tag}>; joint_state_publisher takes it "
             "so, but robot_state_publisher and RViz want <robot> as the root",
             f"delete <{document.tag}> and </{document.tag}>",
             inner,
@@ -156,7 +156,7 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -
         name = element.get("name")
         if not name:
             parts.nameless += 1
-            _tell_nameless(parts.robot, element, findings)
+            _report_nameless(parts.robot, element, findings)
             continue
         first = parts.link_elements.get(name)
         if first is not None:
@@ -172,8 +172,8 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -
         if name.startswith("//") or name == "/":
             findings.reject(
                 "link-name-slashes",
-                f"the link name {name} is no frame for tf2 even without its first "
-                "slash, so nothing can stand there",
+                f"the link name {name} is not a frame for tf2 even without its first "
+                "slash, so nothing can be there",
                 'write a name without slashes, such as name="arm_link"',
                 element,
             )
@@ -190,7 +190,7 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -
 
 
 def _check_slashes(parts: RobotParts, findings: UrdfFindings) -> None:
-    """Reject links that are one frame for tf2, which strips one slash (§4)."""
+    """Reject links that are one frame for tf2, which strips one slash ."""
     for name, element in parts.link_elements.items():
         twin = parts.link_elements.get(name[1:]) if name.startswith("/") else None
         if twin is not None:
@@ -203,7 +203,7 @@ def _check_slashes(parts: RobotParts, findings: UrdfFindings) -> None:
             )
 
 
-def _tell_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
+def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
     named = {link.get("name") for link in robot.find_all("link")}
     wanted: list[str] = []
     for joint in robot.find_all("joint"):
@@ -241,13 +241,13 @@ def _read_joints(parts: RobotParts, findings: UrdfFindings) -> None:
 
 
 def _excuse(parts: RobotParts, joint: Element) -> None:
-    """Remember that a link is loose only because its joint was not taken."""
+    """Do not report links as unconnected when their joint was rejected."""
     child = joint.find("child")
     link = child.get("link") if child is not None else None
     parts.excused.update([link] if link else parts.links)
 
 
-def _tell_no_links(robot: Element, findings: UrdfFindings) -> None:
+def _report_no_links(robot: Element, findings: UrdfFindings) -> None:
     inside = next(
         (e for e in robot.iter() if e.tag == "link" and e.parent is not robot), None
     )

@@ -78,7 +78,7 @@ class XacroFiles:
     def _elsewhere(self, path: Path, stack: list[str | None]) -> str | None:
         """The file in a source tree that is laid out unlike its installed package.
 
-        A file that is being included already is no answer: it would include itself
+        A file that is being included already is not an answer: it would include itself
         for ever.
         """
         cased = other_letter_case(path)

@@ -84,7 +84,7 @@ class Expansion:
         """Expand and describe the outcome.
 
         Raises:
-            XmlFault: a file is no XML.
+            XmlFault: a file is not XML.
             Exception: whatever xacro or the model's expressions raise.
         """
         job = self._job

@@ -1,4 +1,4 @@
-"""The untrusted mode: xacro without the doors to Python (spec/ros-nodes.md §5.5).
+"""The untrusted mode: evaluate xacro without access to Python and to other files.
 
 Expressions are rebuilt from a list of allowed syntax: no attribute of a foreign
 object, no function bodies, no comprehension, no names with two underscores, bounded

@@ -1,4 +1,4 @@
-"""Inside the child: work that xacro does for nothing, spared."""
+"""Speed-ups for the xacro child process."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def import_lazily(name: str) -> None:
 
 
 def skipping_plain_text(original: Callable[..., Any]) -> Callable[..., Any]:
-    """Spare xacro's lexer text without a dollar sign; it would come back unchanged."""
+    """Skip the lexer for text without a dollar sign, which it would not change."""
 
     @functools.wraps(original)
     def wrapper(text: Any, symbols: Any) -> Any:

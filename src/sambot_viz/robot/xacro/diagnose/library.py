@@ -1,4 +1,4 @@
-"""Recognising a file that is only a part: macros and properties for other files."""
+"""Hints for xacro libraries that were opened by themselves."""
 
 from __future__ import annotations
 

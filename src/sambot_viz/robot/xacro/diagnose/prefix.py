@@ -17,7 +17,7 @@ def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
     Args:
         tag: its name.
         is_macro: whether a macro of that name is defined.
-        place: where it stands.
+        place: where it is.
     """
     what = "a macro call" if is_macro else "a xacro instruction"
     return Problem(
@@ -45,7 +45,7 @@ def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
     """The warning for a .urdf file that uses ``xacro:`` without declaring it.
 
     xacro refuses such a file, but the nodes of ROS read a .urdf file without xacro, and
-    they pass over elements they do not know (spec/ros-nodes.md §6.7).
+    they pass over elements they do not know.
 
     Returns:
         None when the prefix is declared or not used, or when the file is meant for
@@ -66,8 +66,8 @@ def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
     return Problem(
         "warning",
         "xacro-prefix-undeclared",
-        f"the prefix xacro: of <{first.tag}> is not declared, so this .urdf file is no "
-        "xacro file: ROS passes over these elements, and what they stand for is "
+        f"the prefix xacro: of <{first.tag}> is not declared, so this .urdf file is "
+        "not a xacro file: ROS passes over these elements, and what they stand for is "
         "missing",
         f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
         f"{document.place.line}, and call the file .urdf.xacro",
