@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 from inside import node_of
@@ -161,3 +162,44 @@ def test_the_panels_can_be_hidden(viewer: ViewerPage) -> None:
     viewer.wait_for("!document.body.innerText.includes('Randomize')")
     viewer.page.keyboard.press("h")
     viewer.wait_for("document.body.innerText.includes('Randomize')")
+
+
+def differs(viewer: ViewerPage) -> tuple[list[int], float]:
+    """The colour of a corner of the 3D view, and the part that has another colour."""
+    pixels = viewer.pixels()[..., :3].astype(int)
+    corner = pixels[5, 5]
+    return corner.tolist(), float((np.abs(pixels - corner).max(axis=-1) > 8).mean())
+
+
+def test_from_above_every_zoom_shows_the_scene_on_its_background(
+    viz: Visualizer, session: Session, open_viewer: Open
+) -> None:
+    session.set_global("Background Color", (255, 255, 255))
+    session.views.set_kind("rviz_default_plugins/TopDownOrtho")
+    viewer = open_viewer(viz.url, width=900, height=300)
+    viewer.wait_for("__viserMutable.camera.fov < 1")
+    viewer.wait_for("window.sambotVizMouse?.kind === 'TopDownOrtho'")
+    mouse, middle = viewer.page.mouse, (450.0, 150.0)
+
+    def shows_the_scene() -> bool:
+        background, drawn = differs(viewer)
+        return background == [255, 255, 255] and drawn > 0.0005
+
+    until(viewer, shows_the_scene)
+    mouse.drag(middle, (450.0, 100.0), button="right")
+    until(viewer, lambda: value(session, "Scale") > 12)
+    until(viewer, shows_the_scene)
+    mouse.wheel(*middle, dy=-400.0)
+    until(viewer, lambda: value(session, "Scale") > 18)
+    until(viewer, shows_the_scene)
+    for scale in (1.0, 300.0):
+        session.views.set("Scale", scale)
+        until(viewer, shows_the_scene)
+
+
+def test_a_button_of_the_toolbar_leaves_select(
+    session: Session, viewer: ViewerPage
+) -> None:
+    for label in ("Select", "Measure", "Select", "Move Camera"):
+        viewer.click_button(label)
+        chosen(session, viewer, label)

@@ -1,4 +1,4 @@
-"""The script that makes viser's page look like RViz, and its delivery."""
+"""Delivers the scripts and the style sheet that make viser's page look like RViz."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ def script() -> str:
 def script_element() -> str:
     """HTML that runs the script once, for viser's public `gui.add_html`.
 
-    A script element inserted as HTML does not run, so the script stands in the
-    error handler of an image whose data is empty; nothing is fetched for it.
+    A script element inserted as HTML does not run, so the script is the error handler
+    of an image whose data is empty; nothing is fetched for it.
     """
     source = html.escape(script(), quote=True)
     return f'<img alt="" src="data:," style="display:none" onerror="{source}">'
@@ -30,7 +30,7 @@ def style_element() -> str:
 
 
 def mouse_element(kind: str) -> str:
-    """HTML that makes the mouse move the camera as RViz's view of a type does.
+    """HTML that makes the mouse move the camera as a type of RViz's views does.
 
     Args:
         kind: the type of the view, such as "Orbit"; one of the program's own names.

@@ -1,20 +1,24 @@
-/* Makes viser's three.js page draw as RViz draws (spec/rviz-core.md §8).
+// @ts-check
+/* Makes viser's three.js page draw as RViz draws.
  *
- * RViz: no tone mapping, no gamma, no ambient light, one white light that looks
- * where the camera looks. A lit surface has the colour  material * max(0, n·v);
- * translucent shapes write no depth; names are white without a box.
+ * RViz: no tone mapping, no gamma, no ambient light, one white light in the viewing
+ * direction of the camera. A lit surface has the colour  material * max(0, n·v);
+ * translucent shapes write no depth; names are white without a box; the background
+ * fills the picture; an orthographic view shows all that is less than 500 m high.
  *
- * Everything is done by rewriting shaders where their text is as expected. What is
- * not recognised is left alone, so a changed viser gives a plainer picture, never
- * an empty page. `window.sambotVizLook` says what took effect and how many names are
- * laid out. A toon material is
- * our sign for "unlit" (RViz's white links without a transform).
+ * Shaders are rewritten only where their text is as expected. What is not recognised
+ * is left alone, so a changed viser gives a plainer picture, never an empty page.
+ * `window.sambotVizLook` counts what took effect and how many names are laid out. The
+ * server sends a toon material for what is unlit (RViz's white links without a
+ * transform).
  */
 (() => {
   "use strict";
-  if (window.sambotVizLook) return;
-  const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0 };
-  window.sambotVizLook = look;
+  /** viser's and three.js' objects have no types here. @type {any} */
+  const page = window;
+  if (page.sambotVizLook) return;
+  const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0, backgrounds: 0 };
+  page.sambotVizLook = look;
 
   const ENCODE = `
 vec3 sambotEncode(vec3 c) {
@@ -25,9 +29,15 @@ vec3 sambotEncode(vec3 c) {
 `;
   const NO_CONVERSION = ["#include <tonemapping_fragment>", "#include <colorspace_fragment>"];
 
+  /**
+   * Give a material of three.js another last step of its shader.
+   * @param {any} material
+   * @param {"lit" | "unlit"} kind
+   * @param {string} shade GLSL that sets outgoingLight
+   */
   const rewrite = (material, kind, shade) => {
     const anchor = "#include <opaque_fragment>";
-    material.onBeforeCompile = (shader) => {
+    material.onBeforeCompile = (/** @type {any} */ shader) => {
       let source = shader.fragmentShader;
       if (!source.includes(anchor) || !source.includes("void main() {")) return;
       source = source.replace("void main() {", ENCODE + "void main() {");
@@ -41,6 +51,7 @@ vec3 sambotEncode(vec3 c) {
   };
 
   const boxes = new WeakSet();
+  /** Make names white and hide their boxes. @param {any} material */
   const adoptLabels = (material) => {
     const source = material.fragmentShader;
     if (source.includes("0.85 * vAlpha")) {
@@ -59,8 +70,25 @@ vec3 sambotEncode(vec3 c) {
     material.needsUpdate = true;
   };
 
+  /**
+   * Let the background fill the picture whatever the camera. viser draws it on a
+   * plane 1 m in front of the camera, which a near plane beyond 1 m cuts away.
+   * @param {any} object
+   */
+  const adoptBackground = (object) => {
+    const material = object.material;
+    const anchor = "gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);";
+    if (!material.vertexShader.includes(anchor)) return;
+    material.vertexShader = material.vertexShader.replace(
+      anchor, "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);");
+    material.needsUpdate = true;
+    object.frustumCulled = false;
+    look.backgrounds += 1;
+  };
+
   const known = new WeakSet();
-  const adopt = (material) => {
+  /** Change a material when it is seen first. @param {any} material @param {any} object */
+  const adopt = (material, object) => {
     if (!known.has(material)) {
       known.add(material);
       if (material.isMeshStandardMaterial) {
@@ -69,6 +97,8 @@ vec3 sambotEncode(vec3 c) {
           " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);");
       } else if (material.isMeshToonMaterial) {
         rewrite(material, "unlit", "outgoingLight = sambotEncode(diffuseColor.rgb);");
+      } else if (material === page.__viserMutable.backgroundMaterial) {
+        adoptBackground(object);
       } else if (material.isShaderMaterial) {
         adoptLabels(material);
       }
@@ -77,11 +107,12 @@ vec3 sambotEncode(vec3 c) {
   };
 
   let labels = 0;
+  /** Look at an object and all below it. @param {any} object */
   const visit = (object) => {
     const material = object.material;
     if (material !== undefined) {
-      if (Array.isArray(material)) material.forEach(adopt);
-      else adopt(material);
+      if (Array.isArray(material)) for (const one of material) adopt(one, object);
+      else adopt(material, object);
       if (boxes.has(material)) labels += object.geometry.instanceCount;
     }
     for (const child of object.children) visit(child);
@@ -89,22 +120,44 @@ vec3 sambotEncode(vec3 c) {
 
   // RViz draws translucent things from far to near by the distance of their origins;
   // three.js goes by their depth along the view, which is another order.
+  /** The camera's matrixWorld. @type {any} */
   let eye = null;
+  /** The squared distance of an object from the camera. @param {any} object */
   const distance = (object) => {
     const m = object.matrixWorld.elements, e = eye.elements;
     return (m[12] - e[12]) ** 2 + (m[13] - e[13]) ** 2 + (m[14] - e[14]) ** 2;
   };
+  /** @param {any} a @param {any} b */
   const farFirst = (a, b) => a.groupOrder - b.groupOrder || a.renderOrder - b.renderOrder
     || distance(b.object) - distance(a.object) || a.id - b.id;
 
+  // viser has no orthographic camera: the server sends a far one with a field of view
+  // below 1 degree, and the mouse zooms by moving it. The near plane must follow, or it
+  // cuts everything away; it cannot stay at the camera, as depth would lose all digits.
+  const HIGHEST = 500;
+  /** @param {any} camera */
+  const followZoom = (camera) => {
+    const { camera: main, cameraControl } = page.__viserMutable;
+    if (camera !== main || !cameraControl || !(camera.fov < 1)) return;
+    const away = cameraControl.distance;
+    const near = Math.max(0.01, away - HIGHEST), far = Math.max(100000, 2 * away);
+    if (camera.near === near && camera.far === far) return;
+    camera.near = near;
+    camera.far = far;
+    camera.updateProjectionMatrix();
+  };
+
+  /** @type {any} */
   let hooked = null;
   const hook = () => {
-    const mutable = window.__viserMutable;
+    const mutable = page.__viserMutable;
     const scene = mutable && mutable.scene;
     if (!scene || scene === hooked) return;
     hooked = scene;
-    scene.onBeforeRender = (renderer, _, camera) => {
+    scene.onBeforeRender = (
+      /** @type {any} */ renderer, /** @type {any} */ _, /** @type {any} */ camera) => {
       renderer.toneMapping = 0;
+      followZoom(camera);
       eye = camera.matrixWorld;
       renderer.setTransparentSort(farFirst);
       labels = 0;
@@ -114,11 +167,13 @@ vec3 sambotEncode(vec3 c) {
     };
     if (mutable.requestRender) mutable.requestRender();
   };
-  // viser's notice about software rendering covers the picture, and says what cannot
-  // be helped where this program is used: on machines without a GPU.
+  // viser's notice about software rendering covers the picture, and a machine without a
+  // GPU, where this program is often used, cannot change it.
   const tidy = () => {
-    for (const note of document.querySelectorAll(".mantine-Notification-root")) {
-      if (note.textContent.startsWith("Software WebGL")) note.style.display = "none";
+    /** @type {NodeListOf<HTMLElement>} */
+    const notes = document.querySelectorAll(".mantine-Notification-root");
+    for (const note of notes) {
+      if (note.textContent?.startsWith("Software WebGL")) note.style.display = "none";
     }
   };
 

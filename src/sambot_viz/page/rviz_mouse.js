@@ -1,22 +1,30 @@
-/* Makes the mouse move viser's camera as RViz's views do (spec/rviz-views-tools.md
- * §1.4–1.8): left turns, middle or Shift+left moves, right or the wheel zooms, with
- * RViz's number of radians and metres per pixel. The type of view stands in the data
- * of an element that the Views panel makes. Only settings that viser's
- * camera-controls has are touched; where there are none, viser's own mouse stays.
+// @ts-check
+/* Makes the mouse move viser's camera as RViz's views do: left turns, middle or
+ * Shift+left moves, right or the wheel zooms, with RViz's radians and metres per pixel.
+ * The type of view is in the data of an element that the toolbar makes. Only settings
+ * that viser's camera-controls already has are changed; without it, viser's own mouse
+ * stays.
  *
  * RViz zooms by 1 % of the distance per pixel of a right drag, here it is 0.5 %; a
  * notch of the wheel is the same 12 %.
  */
 (() => {
   "use strict";
-  if (window.sambotVizMouse) return;
+  /** viser's objects have no types here. @type {any} */
+  const globals = window;
+  if (globals.sambotVizMouse) return;
   const state = { kind: "" };
-  window.sambotVizMouse = state;
-  const page = () => window.__viserMutable;
+  globals.sambotVizMouse = state;
+  const page = () => globals.__viserMutable;
   const controls = () => { const m = page(); return m && m.cameraControl; };
+  /** Set what differs. @param {any} object @param {string} key @param {unknown} value */
   const put = (object, key, value) => { if (object[key] !== value) object[key] = value; };
 
+  // RViz's steepest pitch is this far from straight down: there yaw is still defined.
+  const POLE = 0.001;
+  /** viser's numbers for what a button does. @type {any} */
   let actions = null;
+  /** @param {any} c camera-controls */
   const settings = (c) => {
     const height = page().canvas.clientHeight || 1;
     const turn = 0.005 * height / (2 * Math.PI);
@@ -24,8 +32,8 @@
     const reach = c.distance * Math.tan(c.camera.fov * Math.PI / 360);
     put(c, "azimuthRotateSpeed", above ? -turn : turn);
     put(c, "polarRotateSpeed", turn);
-    put(c, "minPolarAngle", 0);
-    put(c, "maxPolarAngle", above ? 0 : Math.PI);
+    put(c, "minPolarAngle", above ? 0 : POLE);
+    put(c, "maxPolarAngle", above ? 0 : Math.PI - POLE);
     put(c, "truckSpeed", inside ? -0.01 * height / reach : 2);
     put(c, "dollySpeed", 0.75);
     put(c, "dollyDragInverted", true);
@@ -36,20 +44,23 @@
     put(b, "wheel", inside ? actions.none : actions.zoom);
   };
   const refresh = () => {
-    const mark = document.querySelector("[data-sambot-view]"), c = controls();
+    /** @type {HTMLElement | null} */
+    const mark = document.querySelector("[data-sambot-view]");
+    const c = controls();
     if (!mark || !c) return;
-    state.kind = mark.dataset.sambotView;
+    state.kind = mark.dataset.sambotView || "";
     settings(c);
   };
   setInterval(refresh, 200);
 
+  /** @param {Event} event */
   const onCanvas = (event) => page() && event.target === page().canvas;
   window.addEventListener("pointerdown", (event) => {
     refresh();
     const c = controls();
     if (c && actions) c.mouseButtons.left = event.shiftKey ? actions.move : actions.turn;
   }, true);
-  // FPS walks: camera-controls only knows how to come nearer to its point.
+  /** FPS walks; camera-controls only approaches its target. @param {number} metres */
   const walk = (metres) => {
     const c = controls(), way = c.camera.position.clone();
     c.camera.getWorldDirection(way);
@@ -69,7 +80,8 @@
   });
 
   window.addEventListener("keydown", (event) => {
-    const typing = event.target.closest && event.target.closest("input, textarea, select");
+    const typing = event.target instanceof Element
+      && event.target.closest("input, textarea, select");
     if (event.code === "KeyH" && !typing && !event.ctrlKey && !event.metaKey && !event.altKey)
       document.body.classList.toggle("sambot-bare");
   });
