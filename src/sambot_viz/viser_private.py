@@ -6,11 +6,13 @@ when one of these names has moved.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import functools
 import logging
+import secrets
 import weakref
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from typing import Any, cast
 
 import rich
@@ -104,6 +106,65 @@ def larger_messages(client: viser.ClientHandle, most: int) -> Generator[None]:
     finally:
         if connection is not None:
             connection.protocol.max_message_size = before
+
+
+def allow_late_messages(client: viser.ClientHandle) -> None:
+    """Let viser drop messages to a browser that has left without a warning.
+
+    A browser may leave at any moment, also while its session is drawn.
+    """
+    buffer = cast(Any, client)._websock_connection.get_message_buffer()
+    buffer._warned_push_after_done = True
+
+
+async def drawn_by(
+    client: viser.ClientHandle,
+    width: int,
+    height: int,
+    camera: Mapping[str, Any],
+    timeout: float,
+) -> bytes:
+    """Have a browser draw its view; viser's own way holds a thread while it waits.
+
+    Args:
+        client: the browser.
+        width: of the picture [pixels].
+        height: of the picture [pixels].
+        camera: its pose and angle: position, wxyz and fov.
+        timeout: the browser gets this long [s].
+
+    Returns:
+        What the browser sent, which should be a PNG file.
+
+    Raises:
+        TimeoutError: it sent nothing in time.
+    """
+    connection = cast(Any, client)._websock_connection
+    number = secrets.token_hex(8)
+    arrived: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+
+    def take(_: int, message: Any) -> None:
+        if message.render_uuid == number and not arrived.done():
+            arrived.set_result(message.payload)
+
+    answer = _messages.GetRenderResponseMessage
+    connection.register_handler(answer, take)
+    try:
+        # Four bytes for each pixel, if the browser compresses nothing.
+        with larger_messages(client, 5 * width * height + 2**16):
+            cast(Any, client)._viser_server.flush()
+            connection.queue_message(
+                _messages.GetRenderRequestMessage(
+                    "image/png", height, width, 80, render_uuid=number, **camera
+                )
+            )
+            client.flush()
+            try:
+                return await asyncio.wait_for(arrived, timeout)
+            except asyncio.TimeoutError:
+                raise TimeoutError from None
+    finally:
+        connection.unregister_handler(answer, take)
 
 
 def node_count(scene: viser.SceneApi) -> int:

@@ -180,6 +180,16 @@ def test_a_browser_cannot_write_elsewhere(page: Page, name: str) -> None:
     assert sorted(page.config.parent.iterdir()) == before
 
 
+def test_a_name_that_is_too_long_is_refused_with_words(page: Page) -> None:
+    page.press("Save as …")
+    page.set("File name", "ä" * 150)
+    mark = page.client.mark()
+    page.press("Save under this name")
+    answers = [str(message.fields) for message in page.client.since(mark)]
+    assert any("at most 200 bytes" in answer for answer in answers)
+    assert page.session.reload_problems == {}
+
+
 def test_the_document_can_be_downloaded(page: Page) -> None:
     mark = page.client.mark()
     page.press("Download")

@@ -32,6 +32,12 @@ class Presets:
         if path is not None and path.exists():
             self._poses = _load(path)
 
+    def in_memory(self) -> Presets:
+        """A copy that writes no file: for a visitor, who may not change it."""
+        copy = Presets()
+        copy._poses = dict(self._poses)
+        return copy
+
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the poses in the order in which they were saved."""

@@ -18,6 +18,8 @@ from sambot_viz.session import Event, Session
 from sambot_viz.text import html_text
 
 ENDING = ".rviz"
+LONGEST_NAME = 200
+"""Most file systems take 255 bytes; a temporary name beside the file is longer."""
 DOWNLOADED = "sambot_viz.rviz"
 SAVE, SAVE_AS, DOWNLOAD = "Save", "Save as …", "Download"
 
@@ -36,7 +38,8 @@ class ConfigFile:
         self._said = ""
         self._level = "ok"
         self._title = gui.add_html("")
-        # Who has a session of his own is anybody, and has no business on this disk.
+        # Private sessions belong to anonymous visitors: they may download the file, not
+        # write to the server's disk.
         private = isinstance(session.audience, viser.ClientHandle)
         buttons = (DOWNLOAD,) if private else (SAVE, SAVE_AS, DOWNLOAD)
         add_buttons(self._session, buttons, self._press)
@@ -54,7 +57,7 @@ class ConfigFile:
         self._write()
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Stop following the session."""
         self._session.listeners.remove(self._hear)
 
     def _hear(self, event: Event) -> None:
@@ -111,7 +114,8 @@ class ConfigFile:
         """The new file that a name means: beside the opened config.
 
         Raises:
-            UsageError: a path, no name at all, or a file that exists already.
+            UsageError: a path, no name at all, one that is too long, or that of a file
+                that exists already.
         """
         name = name.strip()
         if not name.endswith(ENDING):
@@ -119,6 +123,8 @@ class ConfigFile:
         pure = PurePosixPath(name).name == name == PureWindowsPath(name).name
         if not pure or name.startswith(".") or not name.isprintable():
             raise UsageError("give a file name without folders, such as my_robot.rviz")
+        if len(name.encode()) > LONGEST_NAME:
+            raise UsageError(f"give a name of at most {LONGEST_NAME} bytes")
         target = self.target
         path = (Path.cwd() if target is None else target.parent) / name
         if path != target and path.exists():

@@ -11,7 +11,7 @@ from sambot_viz.errors import FrameError, UsageError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.static_transform import parse_static_transform
-from sambot_viz.panels.widgets import add_text, on_click, options, plain_text, watch
+from sambot_viz.panels.widgets import add_text, on_click, options, watch
 from sambot_viz.session import Event, Session
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
@@ -76,7 +76,7 @@ class FramesPanel:
             "To", (first,), hint="The frame to look at: tf2_echo's TARGET."
         )
         for choice in (self._source, self._target):
-            watch(self._session, choice, plain_text, lambda _: self._show.request())
+            watch(self._session, choice, str, lambda _: self._show.request())
 
     def _look_for(self, typed: str) -> None:
         self._search = typed.strip().lower()
@@ -129,7 +129,7 @@ class FramesPanel:
             on_click(self._session, gui.add_button("Add transform"), self._add)
             self._said = gui.add_html("")
             self._added = gui.add_dropdown("Added", options((), NONE_ADDED))
-            watch(self._session, self._added, plain_text, lambda _: None)
+            watch(self._session, self._added, str, lambda _: None)
             self._remove_button = gui.add_button("Remove transform", disabled=True)
             on_click(self._session, self._remove_button, self._remove)
         self._offer_added()

@@ -11,7 +11,7 @@ START = "(start values)"
 
 
 class PoseFolder:
-    """See the module; it stands in the current container.
+    """The rows of the named poses, in the current container.
 
     Args:
         session: whose joints take the poses.
@@ -33,6 +33,15 @@ class PoseFolder:
     def _offered(self) -> tuple[str, ...]:
         return options((START, *self._session.poses.names), START)
 
+    def _offer(self, chosen: str) -> None:
+        offered = self._offered()
+
+        def show() -> None:
+            self._choice.options = offered
+            self._choice.value = chosen
+
+        self._session.worker.on_loop(show)
+
     def _use(self, name: str) -> None:
         if name not in self._offered():
             raise ValueError("no such pose")
@@ -52,13 +61,12 @@ class PoseFolder:
             return
         try:
             if name == START:
-                raise JointError(f"'{START}' is always there; take another name")
+                raise JointError(f"'{START}' always exists; choose another name")
             self._session.poses.save(name, joints.positions)
         except JointError as error:
             self._say(str(error))
             return
-        self._choice.options = self._offered()
-        self._choice.value = name
+        self._offer(name)
         self._say("", False)
 
     def _remove(self) -> None:
@@ -67,8 +75,7 @@ class PoseFolder:
         except JointError as error:
             self._say(str(error))
             return
-        self._choice.options = self._offered()
-        self._choice.value = START
+        self._offer(START)
         self._say("", False)
 
     def _say(self, said: str, wanted: bool = True) -> None:

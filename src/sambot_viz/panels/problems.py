@@ -1,8 +1,7 @@
-"""The Problems panel: what is wrong, where, and how to mend it.
+"""The Problems panel: what is wrong, where, and how to fix it.
 
-It stands below the tabs at the right while there is something to tell, and is not there
-otherwise. What was saved with a mistake is told with a note that the robot in the
-picture is the last good one.
+It is shown below the tabs at the right while there are problems. After a save with a
+mistake, a note says that the robot in the picture is the last good one.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class ProblemsPanel:
         self._write()
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Stop following the session."""
         self._session.listeners.remove(self._hear)
 
     def _hear(self, event: Event) -> None:
@@ -65,10 +64,10 @@ class ProblemsPanel:
 
 
 def problems_of(session: Session) -> list[Problem]:
-    """What is to be told, each once, errors first, then in the order of the files.
+    """The problems to show, each once, errors first, then in the order of the files.
 
-    While the model was saved with a mistake, its faults take the place of what was
-    found in the version that is shown: lines have moved since.
+    While the saved model has a mistake, its problems take the place of those of the
+    version that is shown, whose line numbers are out of date.
     """
     saved = session.reload_problems
     shapes = (p for display in session.displays for p in display.problems)
@@ -88,7 +87,7 @@ def in_order(problems: Iterable[Problem]) -> list[Problem]:
 
 
 def title(problems: Iterable[Problem]) -> str:
-    """What stands on the tab: "Problems (3)"."""
+    """The label of the tab: "Problems (3)"."""
     count = Counter(problem.severity for problem in problems)
     return f"Problems ({count.total()})" if count else "Problems"
 

@@ -1,13 +1,13 @@
-"""The one place that makes GUI inputs and checks what comes back from a browser.
+"""Inputs of the panels, and what happens when a browser uses them.
 
-viser checks nothing: any browser can send any value to any widget, also a hidden or
-a disabled one, out of range, NaN or of another type (spec/viser.md §4). Here every
-value goes through its property's own rule before anybody else sees it, and a refused
-one is answered with the value that holds.
+The server's door drops what a browser may not send: here a value has its widget's type,
+and the widget is visible and enabled. A value still goes through its property's own
+rule before it is used, and a refused one is answered with the value that holds.
 
 Callbacks are coroutines, because plain functions run unordered in viser's pool. They
 only post what is to be done to the session's worker, so that the event loop never
-waits for a session.
+waits for a session. An action that raises SambotVizError is answered in the Problems
+panel.
 """
 
 from __future__ import annotations
@@ -38,7 +38,6 @@ from sambot_viz.viser_private import is_removed
 
 Input = viser.GuiInputHandle[Any]
 OnChange = Callable[[Any], None]
-LONGEST_TEXT = 1000
 
 
 def watch(
@@ -55,7 +54,7 @@ def watch(
         session: in whose worker that happens.
         handle: the widget.
         coerce: the rule: returns the value to take, or raises SambotVizError,
-            ValueError or TypeError for a value that cannot be meant.
+            ValueError or TypeError for a value outside the rule.
         on_change: takes the value; it may raise SambotVizError to refuse it.
     """
     accepted = [handle.value]
@@ -74,11 +73,10 @@ def watch(
     def take(value: Any, event: object) -> None:
         if is_removed(handle):
             return
-        if not handle.disabled and handle.visible:
-            with suppress(SambotVizError, ValueError, TypeError, OverflowError):
-                value = coerce(value)
-                on_change(value)
-                accepted[0] = value
+        with suppress(SambotVizError, ValueError, TypeError, OverflowError):
+            value = coerce(value)
+            on_change(value)
+            accepted[0] = value
         session.worker.on_loop(partial(answer, event))
 
     def answer(event: object) -> None:
@@ -198,14 +196,14 @@ def on_click(
     """Call `action` when a browser presses the button."""
 
     async def pressed(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-        if event.client_id is not None and not handle.disabled:
+        if event.client_id is not None:
             session.worker.post(action)
 
     handle.on_click(pressed)
 
 
 HOLD_RATE = 10.0
-"""So often a browser tells that a button is still held [1/s]."""
+"""How often a browser reports that a button is still held [1/s]."""
 
 
 def on_hold(
@@ -220,7 +218,7 @@ def on_hold(
     """
 
     async def held(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-        if event.client_id is not None and not handle.disabled and handle.visible:
+        if event.client_id is not None:
             session.worker.post(tried, latest_of=handle)
 
     def tried() -> None:
@@ -238,8 +236,7 @@ def on_press(session: Session, handle: viser.GuiButtonHandle, action: OnPress) -
     """Call `action` with the browser that presses the button."""
 
     async def pressed(event: viser.GuiEvent[viser.GuiButtonHandle]) -> None:
-        # A hidden button cannot be pressed by a hand.
-        if event.client_id is not None and not handle.disabled and handle.visible:
+        if event.client_id is not None:
             session.worker.post(partial(action, event.client))
 
     handle.on_click(pressed)
@@ -250,7 +247,7 @@ def add_buttons(
     labels: Sequence[str],
     action: Callable[[str, viser.ClientHandle | None], None],
 ) -> viser.GuiButtonGroupHandle:
-    """A row of buttons; `action` is told which one was pressed, and where."""
+    """A row of buttons; `action` takes the label that was pressed, and the browser."""
     handle = session.audience.gui.add_button_group("", labels)
 
     async def pressed(event: viser.GuiEvent[viser.GuiButtonGroupHandle]) -> None:
@@ -266,16 +263,5 @@ def add_text(
 ) -> Input:
     """A line of text."""
     handle = session.audience.gui.add_text(label, value, hint=hint)
-    watch(session, handle, plain_text, on_change)
+    watch(session, handle, str, on_change)
     return handle
-
-
-def plain_text(value: Any) -> str:
-    """A text that is one, and of a length that somebody may have typed.
-
-    Raises:
-        ValueError: it is not.
-    """
-    if not isinstance(value, str) or len(value) > LONGEST_TEXT:
-        raise ValueError("no text")
-    return value

@@ -163,8 +163,7 @@ class Reloader:
         model, assets = self._model_files(), self._asset_files()
         if self._config is not None and self._config in changed:
             self._reload_config(self._config)
-        for session in self._server.sessions():
-            session.files_saved(changed)
+        self._server.for_each_session(lambda s: s.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return

@@ -40,7 +40,7 @@ class Server:
         make_config: a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
         listening: a viser server that listens already; None makes one.
-        poses: the named poses, shared by all sessions; None keeps new ones in memory.
+        poses: the named poses; a private session has a copy that writes no file.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -222,7 +222,7 @@ class Server:
             self._models,
             self._mesh_thread,
             self.options,
-            self._poses,
+            self._poses if audience is self._viser else self._poses.in_memory(),
         )
         session.show_config()
         advice = self._advice[session] = CheckResults(session)
@@ -238,6 +238,7 @@ class Server:
             return session, Layout(session, joints=self.options.gui)
 
     async def _join(self, client: viser.ClientHandle) -> None:
+        viser_private.allow_late_messages(client)
         if self.shared is not None:
             self.shared.worker.post(partial(self._give_view, self.shared, client))
             return
@@ -260,6 +261,9 @@ class Server:
         A robot that is shown in all sessions meanwhile waits for that lock once this
         session is known, and so comes after what is shown here.
         """
+        if client.client_id not in self._workers:
+            # It has left already.
+            return
         opened = self._open(client, worker)
         with self._lock:
             self._private[client.client_id] = opened
@@ -278,9 +282,9 @@ class Server:
             return
         worker = self._workers.pop(client.client_id, None)
         if worker is not None:
-            worker.post(partial(self._close_private, client.client_id))
+            worker.post(partial(self._close_private, client.client_id, worker))
 
-    def _close_private(self, client_id: int) -> None:
+    def _close_private(self, client_id: int, worker: Worker) -> None:
         with self._lock:
             opened = self._private.pop(client_id, None)
         if opened is not None:
@@ -289,3 +293,4 @@ class Server:
             if layout is not None:
                 layout.close()
             session.close()
+        worker.close()

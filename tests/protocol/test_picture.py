@@ -1,0 +1,95 @@
+""" "Save picture": what a browser sends is not trusted."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+
+import pytest
+from PIL import Image
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.panels import picture
+
+REQUEST, FILE = "GetRenderRequestMessage", "FileTransferStartDownload"
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def client(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> ProtocolClient:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    return client
+
+
+def ask(client: ProtocolClient) -> str:
+    """Press the button; the number of the request that comes."""
+    mark = client.mark()
+    client.set_value(client.uuid_of("Save picture"), True)
+    client.wait_until(lambda: client.types(mark)[REQUEST] == 1)
+    (request,) = (m for m in client.since(mark) if m.type == REQUEST)
+    return request.fields["render_uuid"]
+
+
+def png(width: int, height: int) -> bytes:
+    file = io.BytesIO()
+    Image.effect_noise((width, height), 100.0).save(file, "PNG")
+    return file.getvalue()
+
+
+def answer(client: ProtocolClient, number: str, payload: bytes) -> None:
+    client.send("GetRenderResponseMessage", payload=payload, render_uuid=number)
+
+
+def test_a_picture_of_the_size_that_was_asked_for_comes_as_a_file(
+    client: ProtocolClient,
+) -> None:
+    answer(client, ask(client), png(1280, 720))
+    client.wait_until(lambda: client.types()[FILE] == 1)
+
+
+@pytest.mark.parametrize(
+    ("payload", "reason"),
+    [
+        (b"nonsense", "not a picture"),
+        (png(64, 64), "another size"),
+        (png(1280, 720)[:50_000], "not a picture"),
+    ],
+)
+def test_anything_else_is_refused_with_a_word_to_that_browser(
+    client: ProtocolClient, payload: bytes, reason: str
+) -> None:
+    answer(client, ask(client), payload)
+    client.wait_until(lambda: client.types()["NotificationShowMessage"] == 1)
+    (note,) = (m for m in client.messages if m.type == "NotificationShowMessage")
+    assert reason in str(note.fields)
+    assert client.types()[FILE] == 0
+
+
+def test_a_browser_is_asked_for_one_picture_at_a_time(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    number, mark = ask(client), client.mark()
+    for _ in range(20):
+        client.set_value(client.uuid_of("Save picture"), True)
+    client.settle(viz.viser)
+    assert client.types(mark)[REQUEST] == 0
+    answer(client, number, png(1280, 720))
+    client.wait_until(lambda: client.types()[FILE] == 1)
+    ask(client)
+
+
+def test_a_browser_that_does_not_answer_can_ask_again_and_keeps_no_thread(
+    client: ProtocolClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(picture, "RENDER_TIME", 0.05)
+    ask(client)
+    client.wait_until(lambda: client.types()["NotificationShowMessage"] == 1)
+    ask(client)
+    client.wait_until(lambda: client.types()["NotificationShowMessage"] == 2)
