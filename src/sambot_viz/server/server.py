@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import threading
 from collections.abc import Callable, Sequence
+from concurrent.futures import TimeoutError as FutureTimeoutError
+from contextlib import suppress
 from functools import partial
 from typing import cast
 
@@ -28,6 +31,9 @@ from sambot_viz.session.checks import CheckResults
 from sambot_viz.session.worker import Worker
 
 _log = logging.getLogger(__name__)
+
+_LAST_ROUNDS = 1.0
+"""The event loop gets this long to finish when the server stops [s]."""
 
 MakeConfig = Callable[[], RvizConfig]
 
@@ -203,14 +209,16 @@ class Server:
 
     def stop(self) -> None:
         """Stop the server and free the port; a second call does nothing."""
-        if self._stopped.is_set():
-            return
-        self._stopped.set()
+        with self._lock:
+            if self._stopped.is_set():
+                return
+            self._stopped.set()
         for session in self.sessions():
             session.close()
         for worker in list(self._workers.values()):
             worker.close()
         self._mesh_thread.close()
+        _run_what_waits(self._viser.get_event_loop())
         close(self._viser)
 
     def _open(self, audience: object, worker: Worker) -> tuple[Session, Layout | None]:
@@ -242,7 +250,10 @@ class Server:
         if self.shared is not None:
             self.shared.worker.post(partial(self._give_view, self.shared, client))
             return
-        worker = self._worker(client.client_id)
+        with self._lock:
+            if self._stopped.is_set():
+                return
+            worker = self._worker(client.client_id)
         worker.post(partial(self._open_private, client, worker))
 
     def _worker(self, client_id: int | None) -> Worker:
@@ -294,3 +305,18 @@ class Server:
                 layout.close()
             session.close()
         worker.close()
+
+
+def _run_what_waits(loop: asyncio.AbstractEventLoop) -> None:
+    """Let an event loop run what threads have posted, so that nothing is left over.
+
+    A value that is set on a widget takes three rounds of the loop.
+    """
+
+    async def rounds() -> None:
+        for _ in range(5):
+            await asyncio.sleep(0)
+
+    if not loop.is_closed():
+        with suppress(FutureTimeoutError):
+            asyncio.run_coroutine_threadsafe(rounds(), loop).result(_LAST_ROUNDS)
