@@ -140,7 +140,7 @@ ROOMS: Mapping[str, Row] = {
     "options": Row("frames joints robot rviz", "yourdfpy"),
     "problem_text": Row(),
     "text": Row(),
-    "viser_private": Row("", "rich viser websockets"),
+    "viser_private": Row("", "rich viser websockets", "asyncio"),
     "visualizer": Row(
         "displays frames inputs joints open_config options robot rviz server session",
         "viser",
