@@ -97,13 +97,6 @@ def test_a_lookup_with_its_quaternion_and_angles(
     measure("the same with quaternion and rpy", call, 100)
 
 
-def test_all_frames_of_300_links_seen_from_one(
-    tree300: Robot, measure: Measure
-) -> None:
-    tree = robot_frames(tree300)
-    measure("poses of 300 frames in a leaf", lambda: tree.poses(tree.frames[-1]), 1500)
-
-
 def test_an_update_of_all_joints_of_300_links(tree300: Robot, measure: Measure) -> None:
     tree, kinematics = robot_frames(tree300), Kinematics(tree300)
     matrices = {

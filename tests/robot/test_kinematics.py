@@ -76,8 +76,6 @@ def test_mimic_chains_are_followed_and_may_be_overruled():
 
     assert kinematics.positions({"a": 0.5}) == {"a": 0.5, "b": 0.6, "c": -0.6}
     assert kinematics.positions({"b": 1.0}) == {"a": 0.0, "b": 1.0, "c": -1.0}
-    assert kinematics.moved_by("a") == ("a", "b", "c")
-    assert kinematics.moved_by("c") == ("c",)
 
 
 def test_a_ring_of_mimic_joints_stays_at_the_start():

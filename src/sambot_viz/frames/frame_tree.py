@@ -1,28 +1,25 @@
 """The tree of frames: where anything is seen from anywhere.
 
-The rules are tf2's (spec/ros-nodes.md §4): the latest value counts, and a look-up from
-a frame to itself always works, even without any data.
+The rules are tf2's: the latest value counts, and a look-up from a frame to itself
+always works, even without any data.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from sambot_viz.frames.compose import compose
-from sambot_viz.frames.hierarchy import Edge, FrameHierarchy, plain_name
+from sambot_viz.frames.hierarchy import Edge, FrameHierarchy
 from sambot_viz.frames.refusals import LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
 from sambot_viz.geometry import Matrix
 
-FrameListener = Callable[[tuple[str, ...]], None]
-"""Is called with the child frames whose transform was set or removed."""
-
 _SEEN_LIMIT = 4096
-"""So many answers are kept, lest asking for all pairs of frames fills the memory."""
+"""Upper bound of the look-up cache."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,17 +67,11 @@ class FrameTree(FrameHierarchy):
 
     Attributes:
         version: grows when a frame appears, disappears or gets another parent.
-        revision: grows at every change, also of values.
-        listeners: called after every change with the names of the changed children.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self.revision = 0
-        self.listeners: list[FrameListener] = []
-        self._recent: dict[str, None] = {}
-        self._removed_at = 0
-        # The answers since the last change: whoever asks twice pays once.
+        # The answers since the last change: asking twice costs once.
         self._seen: dict[tuple[str, str], Transform] = {}
 
     # Setting
@@ -99,7 +90,7 @@ class FrameTree(FrameHierarchy):
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, True, 0.0
-        self._changed((edge.child,))
+        self._seen.clear()
 
     def set(
         self, parent: str, child: str, transform: Transform, stamp: float = 0.0
@@ -118,7 +109,7 @@ class FrameTree(FrameHierarchy):
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, False, stamp
-        self._changed((edge.child,))
+        self._seen.clear()
 
     def update(self, transforms: Mapping[str, Matrix], stamp: float = 0.0) -> None:
         """Set new values of transforms that exist already: the fast way for joints.
@@ -142,12 +133,12 @@ class FrameTree(FrameHierarchy):
             if matrix.shape != (4, 4) or not math.isfinite(np.vdot(matrix, matrix)):
                 raise TransformRefused(
                     "TF_NAN_INPUT",
-                    f"the transform of frame '{child}' is no finite (4, 4) matrix",
+                    f"the transform of frame '{child}' is not a finite (4, 4) matrix",
                 )
         for edge, matrix in zip(edges, transforms.values(), strict=True):
             matrix.flags.writeable = False
             edge.transform, edge.stamp = Transform.trusted(matrix), stamp
-        self._changed(tuple(edge.child for edge in edges))
+        self._seen.clear()
 
     def remove(self, child: str) -> None:
         """Take a frame from its parent; frames below it stay below it.
@@ -157,20 +148,15 @@ class FrameTree(FrameHierarchy):
         """
         edge = self._edge_of(child)
         self._unhang(edge)
-        self._recent.pop(edge.child, None)
-        self._removed_at = self.revision + 1
-        self._changed((edge.child,))
+        self._seen.clear()
 
     def clear(self) -> None:
         """Forget all frames."""
-        children = tuple(self._edges)
         self._edges.clear()
         self._children.clear()
         self._declared.clear()
-        self._recent.clear()
         self._restructured()
-        self._removed_at = self.revision + 1
-        self._changed(children)
+        self._seen.clear()
 
     # Asking
 
@@ -181,21 +167,6 @@ class FrameTree(FrameHierarchy):
             FrameError: the frame does not exist or has no parent.
         """
         return _hop(self._edge_of(child), up=True)
-
-    def changed_since(self, revision: int) -> tuple[str, ...] | None:
-        """The children whose transform was set after a revision, latest first.
-
-        Returns:
-            None when a frame was removed since then: look at everything again.
-        """
-        if self._removed_at > revision:
-            return None
-        changed: list[str] = []
-        for child in reversed(self._recent):
-            if self._edges[child].revision <= revision:
-                break
-            changed.append(child)
-        return tuple(changed)
 
     def lookup(self, target: str, source: str) -> Transform:
         """The pose of the source frame in the target frame, T_target_source.
@@ -242,27 +213,6 @@ class FrameTree(FrameHierarchy):
         downs = [_hop(edge, up=False) for edge in reversed(above)]
         return (*ups, *downs)
 
-    def poses(self, target: str) -> dict[str, Matrix]:
-        """The poses of all frames that are connected to a frame, in that frame.
-
-        Returns:
-            Frame → (4, 4) float64, T_target_frame, in one walk through the tree.
-
-        Raises:
-            LookupRefused: the frame does not exist.
-        """
-        target = plain_name(target)
-        root = self.root_of(target)
-        poses = {root: self.lookup(target, root).matrix}
-        waiting = [root]
-        while waiting:
-            parent = waiting.pop()
-            T_target_parent = poses[parent]
-            for child in self._children[parent]:
-                poses[child] = T_target_parent.dot(self._edges[child].transform.matrix)
-                waiting.append(child)
-        return poses
-
     # Inside
 
     def _look(self, target: str, source: str) -> Transform:
@@ -274,19 +224,6 @@ class FrameTree(FrameHierarchy):
             tuple([edge.transform for edge in below]),
             tuple([edge.transform for edge in above]),
         )
-
-    def _changed(self, children: tuple[str, ...]) -> None:
-        self.revision += 1
-        self._seen.clear()
-        for child in children:
-            edge = self._edges.get(child)
-            if edge is not None:
-                edge.revision = self.revision
-                # Taking it out first moves it to the end: the latest stand last.
-                self._recent.pop(child, None)
-                self._recent[child] = None
-        for listener in tuple(self.listeners):
-            listener(children)
 
 
 def _hop(edge: Edge, *, up: bool) -> Hop:

@@ -15,7 +15,7 @@ from sambot_viz.frames.transform import Transform
 class Edge:
     """The transform of a child in its parent; lives as long as the child does."""
 
-    __slots__ = ("child", "parent", "revision", "stamp", "static", "transform")
+    __slots__ = ("child", "parent", "stamp", "static", "transform")
 
     def __init__(self, parent: str, child: str) -> None:
         self.parent = parent
@@ -23,7 +23,6 @@ class Edge:
         self.transform = Transform.identity()
         self.static = False
         self.stamp = 0.0
-        self.revision = 0
 
 
 Path = tuple[tuple[Edge, ...], tuple[Edge, ...]]

@@ -169,18 +169,6 @@ class Kinematics:
         T_parent_child = self._transforms(self._filled(positions))
         return {name: T_parent_child[self._row_of(name)] for name in wanted}
 
-    def moved_by(self, joint: str) -> tuple[str, ...]:
-        """The joint itself and every mimic joint that follows it, through chains.
-
-        Raises:
-            JointError: an unknown joint.
-        """
-        moved = {self._row_of(joint)}
-        for follow in self._follows:
-            if follow.leader in moved:
-                moved.add(follow.row)
-        return tuple(self.joints[row] for row in sorted(moved))
-
     def _row_of(self, joint: str) -> int:
         row = self._row.get(joint)
         if row is None:

@@ -3,7 +3,7 @@
 The audience is all browsers (shared) or one (private): `viser.ViserServer` and
 `viser.ClientHandle` have the same scene and GUI, so the same classes serve both.
 All state of a session changes under its one lock; what a change makes different goes
-out at once, streams go out at the config's Frame Rate (DESIGN §4.5).
+out at once, streams go out at the config's Frame Rate.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Audience(Protocol):
 
 
 class Session:
-    """See the module.
+    """One robot and its displays, shown to one audience.
 
     Args:
         audience: where to draw.
@@ -167,7 +167,7 @@ class Session:
             self._frames_changed()
 
     def _build_tree(self) -> tuple[Problem, ...]:
-        """All frames anew; why some that were added cannot be."""
+        """Set all frames again; returns why some that were added cannot be set."""
         refused = self._posed.build_tree()
         for display in self.displays:
             display.publish()
@@ -188,7 +188,7 @@ class Session:
 
     @contextmanager
     def change(self, *events: Event) -> Generator[None]:
-        """Change state under the lock; send everything together; tell the panels."""
+        """Change state under the lock; send everything together; notify the panels."""
         with self.lock:
             with self.audience.atomic():
                 yield
@@ -245,7 +245,7 @@ class Session:
     def set_static_transform(
         self, parent: str, child: str, transform: Transform
     ) -> None:
-        """Set a transform that holds until it is set anew.
+        """Set a transform that holds until it is set again.
 
         Raises:
             FrameError: parent and child are the same, or would form a ring.
@@ -269,7 +269,7 @@ class Session:
         """Take an added frame away again.
 
         Raises:
-            FrameError: nobody added that frame.
+            FrameError: that frame was not added.
         """
         with self.change("frames"):
             self.added.forget(child)
@@ -310,7 +310,7 @@ class Session:
             self._apply_boxes()
 
     def refresh(self) -> None:
-        """Draw anew what has changed; what has not is not sent again."""
+        """Draw what has changed in the files; what has not is not sent again."""
         with self.change():
             self.context.assets.look_again()
             self._redraw()
@@ -333,13 +333,13 @@ class Session:
                     display.assets_read()
 
     def set_problems(self, problems: Sequence[Problem]) -> None:
-        """Tell the audience what is wrong with the model."""
+        """Show the audience what is wrong with the model."""
         with self.lock:
             self.problems = (*problems, *self._of_frames)
             self._tell("problems")
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
-        """Tell why what was saved last is not what is shown; nothing when it is."""
+        """Show why the last save is not what is shown; an empty list when it is."""
         if self.reload_problems.get(of, ()) != tuple(problems):
             with self.change("problems"):
                 self.reload_problems[of] = tuple(problems)
@@ -362,7 +362,7 @@ class Session:
     # Asking
 
     def global_status(self) -> Status:
-        """RViz's Global Status, Fixed Frame (spec/rviz-core.md §2.2)."""
+        """RViz's Global Status, Fixed Frame."""
         fixed = self.context.fixed_frame
         frames = self.tree.frames
         if fixed in frames:

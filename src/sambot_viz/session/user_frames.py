@@ -1,6 +1,6 @@
-"""Frames that somebody adds to the robot's: static transforms, odom.
+"""Frames that a user adds to the robot's: static transforms, odom.
 
-They outlive a reload of the robot, whose own frames are built anew every time.
+They outlive a reload of the robot, whose own frames are set again every time.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class UserFrames:
         """Take one out of the list and, where it still hangs there, out of the tree.
 
         Raises:
-            FrameError: nobody added that frame.
+            FrameError: that frame was not added.
         """
         child = plain_name(child)
         added = self._added.pop(child, None)
@@ -79,7 +79,7 @@ class UserFrames:
             self._tree.remove(child)
 
     def set_again(self) -> tuple[Problem, ...]:
-        """Set all of them in a tree that was built anew.
+        """Set all of them in a tree that was cleared.
 
         Returns:
             Why some could not be set; those are forgotten.
