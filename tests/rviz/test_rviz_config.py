@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from default_config import DEFAULT_TEXT
 
 from sambot_viz.errors import ConfigError
 from sambot_viz.rviz import (
@@ -418,7 +419,7 @@ def test_properties_of_ros_1_alone_do_not_appear_in_files_of_ros_2(one_display: 
 
 
 def test_the_default_config_has_one_grid_and_an_orbit_view(declarations: Declarations):
-    config = RvizConfig.default(declarations)
+    config = RvizConfig.parse(DEFAULT_TEXT, declarations)
     assert [(d.kind, d.enabled) for d in config.displays] == [
         ("rviz_default_plugins/Grid", True)
     ]
@@ -439,7 +440,7 @@ def test_a_fixed_frame_that_is_a_list_does_not_stop_the_reading(parse: Parse):
 
 
 def test_a_config_is_saved_and_loaded_again(tmp_path: Path, declarations: Declarations):
-    config = RvizConfig.default(declarations)
+    config = RvizConfig.parse(DEFAULT_TEXT, declarations)
     config.displays[0].set("Alpha", 0.75)
     path = tmp_path / "어떤 곳" / "my.rviz"
     with pytest.raises(ConfigError, match="config-unwritable"):

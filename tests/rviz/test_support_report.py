@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
+from sambot_viz.open_config import declarations as load_declarations
 from sambot_viz.rviz import Declarations, RvizConfig
 from sambot_viz.rviz.support_report import config_report
 
@@ -87,6 +88,7 @@ def test_the_json_holds_the_same_and_the_defaults(parse: Callable[[str], RvizCon
         "shown": 1,
         "approximated": 1,
         "not supported": 2,
+        "kept": 0,
         "unknown key": 1,
     }
     group, radar = found["displays"]
@@ -130,3 +132,56 @@ def test_every_real_file_has_a_report(
         report = config_report(RvizConfig.load(path, declarations))
         assert report.as_text()
         json.dumps(report.as_json())
+
+
+OTHER_KEYS = """\
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/TF, Name: TF, Marker Alpha: 1, Tree: {map: {}}}
+    - {Class: rviz_default_plugins/Axes, Name: A, Alpha: 1, Show Trail: false}
+    - {Class: rviz/RobotModel, Name: R, Robot Description: robot_description}
+    - {Class: rviz_default_plugins/Grid, Name: G, Glow: 1}
+  Global Options: {Fixed Frame: map, Default Light: true}
+  Views:
+    Current:
+      Class: rviz_default_plugins/FPS
+      Enable Stereo Rendering: {Stereo Eye Separation: 0.06, Value: false}
+      Field of View: 0.785
+      Roll: 0
+"""
+
+
+def test_keys_that_rviz_itself_writes_are_not_called_unknown():
+    document = RvizConfig.parse(OTHER_KEYS, load_declarations())
+    found = config_report(document)
+    items = [found.global_options, *found.displays, found.view]
+    rows = {row.path: row for item in items for row in item.properties if row.given}
+    assert {path: rows[path].level for path in rows if path != "Fixed Frame"} == {
+        "Tree": "kept",
+        "Marker Alpha": "not supported",
+        "Alpha": "not supported",
+        "Show Trail": "not supported",
+        "Robot Description": "approximated",
+        "Glow": "unknown key",
+        "Default Light": "shown",
+        "Enable Stereo Rendering": "kept",
+        "Field of View": "not supported",
+        "Roll": "not supported",
+    }
+    assert all(rows[path].note for path in rows if rows[path].level == "kept")
+    assert document.to_yaml() == OTHER_KEYS
+
+
+def test_a_property_of_ros_1_is_kept_in_a_file_of_ros_2():
+    text = OTHER_KEYS.replace("rviz/RobotModel", "rviz_default_plugins/RobotModel")
+    document = RvizConfig.parse(text, load_declarations())
+    rows = {row.path: row for row in config_report(document).global_options.properties}
+    assert rows["Default Light"].level == "kept"
+    assert rows["Default Light"].value == "true"
+
+
+def test_a_key_that_is_only_kept_is_not_written_into_a_new_display():
+    document = RvizConfig.parse(OTHER_KEYS, load_declarations())
+    added = document.add_display("rviz_default_plugins/TF")
+    assert "Tree" not in added.raw
+    assert "Tree" not in added.properties

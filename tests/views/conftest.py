@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from default_config import DEFAULT_TEXT
 
 from sambot_viz.rviz import Declarations, RvizConfig
 from sambot_viz.views.registry import VIEWS
@@ -23,7 +24,9 @@ def make_view() -> MakeView:
 
     def make(name: str, **values: Any) -> View:
         kind = f"rviz_default_plugins/{name}"
-        view = VIEWS[kind](RvizConfig.default(declarations).set_view_class(kind))
+        view = VIEWS[kind](
+            RvizConfig.parse(DEFAULT_TEXT, declarations).set_view_class(kind)
+        )
         for path, declared in view.config.declared.items():
             if path in view.config.properties:
                 view.config.set(path, declared.property.default)

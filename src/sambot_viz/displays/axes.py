@@ -5,7 +5,15 @@ from __future__ import annotations
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.scene.kept_nodes import KeptNodes
 from sambot_viz.displays.scene.solids import add_axes
-from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, FloatProperty, TfFrameProperty
+from sambot_viz.rviz import (
+    FIXED_FRAME,
+    DisplayConfig,
+    FloatProperty,
+    KeptProperty,
+    TfFrameProperty,
+)
+
+OF_ROS1 = "of ROS 1; RViz for ROS 2 ignores it"
 
 
 class AxesDisplay(Display):
@@ -33,6 +41,8 @@ class AxesDisplay(Display):
             unit="m",
             help="Thickness of each axis; as in RViz this is its diameter.",
         ),
+        KeptProperty("Alpha", support="none", note=OF_ROS1),
+        KeptProperty("Show Trail", support="none", note=OF_ROS1),
     )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

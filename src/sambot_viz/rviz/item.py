@@ -9,7 +9,12 @@ from typing import Any
 from sambot_viz.rviz.declared import ConfigFindings, Declared, UnknownPropertyError
 from sambot_viz.rviz.new_nodes import NewNodes, parts_map
 from sambot_viz.rviz.properties.base import Property
-from sambot_viz.rviz.properties.kinds import EnumProperty, VectorProperty, checked_text
+from sambot_viz.rviz.properties.kinds import (
+    EnumProperty,
+    KeptProperty,
+    VectorProperty,
+    checked_text,
+)
 from sambot_viz.rviz.properties.number_text import float_text
 from sambot_viz.rviz.yaml.nodes import Map, Node, Plain, plain
 
@@ -54,7 +59,7 @@ class ConfigItem:
         self._given: set[str] = set()
         self._unreadable: set[str] = set()
         self._fresh = NewNodes(self._declared, self._values)
-        self._top = tuple(p for p in declared if self._ros1 or not p.ros1_only)
+        self._top = tuple(p if ros1 or not p.ros1_only else _kept(p) for p in declared)
         for prop in self._top:
             self._read(prop, (), self._node, None)
 
@@ -301,3 +306,8 @@ class ConfigItem:
 
 def _keys(path: Path) -> tuple[str, ...]:
     return (path,) if isinstance(path, str) else tuple(path)
+
+
+def _kept(prop: Property) -> KeptProperty:
+    """A property of ROS 1's RViz in a file of ROS 2."""
+    return KeptProperty(prop.name, note="RViz for ROS 2 ignores it")

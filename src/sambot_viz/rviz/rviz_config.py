@@ -9,7 +9,6 @@ from sambot_viz.rviz.class_items import GlobalOptions, ToolConfig
 from sambot_viz.rviz.class_name import kind_of
 from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.declared import ConfigFindings
-from sambot_viz.rviz.default import DEFAULT_TEXT
 from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.view_list import ViewList
 from sambot_viz.rviz.yaml.document import Document
@@ -28,7 +27,7 @@ class RvizConfig(DisplayList, ViewList):
     """
 
     def __init__(self, document: Document, declarations: Declarations):
-        """Read a document; use `load`, `parse` or `default`."""
+        """Read a document; use `load` or `parse`."""
         super().__init__(document, declarations)
         _report_duplicates(document.root, self._findings)
         self.global_options = self._read_global_options()
@@ -65,11 +64,6 @@ class RvizConfig(DisplayList, ViewList):
             ConfigError: the text is no .rviz document at all.
         """
         return cls(Document(text, file), declarations)
-
-    @classmethod
-    def default(cls, declarations: Declarations) -> RvizConfig:
-        """The config RViz starts with: one Grid, an Orbit view."""
-        return cls.parse(DEFAULT_TEXT, declarations)
 
     def _read_global_options(self) -> GlobalOptions:
         found = self._manager.get("Global Options")

@@ -10,16 +10,24 @@ from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import ClassItem, DisplayConfig
 from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.properties.base import Support
+from sambot_viz.rviz.properties.kinds import KeptProperty
 from sambot_viz.rviz.rviz_config import RvizConfig
 from sambot_viz.text import text
 
-Level: TypeAlias = Literal["shown", "approximated", "not supported", "unknown key"]
-"""How far we show something; an unknown key is one that RViz ignores as well."""
+Level: TypeAlias = Literal[
+    "shown", "approximated", "not supported", "kept", "unknown key"
+]
+"""How far we show something.
+
+A "kept" key has no effect in RViz for ROS 2 either; an "unknown key" is one that RViz
+does not know.
+"""
 
 _LEVELS: dict[Support, Level] = {
     "full": "shown",
     "approximate": "approximated",
     "none": "not supported",
+    "kept": "kept",
 }
 _WIDEST = 40
 
@@ -203,6 +211,10 @@ def _item(
 def _properties(item: ConfigItem) -> Iterator[PropertyReport]:
     for path, declared in item.declared.items():
         prop = declared.property
+        if isinstance(prop, KeptProperty) and path in item.raw:
+            value = item.raw.get(path)
+            shown = value if isinstance(value, str) else ""
+            yield PropertyReport(path, shown, _LEVELS[prop.support], prop.note)
         if not prop.has_value or prop.read_only:
             continue
         value = prop.show(item.get(path))

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from sambot_viz.rviz import BoolProperty, FloatProperty, Property, TfFrameProperty
+from sambot_viz.rviz import (
+    BoolProperty,
+    FloatProperty,
+    KeptProperty,
+    Property,
+    TfFrameProperty,
+)
 
 COMMON_PROPERTIES: tuple[Property, ...] = (
     FloatProperty(
@@ -18,5 +24,14 @@ COMMON_PROPERTIES: tuple[Property, ...] = (
         "Target Frame",
         default="<Fixed Frame>",
         help="The frame that the view follows.",
+    ),
+    KeptProperty(
+        "Enable Stereo Rendering",
+        note="RViz for ROS 2 writes it, and has no stereo picture",
+    ),
+    KeptProperty(
+        "Field of View",
+        support="none",
+        note="of ROS 1; the angle is 45 degrees, as in RViz for ROS 2",
     ),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.rviz import FloatProperty, Property, VectorProperty
+from sambot_viz.rviz import FloatProperty, KeptProperty, Property, VectorProperty
 from sambot_viz.views.camera import (
     UP,
     Camera,
@@ -34,6 +34,7 @@ FPS_PROPERTIES: tuple[Property, ...] = (
         unit="m",
         help="Position of the camera, in the target frame.",
     ),
+    KeptProperty("Roll", support="none", note="of ROS 1; RViz for ROS 2 ignores it"),
 )
 ZERO_POSITION = vector(5.0, 5.0, 10.0)
 ARM = 0.01

@@ -267,3 +267,53 @@ def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_late
     assert models is not None
     assert models.wait(20)
     assert "b/tool" in session.tree.frames
+
+
+JOINT_ROWS = """
+      Links:
+        Link Tree Style: Joints in Alphabetic Order
+        shoulder: {Show Axes: true, Show Joint Axis: true, Value: false}
+"""
+
+
+def test_joint_rows_that_a_list_of_joints_saved_under_links_are_read(
+    show: Show, nodes: Nodes
+) -> None:
+    session = show(JOINT_ROWS.strip("\n"))
+    joints = next(e for e in model_of(session).entries() if e.title == "Joints")
+    assert joints.get("shoulder") == {
+        "Value": False,
+        "Show Axes": True,
+        "Show Joint Axis": True,
+    }
+    key = model_of(session).key
+    marks = {name.rpartition("/")[2] for name in nodes(session)}
+    assert any(name.startswith(f"{key}j") for name in marks)
+    assert any(name.startswith(f"{key}x") for name in marks)
+    joints.set("shoulder", "Show Axes", False)
+    text = session.config.to_yaml()
+    assert "shoulder: {Show Axes: false, Show Joint Axis: true, Value: false}" in text
+    assert "Joints:" not in text
+
+
+def test_link_rows_below_a_list_of_joints_are_read_as_well(show: Show) -> None:
+    session = show(JOINT_ROWS.strip("\n") + "\n        base: {Alpha: 0.5}")
+    links = next(e for e in model_of(session).entries() if e.title == "Links")
+    assert links.get("base")["Alpha"] == 0.5
+
+
+def test_rows_nested_under_links_are_read_in_the_style_of_a_tree(show: Show) -> None:
+    body = """
+      Links:
+        Link Tree Style: Tree of links and joints
+        base:
+          Value: true
+          shoulder:
+            Details: {Show Axes: true}
+            Value: true
+            upper: {Details: {Alpha: 0.25}, Value: true}
+"""
+    session = show(body.strip("\n"))
+    links, joints = model_of(session).entries()
+    assert joints.get("shoulder")["Show Axes"] is True
+    assert links.get("upper")["Alpha"] == 0.25

@@ -16,7 +16,6 @@ from sambot_viz.rviz import (
     IntProperty,
     Property,
     PropertyError,
-    QuaternionProperty,
     RegexProperty,
     StringProperty,
     TfFrameProperty,
@@ -150,15 +149,6 @@ def test_a_vector_is_shown_with_semicolons():
     assert VectorProperty("v").write((0.1, 0.0001, 1000.0)) == "0.1; 0.0001; 1000"
 
 
-def test_a_quaternion_reads_and_takes_xyzw():
-    turn = QuaternionProperty("Orientation")
-    assert turn.default == (0.0, 0.0, 0.0, 1.0)
-    assert turn.coerce("1;2;3;4") == (1.0, 2.0, 3.0, 4.0)
-    assert read(turn, "{X: 1, Y: 2, Z: 3, W: 4}")[0] == (1.0, 2.0, 3.0, 4.0)
-    with pytest.raises(PropertyError):
-        turn.coerce("bad")
-
-
 def test_a_colour_that_cannot_be_read_keeps_the_default():
     color = ColorProperty("Color", default=(1, 2, 3))
     assert read(color, "white") == ((255, 255, 255), [])
@@ -182,18 +172,19 @@ def test_an_unknown_option_is_kept_and_acts_as_the_first():
     value, said = read(STYLE, "Dots")
     assert value == "Dots"
     assert STYLE.meaning(value) == "Lines"
-    assert STYLE.number(value) == 0
-    assert STYLE.number("Billboards") == 1
     assert said == [
         "'Style' is 'Dots', which is not one of 'Lines', 'Billboards'; "
         "it acts as 'Lines', as in RViz"
     ]
 
 
-def test_an_enum_without_options_has_number_0():
-    bare = EnumProperty("Style")
-    assert bare.number("x") == 0
-    assert bare.meaning("x") == "x"
+def test_an_enum_without_options_acts_as_it_is_written():
+    assert EnumProperty("Style").meaning("x") == "x"
+
+
+def test_the_empty_text_that_rviz_writes_for_an_option_is_not_reported():
+    assert read(STYLE, "''") == ("", [])
+    assert STYLE.meaning("") == "Lines"
 
 
 def test_an_editable_enum_takes_any_text():

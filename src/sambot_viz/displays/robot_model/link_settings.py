@@ -1,7 +1,8 @@
-"""What a file says about single links and joints (spec/rviz-core.md §5.4).
+"""What a file says about single links and joints of a RobotModel.
 
-RViz saves the tree under one of four keys, by its style. We read all four, whatever
-the style says, and write where a link or joint stands already (§12, 4).
+RViz saves the rows under one of four keys, by their style, and reads them only from
+"Links", in whatever style. All four keys are read here; a change is written where the
+link or joint already has its row.
 """
 
 from __future__ import annotations
@@ -138,21 +139,32 @@ class RobotSettings:
         self._places: dict[tuple[Thing, str], Keys] = {}
         self._fields: dict[tuple[Thing, str], Mapping[str, Plain]] = {}
         self._all = bool(config.get(ALL_ENABLED))
+        self._styles: dict[str, str] = dict(zip(KEYS, STYLES, strict=True))
+        chosen = str(config.get("Links/Link Tree Style"))
+        if chosen in STYLES:
+            self._styles["Links"] = chosen
         for key in KEYS:
             tree = config.dynamic(key)
             if key != "Links" and "All Links Enabled" in tree:
                 self._all = is_on(tree["All Links Enabled"])
-            thing: Thing = "joint" if key == "Joints" else "link"
+            thing: Thing = "joint" if self._styles[key] == STYLES[1] else "link"
             self._walk(tree, (key,), thing)
         self._above = {joint.child: joint.name for joint in robot.joints.values()}
 
     def _walk(self, tree: Mapping[str, Plain], above: Keys, thing: Thing) -> None:
-        names = self._robot.links if thing == "link" else self._robot.joints
-        other: Thing = "joint" if thing == "link" else "link"
-        below = other if above[0] == "Link/Joint Tree" else thing
+        names = {"link": self._robot.links, "joint": self._robot.joints}
+        expected = thing
+        style = self._styles[above[0]]
         for name, entry in tree.items():
-            if name not in names:
+            thing = expected
+            if name not in names[thing] and len(above) == 1:
+                # A file may have rows of another style than the one it names.
+                thing = "joint" if thing == "link" else "link"
+            if name not in names[thing]:
                 continue
+            below: Thing = thing
+            if style == STYLES[3]:
+                below = "joint" if thing == "link" else "link"
             fields: dict[str, Plain] = (
                 dict(entry) if isinstance(entry, dict) else {"Value": entry}
             )
@@ -162,8 +174,12 @@ class RobotSettings:
             keys = (*above, name)
             self._places[thing, name] = keys
             self._fields[thing, name] = fields
-            if above[0] in _TREES and isinstance(entry, dict):
+            if self._is_tree(keys) and isinstance(entry, dict):
                 self._walk(entry, keys, below)
+
+    def _is_tree(self, keys: Keys) -> bool:
+        """Whether the rows at some place are nested, with their fields in Details."""
+        return self._styles[keys[0]] in STYLES[2:]
 
     def link(self, name: str) -> LinkSettings:
         """The settings of a link; RViz's defaults where the file has none."""
@@ -194,13 +210,15 @@ class RobotSettings:
     def set(self, thing: Thing, name: str, key: str, value: Any) -> None:
         """Write one setting where the link or joint stands, or will stand."""
         keys = self._places.get((thing, name)) or self._new_place(thing, name)
-        if key != "Value" and keys[0] in _TREES:
+        if key != "Value" and self._is_tree(keys):
             keys = (*keys, _DETAILS)
         self._config.set_dynamic((*keys, key), value)
         if thing == "joint" and key == "Value":
             for link in self._carried(name, keys):
                 # In the list of joints, a link without a box follows the joint's.
-                if keys[0] in _TREES or "Value" in self._fields.get(("link", link), {}):
+                if self._is_tree(keys) or "Value" in self._fields.get(
+                    ("link", link), {}
+                ):
                     self.set("link", link, "Value", value)
 
     def set_all(self, enabled: bool) -> None:
@@ -241,7 +259,7 @@ class RobotSettings:
         while pending:
             link = pending.pop()
             yield link
-            if keys[0] in _TREES:
+            if self._is_tree(keys):
                 below = self._robot.joints.values()
                 pending += [j.child for j in below if j.parent == link]
 

@@ -33,6 +33,7 @@ from sambot_viz.rviz import (
     FileProperty,
     FloatProperty,
     GroupProperty,
+    KeptProperty,
     Property,
     StringProperty,
     TopicProperty,
@@ -108,6 +109,11 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         "TF Prefix",
         default="",
         help="The frame of a link is <prefix>/<link> when this is not empty.",
+    ),
+    KeptProperty(
+        "Robot Description",
+        support="approximate",
+        note="the parameter of ROS 1; the opened robot takes its place",
     ),
     *LINK_TREE_PROPERTIES,
 )

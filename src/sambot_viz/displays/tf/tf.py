@@ -32,6 +32,7 @@ from sambot_viz.rviz import (
     DisplayConfig,
     FloatProperty,
     GroupProperty,
+    KeptProperty,
     RegexProperty,
 )
 from sambot_viz.text import text
@@ -141,6 +142,10 @@ class TfDisplay(Display):
                 ),
             ),
             open_keys=True,
+        ),
+        KeptProperty("Tree", note="RViz writes the tree of frames, and never reads it"),
+        KeptProperty(
+            "Marker Alpha", support="none", note="of ROS 1; RViz for ROS 2 ignores it"
         ),
     )
 

@@ -14,8 +14,9 @@ from typing import Any, Literal, TypeAlias
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.yaml.nodes import List, Map, Node, Scalar
 
-Support: TypeAlias = Literal["full", "approximate", "none"]
-"""How far we show what a property says."""
+Support: TypeAlias = Literal["full", "approximate", "none", "kept"]
+"""How far we show what a property says; "kept" has no effect in RViz for ROS 2 either.
+"""
 
 Report: TypeAlias = Callable[[Node, str, str], None]
 """Takes a node, what is doubtful about it, and what to write instead."""

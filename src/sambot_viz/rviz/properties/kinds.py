@@ -1,11 +1,11 @@
-"""The types of properties RViz has (spec/rviz-core.md §1.3)."""
+"""The types of properties that RViz has, under one name."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.rviz.properties.base import Property
+from sambot_viz.rviz.properties.base import Property, Support
 from sambot_viz.rviz.properties.numbers import (
     BoolProperty,
     FloatProperty,
@@ -27,7 +27,6 @@ from sambot_viz.rviz.properties.texts import (
 )
 from sambot_viz.rviz.properties.vectors import (
     ColorProperty,
-    QuaternionProperty,
     VectorProperty,
 )
 
@@ -43,7 +42,7 @@ __all__ = [
     "FloatProperty",
     "GroupProperty",
     "IntProperty",
-    "QuaternionProperty",
+    "KeptProperty",
     "RegexProperty",
     "StringProperty",
     "TfFrameProperty",
@@ -52,6 +51,23 @@ __all__ = [
     "checked_text",
     "read_bool",
 ]
+
+
+@dataclass(frozen=True)
+class KeptProperty(Property):
+    """A key that RViz writes, or wrote, and that changes nothing here.
+
+    It is never set, and a new item does not get it; `note` says what RViz does with it.
+    """
+
+    read_only: bool = True
+    open_keys: bool = True
+    support: Support = "kept"
+
+    @property
+    def has_value(self) -> bool:
+        """Its value is not used."""
+        return False
 
 
 @dataclass(frozen=True)

@@ -84,10 +84,6 @@ class EnumProperty(Property):
             return str(value)
         return self.options[0]
 
-    def number(self, value: object) -> int:
-        """The option number; 0 for an unknown text, as in RViz."""
-        return self.options.index(str(value)) if value in self.options else 0
-
     def coerce(self, value: object) -> str:
         """See `Property.coerce`."""
         if isinstance(value, str) and value in self.options:

@@ -1,4 +1,4 @@
-"""Colours, vectors and quaternions (spec/rviz-core.md §1.3)."""
+"""Properties that hold colours and vectors."""
 
 from __future__ import annotations
 
@@ -99,14 +99,6 @@ class VectorProperty(Property):
     @property
     def _expected(self) -> str:
         return f"a map of {len(self.keys)} numbers ({', '.join(self.keys)})"
-
-
-@dataclass(frozen=True)
-class QuaternionProperty(VectorProperty):
-    """Four finite numbers, xyzw, saved under X, Y, Z and W."""
-
-    default: tuple[float, ...] = (0.0, 0.0, 0.0, 1.0)
-    keys: tuple[str, ...] = ("X", "Y", "Z", "W")
 
 
 def _component(node: Node, key: str) -> str | None:

@@ -1,4 +1,4 @@
-"""The config RViz starts with when none is given (spec/rviz-core.md §8.5)."""
+"""The config that RViz starts with when none is given."""
 
 from __future__ import annotations
 
