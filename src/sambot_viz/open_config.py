@@ -32,6 +32,6 @@ def load_config(path: Path | str) -> RvizConfig:
         is kept for saving.
 
     Raises:
-        ConfigError: the file cannot be read, or is no .rviz document.
+        ConfigError: the file cannot be read, or is not a .rviz document.
     """
     return RvizConfig.load(Path(path), declarations())

@@ -1,4 +1,4 @@
-"""TF: which frames are drawn, and what is said of them (spec/rviz-core.md §6)."""
+"""TF: which frames are drawn, and what is said of them."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ Three measures for every case, each with a limit and the reason for it:
   the two renderers smooth them differently, so this is what says where they are.
 
 The recordings are RViz 1's; we draw RViz 2's coarser round shapes, with 16 sides
-instead of 40 (spec/rviz-core.md §5.5): a silhouette then lacks up to 2 % of the
+instead of 40: a silhouette then lacks up to 2 % of the
 radius, and facets are seen where RViz 1 has a smooth shade.
 
 ``SAMBOT_VIZ_ALL_GOLDEN=1`` adds all other recordings of the collection.

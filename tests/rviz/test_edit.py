@@ -204,7 +204,7 @@ def test_a_group_cannot_go_into_itself(parse: Parse):
     for target in (group, inner):
         with pytest.raises(UsageError, match="cannot be moved into itself"):
             config.move(group, 0, target)
-    with pytest.raises(UsageError, match="is no group"):
+    with pytest.raises(UsageError, match="is not a group"):
         config.move(group, 0, config.displays[0])
     assert names(config.displays) == ["a", ("g", ["b", "c", ("inner", [])]), "d"]
 

@@ -164,8 +164,8 @@ def test_a_key_that_stands_twice_is_told(one_display: Parse):
     config = one_display(f"{GRID}Alpha: 0.1\nAlpha: 0.2")
     assert config.displays[0].get("Alpha") == 0.2
     assert said(config) == [
-        "my.rviz:7:14: warning[config-duplicate-key]: 'Alpha' stands twice in one map; "
-        "the later one holds; remove the earlier one"
+        "my.rviz:7:14: warning[config-duplicate-key]: 'Alpha' is given twice in one "
+        "map; the later one counts; remove the earlier one"
     ]
 
 
@@ -182,7 +182,7 @@ def test_items_that_are_no_displays_are_kept_and_told(parse: Parse):
         ("(no class name found)", "x", False)
     ]
     assert [problem.message for problem in config.problems] == [
-        "an item of 'Displays' is no map with a class; it is kept"
+        "an item of 'Displays' is not a map with a class; it is kept"
     ] * 2
 
 

@@ -106,7 +106,7 @@ def test_a_saved_view_is_renamed_and_removed(parse: Parse):
     above.rename("top")
     config.remove_view(film)
     assert [v.name for v in parse(config.to_yaml()).saved_views] == ["top"]
-    with pytest.raises(UsageError, match=r"'film' .* is none of the saved views"):
+    with pytest.raises(UsageError, match=r"'film' .* is not one of the saved views"):
         config.remove_view(film)
 
 

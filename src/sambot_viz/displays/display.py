@@ -1,7 +1,7 @@
 """What every RViz display is: properties, statuses, and nodes in the scene.
 
 A display lists its properties once (`properties`); reading, saving, the rows of the
-panel, clamping and live change all come from that list (DESIGN §4.1). Its values live
+panel, clamping and live change all come from that list. Its values live
 in the `DisplayConfig` of the document, so what is on the screen is what a save writes.
 """
 

@@ -1,4 +1,4 @@
-"""Things of a display that have rows of their own: links, joints, frames.
+"""Per-link, per-joint and per-frame settings of a display.
 
 A robot has hundreds of them, so the panel offers a list to choose from and shows the
 rows of the chosen one only.
@@ -41,7 +41,7 @@ class EntryList:
 
 
 def is_on(value: object, default: bool = True) -> bool:
-    """A box that nobody declared, by RViz's rule and YAML's words (§12, 13)."""
+    """A box that nobody declared, by RViz's rule and YAML's words."""
     if not isinstance(value, str):
         return default
     return value.lower() not in ("", "0", "false", "no", "off")

@@ -1,4 +1,4 @@
-"""Group: a box for several displays (spec/rviz-core.md §1.6). It draws nothing."""
+"""Group: a box for several displays. It draws nothing."""
 
 from __future__ import annotations
 

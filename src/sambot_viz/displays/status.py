@@ -1,4 +1,4 @@
-"""The statuses of a display, with RViz's levels (spec/rviz-core.md §3)."""
+"""The statuses of a display, with RViz's levels."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Status:
 class StatusList:
     """The rows of one display in order of first use.
 
-    `version` grows with every change, so that a panel knows when to write anew.
+    `version` grows with every change, so that a panel knows when to write again.
     """
 
     def __init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Adding, copying, naming, removing and ordering displays (spec/rviz-core.md §9.1)."""
+"""Adding, copying, naming, removing and ordering displays."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _INDENT = "  "
 
 
 class Arrange:
-    """The rows for that, in the current container; made anew with the panel.
+    """The rows for that, in the current container; made again with the panel.
 
     Args:
         session: whose displays these are.

@@ -75,7 +75,7 @@ class DisplaysPanel:
         self._write_statuses()
 
     def _state(self) -> tuple[object, ...]:
-        """What the rows are made from; they are made anew when it is another."""
+        """What the rows are made from; they are made again when it differs."""
         config = self._session.config
         return (
             id(config),
@@ -270,7 +270,7 @@ class _DisplayRows:
         self._entries.append(EntryRows(self._session, self.display, find))
 
     def write_status(self) -> None:
-        """Write the status anew if it has changed."""
+        """Write the status again if it has changed."""
         status, shown = self.display.status, self.display.shown
         if (status.version, shown) == (self._version, self._was_shown):
             return

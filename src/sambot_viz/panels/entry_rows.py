@@ -20,7 +20,7 @@ from sambot_viz.session import Session
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
 
-NOBODY: str = "—"
+NOTHING: str = "—"
 FACTS_PERIOD = 0.5
 """Positions of the chosen one are written this often while it moves [s]."""
 
@@ -31,7 +31,7 @@ class EntryRows:
     Args:
         session: whose display it is.
         display: whose links, joints or frames they are.
-        entries: gives them as they are now, or None while there are none.
+        entries: gives them as they are now, or None while there are not numbers.
     """
 
     def __init__(
@@ -52,8 +52,8 @@ class EntryRows:
         self._names = dict[str, str]()
         self._list = self._gui.add_dropdown(
             singular.capitalize(),
-            (NOBODY,),
-            initial_value=NOBODY,
+            (NOTHING,),
+            initial_value=NOTHING,
             hint=f"Choose a {singular}; type to search.",
         )
         watch(self._session, self._list, self._named, self._choose)
@@ -71,13 +71,13 @@ class EntryRows:
         found = self._entries()
         names = found.names if found else ()
         shown = {text(name): name for name in reversed(names)}
-        self._names = {label: shown[label] for label in options(names, NOBODY)[:-1]}
-        offered = (NOBODY, *self._names)
+        self._names = {label: shown[label] for label in options(names, NOTHING)[:-1]}
+        offered = (NOTHING, *self._names)
         if tuple(self._list.options) != offered:
             self._list.options = offered
             if self._chosen not in names:
                 self._chosen = None
-            self._list.value = NOBODY if self._chosen is None else text(self._chosen)
+            self._list.value = NOTHING if self._chosen is None else text(self._chosen)
         self._show()
 
     def moved(self) -> None:
@@ -91,7 +91,7 @@ class EntryRows:
         Raises:
             ValueError: it is not.
         """
-        if label != NOBODY and label not in self._names:
+        if label != NOTHING and label not in self._names:
             raise ValueError("not offered")
         return str(label)
 

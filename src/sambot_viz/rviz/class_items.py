@@ -32,7 +32,7 @@ class ClassItem(ConfigItem):
 
         Args:
             node: its map.
-            declared: the properties of its class, or None when nobody knows the class.
+            declared: the properties of its class, or None when the class is not known.
             findings: takes what is doubtful.
             attach: puts the map into the document when something is set.
         """
@@ -64,7 +64,7 @@ class ClassItem(ConfigItem):
         """Give it another label.
 
         Raises:
-            PropertyError: the name is no text.
+            PropertyError: the name is not a text.
         """
         self._map_at(()).put_text("Name", checked_text("Name", name))
 
@@ -93,7 +93,7 @@ class DisplayConfig(ClassItem):
         self._enabled = self._read_enabled()
 
     def _read_enabled(self) -> bool:
-        """Off, then "Value", then "Enabled" (spec/rviz-core.md §1.6)."""
+        """Off, then "Value", then "Enabled"."""
         enabled = False
         for key in ("Value", "Enabled"):
             node = self._node.get(key)
@@ -113,7 +113,7 @@ class DisplayConfig(ClassItem):
 
     @property
     def active(self) -> bool:
-        """Whether its own box and those of all its groups are ticked (§1.6)."""
+        """Whether its own box and those of all its groups are ticked."""
         return self._enabled and (self.parent is None or self.parent.active)
 
     def set_enabled(self, enabled: bool) -> None:

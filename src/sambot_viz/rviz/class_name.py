@@ -1,7 +1,7 @@
 """Class ids of ROS 1 and ROS 2: what an .rviz file calls its displays, views, tools.
 
-Files of ROS 1 say ``rviz/Grid``, files of ROS 2 ``rviz_default_plugins/Grid``
-(spec/rviz-core.md §11). Here every class goes by its ROS 2 id, its kind; what was
+Files of ROS 1 say ``rviz/Grid``, files of ROS 2 ``rviz_default_plugins/Grid``.
+Here every class goes by its ROS 2 id, its kind; what was
 written is written back.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 GROUP = "rviz_common/Group"
 NO_CLASS = "(no class name found)"
-"""What RViz calls a display without a class (§1.6)."""
+"""What RViz calls a display without a class."""
 
 _ROS1 = "rviz/"
 _ROS2 = "rviz_default_plugins/"

@@ -35,5 +35,5 @@ class Declarations:
     global_options: Sequence[Property] = GLOBAL_OPTIONS
 
     def display(self, kind: str) -> Sequence[Property] | None:
-        """The properties of a display class; None when nobody knows it."""
+        """The properties of a display class; None when it is not known."""
         return () if kind == GROUP else self.displays.get(kind)

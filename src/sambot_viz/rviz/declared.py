@@ -51,7 +51,7 @@ class ConfigFindings:
         self.problems: list[Problem] = []
 
     def add(self, code: str, node: Node, message: str, hint: str = "") -> None:
-        """Note a warning at a node; copies were told of at their originals."""
+        """Note a warning at a node; copies are reported at their originals."""
         if node.span is None:
             return
         line, column = node.span.line, node.span.column

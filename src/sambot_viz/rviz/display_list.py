@@ -22,7 +22,7 @@ class DisplayList(VisualizationManager):
         if isinstance(listed, List):
             for entry in listed.entries:
                 if not isinstance(entry.value, Map):
-                    what = "an item of 'Displays' is no map with a class; it is kept"
+                    what = "an item of 'Displays' is not a map with a class; it is kept"
                     self._findings.add("config-value", entry.value, what)
         for _, found in items_of(listed):
             members.append(self._display(found, group))
@@ -57,13 +57,13 @@ class DisplayList(VisualizationManager):
             after: the display behind which it goes; the end when not given.
 
         Raises:
-            UsageError: `group` is none, or `after` is not in it.
+            UsageError: `group` is not a group, or `after` is not in it.
         """
         class_id = written_in_ros1(kind) if self.ros1 else kind
         label = short_name(kind) if name is None else name
         node = new_map(class_id, label, enabled=True)
         if kind == GROUP:
-            # RViz writes no "Value" for groups (spec/rviz-core.md §1.6).
+            # RViz writes no "Value" for groups.
             node.remove("Value")
         display = DisplayConfig(
             node, self._declarations.display(kind), self._findings, group
@@ -112,7 +112,7 @@ class DisplayList(VisualizationManager):
 
     def _members(self, group: DisplayConfig | None) -> list[DisplayConfig]:
         if group is not None and group.kind != GROUP:
-            raise UsageError(f"{group.label} is no group of displays")
+            raise UsageError(f"{group.label} is not a group of displays")
         return group.members if group is not None else self._displays
 
     def _index(self, group: DisplayConfig | None, after: DisplayConfig | None) -> int:

@@ -30,7 +30,7 @@ class ConfigItem:
     """
 
     _own_keys: frozenset[str] = frozenset()
-    """Keys with a meaning of their own, which are no properties."""
+    """Keys with a meaning of their own, which are not properties."""
 
     def __init__(
         self,
@@ -120,7 +120,7 @@ class ConfigItem:
         return MappingProxyType(self._declared)
 
     def is_given(self, path: str) -> bool:
-        """Whether the value comes from the file or was set, and is no default."""
+        """Whether the value comes from the file or was set, and is not a default."""
         return path in self._given
 
     def get(self, path: str) -> Any:

@@ -1,4 +1,4 @@
-"""Nodes for properties that are not in the file yet, as RViz saves them (§1.5)."""
+"""Nodes for properties that are not in the file yet, as RViz saves them."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class RvizConfig(DisplayList, ViewList):
     """A config: typed values in front, the untouched document behind.
 
     What is not understood is kept and saved: unknown classes, keys, panels, window
-    geometry, comments, the order of keys (spec/rviz-core.md §12, 17).
+    geometry, comments, the order of keys.
 
     Attributes:
         global_options: Fixed Frame, Background Color, Frame Rate.
@@ -45,7 +45,7 @@ class RvizConfig(DisplayList, ViewList):
         """Read a file.
 
         Raises:
-            ConfigError: the file cannot be read, or is no .rviz document at all.
+            ConfigError: the file cannot be read, or is not a .rviz document at all.
         """
         return cls(Document.load(path), declarations)
 
@@ -61,7 +61,7 @@ class RvizConfig(DisplayList, ViewList):
             file: the name for messages.
 
         Raises:
-            ConfigError: the text is no .rviz document at all.
+            ConfigError: the text is not a .rviz document at all.
         """
         return cls(Document(text, file), declarations)
 
@@ -123,7 +123,7 @@ def _report_duplicates(node: Collection, findings: ConfigFindings) -> None:
             findings.add(
                 "config-duplicate-key",
                 entry.value,
-                f"'{entry.key}' stands twice in one map; the later one holds",
+                f"'{entry.key}' is given twice in one map; the later one counts",
                 "remove the earlier one",
             )
         seen.add(entry.key or "")

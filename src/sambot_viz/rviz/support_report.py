@@ -38,9 +38,9 @@ class PropertyReport:
 
     Attributes:
         path: keys from its owner on, joined by "/".
-        value: what it says; empty for maps that nobody declares.
+        value: what it says; empty for maps that are not declared.
         level: how far it is shown.
-        note: a word about that.
+        note: a remark on that.
         given: the file says it; otherwise it is a default.
     """
 
@@ -68,7 +68,7 @@ class ItemReport:
     Attributes:
         name: its label.
         class_id: the class as written; empty for Global Options.
-        level: "shown", or "not supported" when nobody knows the class.
+        level: "shown", or "not supported" when the class is not known.
         enabled: its box; None where there is none.
         properties: its properties.
         displays: the members of a group.
@@ -225,7 +225,7 @@ def _properties(item: ConfigItem) -> Iterator[PropertyReport]:
 
 
 def _kept(item: ClassItem) -> Iterator[PropertyReport]:
-    """The keys of an item whose class nobody knows."""
+    """The keys of an item whose class is not known."""
     for key, value in item.raw.items():
         if key not in ("Class", "Name", "Enabled", "Value", "Displays"):
             shown = value if isinstance(value, str) else ""

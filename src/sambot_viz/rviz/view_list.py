@@ -1,4 +1,4 @@
-"""The current view and the saved ones (spec/rviz-core.md §1.8)."""
+"""The current view and the saved ones."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class ViewList(VisualizationManager):
     def _read_view(self, node: Map | None) -> ViewConfig:
         found = node
         if found is None:
-            # RViz starts with an Orbit view (spec/rviz-views-tools.md §1.1).
+            # RViz starts with an Orbit view.
             found = new_map(ORBIT, CURRENT)
             found.put_text("Value", row_text(ORBIT))
         kind = kind_of(found.text("Class") or "")
@@ -128,10 +128,10 @@ class ViewList(VisualizationManager):
         """Take a saved view out.
 
         Raises:
-            UsageError: it is none of them.
+            UsageError: it is not one of them.
         """
         if saved not in self._saved_views:
-            raise UsageError(f"{saved.label} is none of the saved views")
+            raise UsageError(f"{saved.label} is not one of the saved views")
         self._saved_views.remove(saved)
         listed = self._saved_list()
         listed.entries[:] = [e for e in listed.entries if e.value is not saved.node]

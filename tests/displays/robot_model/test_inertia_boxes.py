@@ -1,4 +1,4 @@
-"""Masses as balls and inertias as boxes (spec/rviz-core.md §5.8)."""
+"""Masses as balls and inertias as boxes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The arrow from a frame to its parent (spec/rviz-core.md §6.4, §10 N-15, N-16)."""
+"""The arrow from a frame to its parent."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ MANAGER = "Visualization Manager:\n"
         ),
         (
             "services:\n  web: x\n",
-            "f:1: error[config-not-rviz]: this YAML is no .rviz document: "
+            "f:1: error[config-not-rviz]: this YAML is not a .rviz document: "
             "'Visualization Manager' is missing; give a file that RViz has saved, or "
             "one with the same structure",
         ),

@@ -1,4 +1,4 @@
-"""What an <inertial> element says, as RViz draws it (spec/rviz-core.md §5.8).
+"""What an <inertial> element says, as RViz draws it.
 
 A mass is the ball of lead that has it; an inertia is the box of that mass with the
 same principal moments.

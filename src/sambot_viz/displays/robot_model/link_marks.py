@@ -1,6 +1,6 @@
 """What RViz draws at single links and joints: axes, arrows, masses, inertias, trails.
 
-Sizes and colours are those of spec/rviz-core.md §5.8; no Alpha changes them.
+Sizes and colours are RViz's (docs/rviz-facts.md); no Alpha changes them.
 """
 
 from __future__ import annotations
@@ -193,7 +193,7 @@ class RobotMarks:
             return (axes,)
         if not any(joint.axis):
             return ()
-        # RViz leaves the rotation of the joint out, which is an accident (§12, 12).
+        # RViz leaves the rotation of the joint out, which is a mistake of RViz.
         x, y, z = (float(c) for c in T_link_joint[:3, :3] @ joint.axis)
         arrow = Arrow(position_of(T_link_joint), (x, y, z), SHAFT, HEAD)
         return add_arrows(scene, node, [arrow], GREEN, GREEN)

@@ -1,4 +1,4 @@
-"""The rows of single links and joints of a RobotModel (spec/rviz-core.md §5.4)."""
+"""The rows of single links and joints of a RobotModel."""
 
 from __future__ import annotations
 

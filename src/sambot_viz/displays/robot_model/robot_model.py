@@ -1,4 +1,4 @@
-"""RobotModel: the shapes of a robot at its frames (spec/rviz-core.md §5)."""
+"""RobotModel: the shapes of a robot at its frames."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ class RobotModelDisplay(Display):
         self._report(robot)
 
     def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
-        """The node of a shape, made anew when its frame has moved in the tree."""
+        """The node of a shape, made again when its frame has moved in the tree."""
         link, kind, index = key
         at_root = ""
         if not above and self._robot is not None:
@@ -341,7 +341,7 @@ class RobotModelDisplay(Display):
         return Status("Error", "\n".join(lines))
 
     def publish(self) -> bool:
-        """Set the transforms of a robot from a file, unless somebody else does."""
+        """Set the transforms of a robot from a file, unless they are set already."""
         if not self.shown or self._robot is None or self._source[0] != "File":
             return False
         new = publish_frames(self.context.tree, self._robot, self.frame_of)

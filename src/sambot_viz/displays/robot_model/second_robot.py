@@ -18,7 +18,7 @@ from sambot_viz.robot.model import Robot
 def publish_frames(
     tree: FrameTree, robot: Robot, frame_of: Callable[[str], str]
 ) -> tuple[str, ...]:
-    """Set the transforms of a robot that nobody has set.
+    """Set the transforms of a robot that are not set yet.
 
     Args:
         tree: the frames; the transforms are static.

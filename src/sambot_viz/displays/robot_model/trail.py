@@ -1,4 +1,4 @@
-"""The way a link took: a ribbon behind its origin (spec/rviz-core.md §5.8)."""
+"""The trail of a link: a ribbon behind its origin, as RViz draws it."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The solids that RViz builds its markers from: axes, arrows, unit shapes.
 
-Sizes and colours are those of spec/rviz-core.md §5.8, §6.4 and §7. Every solid is
+Sizes and colours are RViz's (docs/rviz-facts.md). Every solid is
 flat shaded; the page script lights it as RViz does.
 """
 
@@ -26,7 +26,7 @@ from sambot_viz.meshes.primitives import (
 
 Rgb = tuple[int, int, int]
 OPAQUE_FROM = 0.9998
-"""RViz blends below this alpha and writes no depth (spec/rviz-core.md §8.4)."""
+"""RViz blends below this alpha and writes no depth."""
 
 _HALF = math.sqrt(0.5)
 _AXIS_WXYZ = ((_HALF, 0.0, _HALF, 0.0), (_HALF, -_HALF, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))

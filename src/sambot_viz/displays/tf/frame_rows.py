@@ -1,4 +1,4 @@
-"""The rows of single frames of a TF display (spec/rviz-core.md §6.2)."""
+"""The rows of single frames of a TF display."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FRAME_PROPERTIES: tuple[Property, ...] = (
 
 
 def frame_boxes(config: DisplayConfig) -> dict[str, bool]:
-    """The box of every frame the file names, and of all others (§6.2, §12 no. 11).
+    """The box of every frame the file names, and of all others.
 
     A frame without a "Value" counts as off, as in RViz.
     """

@@ -1,4 +1,4 @@
-"""TF: axes, names and arrows of the frames (spec/rviz-core.md §6)."""
+"""TF: axes, names and arrows of the frames."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
 HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
 EM_HEIGHT = 0.0889
-"""Height of the em square of names, in a character cell of 0.1 m (§6.4)."""
+"""Height of the em square of names, in a character cell of 0.1 m."""
 SHORTEST_ARROW = 0.001
 """Frames nearer than this have no arrow [m]."""
 

@@ -2,7 +2,7 @@
 
 A display, a view and a tool list their properties as objects of the classes in
 `properties`; from that list come reading by RViz's rules, saving, the row in the panel
-and the compatibility table (DESIGN §4.1).
+and the compatibility table.
 """
 
 from __future__ import annotations
@@ -61,12 +61,12 @@ class Property:
         options: what can be chosen.
         read_only: shown, but never read from a file, set or saved.
         support: how far we show what it says.
-        note: a word about that, for the compatibility table.
+        note: a remark on that, for the compatibility table.
         ros1_default: the default in a file of ROS 1, when that is another one.
         ros1_only: it stands in files of ROS 1 only.
         aliases: other keys under which older files have it.
         open_keys: keys below it that are not declared belong to the robot (links,
-            frames) and are no unknown keys.
+            frames) and are not unknown keys.
     """
 
     name: str
@@ -101,12 +101,12 @@ class Property:
         )
 
     def read(self, node: Node | None, report: Report = silent) -> Any:
-        """Read the property's own value by RViz's rules (spec/rviz-core.md §1.3–1.4).
+        """Read the property's own value by RViz's rules.
 
         Args:
             node: what stands under its name in the file: a scalar, or a map whose
                 "Value" is the value; None when there is nothing.
-            report: told of everything doubtful.
+            report: called with everything doubtful.
 
         Returns:
             The value, or None when the file gives no usable one and the default holds.
@@ -145,11 +145,11 @@ class Property:
         return value if limit is None or value <= limit else limit
 
     def write(self, value: Any) -> str:
-        """The text of a value, exactly as RViz saves it (§1.12)."""
+        """The text of a value, exactly as RViz saves it."""
         return str(value)
 
     def show(self, value: Any) -> str:
-        """The text of a value for people, with few digits (§9.1)."""
+        """The text of a value for people, with few digits."""
         return self.write(value)
 
     def components(self, value: Any) -> dict[str, str] | None:

@@ -1,4 +1,4 @@
-"""Colours as RViz reads and writes them (spec/rviz-core.md §1.3).
+"""Colours as RViz reads and writes them.
 
 In a file "r; g; b" with integers 0 to 255, a name of SVG 1.0, or "#" and hex digits as
 Qt understands them; in the program always (r, g, b) with integers 0 to 255.

@@ -37,7 +37,7 @@ def parse_float(text: str) -> float | None:
 def parse_german(text: str) -> float | None:
     """A number with a decimal comma and points between thousands, or None.
 
-    RViz reads the parts of vectors so, too (spec/rviz-core.md §1.3).
+    RViz reads the parts of vectors so, too.
     """
     if len(text) > 400 or _GERMAN.fullmatch(text) is None:
         return None
@@ -53,7 +53,7 @@ def float32(value: float) -> float:
 
 
 def float_text(value: float) -> str:
-    """A number as RViz saves it (spec/rviz-core.md §1.12).
+    """A number as RViz saves it.
 
     The number is rounded to 32 bits and its shortest 64-bit text is written: 0.1
     becomes "0.10000000149011612", 10 stays "10". Large round numbers have an exponent

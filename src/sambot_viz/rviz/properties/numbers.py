@@ -1,4 +1,4 @@
-"""Booleans, integers and floats (spec/rviz-core.md §1.3)."""
+"""Booleans, integers and floats."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class BoolProperty(Property):
     """True or false.
 
     RViz takes "", "0" and "false" for false and all else for true; "no" and "off" are
-    taken here as they are meant, with a warning (§12, 13).
+    taken here as they are meant, with a warning.
     """
 
     default: bool = False
@@ -117,7 +117,7 @@ class IntProperty(_NumberProperty):
     """An integer of 32 bits, clamped to its limits.
 
     A whole number written as a float ("10.0") is taken as such; RViz reads it as 0 and
-    clamps that (§12, 14).
+    clamps that.
     """
 
     default: int = 0
@@ -204,12 +204,12 @@ class FloatProperty(_NumberProperty):
 
 
 def finite_number(value: object) -> float | None:
-    """A finite number; booleans are none, numpy's numbers are."""
+    """A finite number; booleans are not, numpy's numbers are."""
     if isinstance(value, (bool, str, bytes)) or not hasattr(value, "__float__"):
         return None
     try:
         number = float(cast(SupportsFloat, value))
     except (TypeError, ValueError, OverflowError):
-        # Arrays look like numbers and are none.
+        # Arrays look like numbers and are not numbers.
         return None
     return number if math.isfinite(float32(number)) else None

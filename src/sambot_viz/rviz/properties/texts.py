@@ -165,7 +165,7 @@ QOS_PROPERTIES: tuple[Property, ...] = (
         support="none",
     ),
 )
-"""The quality of service below a topic, in RViz's order (§1.7); kept for RViz."""
+"""The quality of service below a topic, in RViz's order; kept for RViz."""
 
 FILTER_SIZE = IntProperty(
     "Filter size",
@@ -174,7 +174,7 @@ FILTER_SIZE = IntProperty(
     help="How many messages wait for their transform.",
     support="none",
 )
-"""One more child of the topics of displays that wait for transforms (§1.7)."""
+"""One more child of the topics of displays that wait for transforms."""
 
 
 @dataclass(frozen=True)

@@ -57,7 +57,7 @@ class VectorProperty(Property):
     keys: tuple[str, ...] = ("X", "Y", "Z")
 
     def read(self, node: Node | None, report: Report = silent) -> Any:
-        """See `Property.read`; all components must be there (§1.3)."""
+        """See `Property.read`; all components must be there."""
         if node is None or (isinstance(node, Scalar) and node.null):
             return None
         texts = [_component(node, key) for key in self.keys]

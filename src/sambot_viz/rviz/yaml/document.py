@@ -49,7 +49,7 @@ class Document:
         """Read a file.
 
         Raises:
-            ConfigError: the file cannot be read, or is no .rviz document.
+            ConfigError: the file cannot be read, or is not a .rviz document.
         """
         name = os.fspath(path)
         try:
@@ -162,7 +162,7 @@ def _reads_as(text: str, root: Node) -> bool:
 def _not_rviz(file: str | None) -> ConfigError:
     return _error(
         "config-not-rviz",
-        "this YAML is no .rviz document: 'Visualization Manager' is missing",
+        "this YAML is not a .rviz document: 'Visualization Manager' is missing",
         "give a file that RViz has saved, or one with the same structure",
         file,
         1,

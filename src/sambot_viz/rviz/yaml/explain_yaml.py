@@ -67,8 +67,7 @@ def explain_yaml(
         file: the path as the user wrote it.
 
     Returns:
-        A problem of severity "error". RViz itself shows nothing at all in this case
-        (spec/rviz-core.md §12, 15).
+        A problem of severity "error". RViz itself shows nothing at all in this case.
     """
     cause = _Slip(text, error).cause()
     return Problem(

@@ -1,7 +1,7 @@
 """The tree of a YAML document as RViz sees it: maps, lists and text.
 
-RViz knows no numbers and no booleans in a file, only text; null is "nothing given"
-(spec/rviz-core.md §1.2). Every node read from a file remembers its place in the text,
+RViz knows no numbers and no booleans in a file, only text; null is "nothing given".
+Every node read from a file remembers its place in the text,
 so that a save changes just what was changed.
 """
 
@@ -146,7 +146,7 @@ class Collection:
 
 @dataclass(eq=False, slots=True)
 class Map(Collection):
-    """A map; where a key stands twice, the later one holds (§1.2)."""
+    """A map; where a key is given twice, the later one counts."""
 
     def entry(self, key: str) -> Entry | None:
         """The entry that holds for a key."""
@@ -248,7 +248,7 @@ def _copied_entries(node: Map | List) -> list[Entry]:
 def same(first: Node, second: Node) -> bool:
     """Whether two nodes say the same, whatever the way they are written.
 
-    An empty list and a null are the same: RViz writes "~" for both (§1.12).
+    An empty list and a null are the same: RViz writes "~" for both.
     """
     if _is_nothing(first) or _is_nothing(second):
         return _is_nothing(first) and _is_nothing(second)

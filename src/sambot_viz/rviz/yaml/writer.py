@@ -1,8 +1,8 @@
 """Nodes → YAML text: what is unchanged stays as it stands in the file.
 
 Comments, the order of keys, quotes and blank lines survive, because only the changed
-pieces of the old text are replaced. What is new is written as RViz writes it
-(spec/rviz-core.md §1.12): block style, indented by 2, dashes below their key.
+pieces of the old text are replaced. What is new is written as RViz writes it:
+block style, indented by 2, dashes below their key.
 """
 
 from __future__ import annotations
