@@ -177,7 +177,7 @@ def test_a_box_inertia_agrees_with_a_box_of_many_small_pieces() -> None:
     assert diagonal == pytest.approx([15 * float(s) for s in sums], rel=1e-3)
 
 
-def test_mbot_stands_on_the_ground_with_lidar_and_camera() -> None:
+def test_the_wheels_of_mbot_touch_the_ground() -> None:
     robot = expand(bundled.model_path("mbot.urdf.xacro"))
     assert robot.get("name") == "mbot"
     assert list(links(robot)) == [

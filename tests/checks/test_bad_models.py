@@ -97,7 +97,7 @@ def test_every_model_of_the_collection_is_expected_here(shared: Path) -> None:
 
 
 @pytest.mark.parametrize("name", CAUSES)
-def test_a_bad_model_is_told_its_cause_its_line_and_its_mend(
+def test_a_bad_model_is_explained_with_its_cause_its_line_and_its_fix(
     shared: Path, name: str
 ) -> None:
     entry = entries(shared)[name]
@@ -118,11 +118,13 @@ def test_a_bad_model_is_told_its_cause_its_line_and_its_mend(
 
 
 @pytest.mark.parametrize("name", ["_good.urdf", "_good.urdf.xacro"])
-def test_a_good_model_gives_nothing_to_say(shared: Path, name: str) -> None:
+def test_a_good_model_has_no_problems(shared: Path, name: str) -> None:
     assert check(shared / "data" / "bad-models" / name) == []
 
 
-def test_the_first_seed_is_told_where_its_robot_ends_too_early(shared: Path) -> None:
+def test_the_first_seed_names_the_line_where_its_robot_ends_too_early(
+    shared: Path,
+) -> None:
     model = shared / "data" / "seed" / "robot_closed_too_early.urdf.xacro"
 
     (problem,) = check(model)

@@ -51,7 +51,7 @@ def checked(tmp_path: Path, robot: Robot) -> Checked:
     return run
 
 
-def test_a_config_that_fits_gives_nothing_to_say(checked: Checked) -> None:
+def test_a_config_that_fits_has_no_problems(checked: Checked) -> None:
     assert checked(GOOD) == []
 
 
@@ -99,7 +99,7 @@ def test_a_display_in_a_group_is_found(checked: Checked) -> None:
         (GOOD.replace("/RobotModel", "/Grid"), "missing"),
     ],
 )
-def test_a_config_without_a_robot_model_is_told(
+def test_a_config_without_a_robot_model_is_reported(
     checked: Checked, text: str, said: str
 ) -> None:
     (problem,) = checked(text)
@@ -129,7 +129,7 @@ def test_the_bad_configs_of_the_collection_are_explained(
     assert word in problem.message
 
 
-def test_a_launch_file_in_which_nobody_publishes_joints_is_explained(
+def test_a_launch_file_in_which_no_node_publishes_joints_is_explained(
     shared: Path, robot: Robot
 ) -> None:
     folder = shared / "data" / "bad-models" / "launch"
@@ -180,7 +180,7 @@ def test_setup_py_and_package_xml_have_to_agree(shared: Path) -> None:
     assert check_package(folder) == [problem]
 
 
-def test_a_launch_file_that_is_no_python_gives_nothing(tmp_path: Path) -> None:
+def test_a_launch_file_that_is_not_python_has_no_problems(tmp_path: Path) -> None:
     file = tmp_path / "x.launch.py"
     file.write_text("def (")
 

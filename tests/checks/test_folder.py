@@ -59,7 +59,7 @@ def test_model_config_and_setup_py_are_checked_together(
     assert {"setup-fixed-frame", "setup-py-name"} <= codes
 
 
-def test_a_config_that_is_none_is_told_with_the_rest(
+def test_a_file_that_is_not_a_config_is_reported_with_the_rest(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "rviz/my_bot.rviz").write_text("a: [\n")
@@ -69,7 +69,7 @@ def test_a_config_that_is_none_is_told_with_the_rest(
     assert any(code.startswith("config-") for code in codes)
 
 
-def test_a_model_that_cannot_be_loaded_is_told_with_the_rest(
+def test_a_model_that_cannot_be_loaded_is_reported_with_the_rest(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     model = package / "urdf/my_bot.urdf"

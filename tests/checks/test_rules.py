@@ -18,7 +18,7 @@ TWO_LINKS = '<link name="a"/>\n<link name="b"/>\n'
 
 @pytest.fixture
 def checked(tmp_path: Path) -> Checked:
-    """Checks a robot with these lines behind <robot …>; says one code or all."""
+    """Checks a robot with these lines after <robot …>; returns one code or all."""
 
     def run(body: str, code: str = "", name: str = "r.urdf") -> list[Problem]:
         file = tmp_path / name
@@ -286,7 +286,7 @@ def test_the_inertia_of_a_real_body_is_accepted(checked: Checked) -> None:
         ("1", (5, 0, 0, 1, 0, 1), "larger than the sum"),
     ],
 )
-def test_an_impossible_inertia_is_told_why(
+def test_an_impossible_inertia_is_reported_with_the_reason(
     checked: Checked, mass: str, inertia: tuple[float, ...], said: str
 ) -> None:
     names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -398,7 +398,7 @@ def test_errors_come_first_then_warnings_then_notes(checked: Checked) -> None:
     ]
 
 
-def test_a_model_that_is_not_there_is_a_problem_and_no_exception(
+def test_a_model_that_is_not_there_is_a_problem_and_not_an_exception(
     tmp_path: Path,
 ) -> None:
     (problem,) = check(tmp_path / "nothing.urdf")

@@ -1,4 +1,4 @@
-"""What the checks find is told in the page, after the robot is shown."""
+"""What the checks find is listed in the page, after the robot is shown."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from protocol_client import ProtocolClient
+from protocol_client import ProtocolClient, wait_for_workers
 
 from sambot_viz import Visualizer, load_robot
 from sambot_viz.session import Session
@@ -57,7 +57,7 @@ def codes(viz: Visualizer) -> list[str]:
     return [problem.code for problem in session_of(viz).problems]
 
 
-def test_what_will_bite_later_is_told_of_the_robot_that_is_shown(model: Path) -> None:
+def test_problems_of_the_robot_that_is_shown_are_listed(model: Path) -> None:
     with Visualizer(model, port=0) as viz:
         assert codes(viz) == ["limit-in-degrees"]
         model.write_text(MODEL.replace("90", "1"))
@@ -65,7 +65,7 @@ def test_what_will_bite_later_is_told_of_the_robot_that_is_shown(model: Path) ->
         assert codes(viz) == []
 
 
-def test_a_fixed_frame_that_does_not_exist_is_told_until_another_is_chosen(
+def test_a_fixed_frame_that_does_not_exist_is_reported_until_another_is_chosen(
     model: Path, config: Path
 ) -> None:
     with Visualizer(model, config, port=0) as viz:
@@ -75,7 +75,7 @@ def test_a_fixed_frame_that_does_not_exist_is_told_until_another_is_chosen(
         assert codes(viz) == ["limit-in-degrees"]
 
 
-def test_a_fixed_frame_that_a_static_transform_brings_is_no_fault(
+def test_a_fixed_frame_that_a_static_transform_brings_is_not_a_problem(
     model: Path, config: Path
 ) -> None:
     with Visualizer(model, config, port=0) as viz:
@@ -83,10 +83,25 @@ def test_a_fixed_frame_that_a_static_transform_brings_is_no_fault(
         assert codes(viz) == ["limit-in-degrees"]
 
 
-def test_a_private_session_is_told_the_same(
+def test_a_private_session_lists_the_same(
     model: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:
     with Visualizer(model, port=0, session="private") as viz:
         client = protocol(viz.viser.get_port())
         client.settle(viz.viser)
         assert codes(viz) == ["limit-in-degrees"]
+
+
+def test_a_mesh_in_millimetres_is_reported_when_the_picture_has_read_it(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "p.obj").write_text("v 0 0 0\nv 250 0 0\nv 0 120 40\nf 1 2 3\n")
+    model = tmp_path / "r.urdf"
+    model.write_text(
+        '<robot name="r"><link name="base_link"><visual><geometry>'
+        '<mesh filename="p.obj"/></geometry></visual></link></robot>'
+    )
+    with Visualizer(model, port=0) as viz:
+        assert session_of(viz).context.assets.wait(20)
+        wait_for_workers()
+        assert codes(viz) == ["mesh-size"]

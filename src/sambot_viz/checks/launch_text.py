@@ -22,6 +22,7 @@ from sambot_viz.robot.packages.package_index import package_name
 _DESCRIPTION = "robot_description"
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
 _BETWEEN_TAGS = re.compile(r">\s+<")
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MOST_FOLDERS_UP = 4
 _SHORTEST_WORDS = 4
 
@@ -90,14 +91,9 @@ def _words_that_stop_yaml(urdf: str) -> str | None:
     """The words at which YAML fails, without tags; None when it reads a plain text."""
     # xacro writes its own line breaks and indentation between tags.
     urdf = _BETWEEN_TAGS.sub(">\n<", urdf)
-    try:
-        if isinstance(yaml.safe_load(urdf), str):
-            return None
-    except yaml.YAMLError:
-        pass
     trap = _TRAP.search(urdf)
-    if trap is None:
-        return ""
+    if trap is None or _is_text_in_yaml(urdf):
+        return None
     start = urdf.rfind("\n", 0, trap.start()) + 1
     line = urdf[start:].split("\n", 1)[0]
     reached = 0
@@ -106,6 +102,14 @@ def _words_that_stop_yaml(urdf: str) -> str | None:
         if reached >= trap.start() - start:
             return part.strip()
     return line.strip()
+
+
+def _is_text_in_yaml(text: str) -> bool:
+    """Whether YAML reads it as one plain text, as launch then does."""
+    try:
+        return isinstance(yaml.load(text, Loader=_LOADER), str)
+    except yaml.YAMLError:
+        return False
 
 
 def _place(files: tuple[str, ...], words: str) -> Place | None:

@@ -47,7 +47,7 @@ def test_the_models_own_package_is_found_by_walking_up(workspace: Path):
     assert index(workspace).find("robot_description").path == own
 
 
-def test_a_missing_package_tells_where_it_was_sought_and_what_was_there(
+def test_a_missing_package_names_where_it_was_searched_and_what_is_there(
     workspace: Path,
 ):
     lookup = index(workspace).find("gripper")
@@ -155,14 +155,14 @@ def test_web_addresses_are_never_fetched(workspace: Path):
     assert found.searched == ("http addresses are not fetched",)
 
 
-def test_a_file_being_included_is_no_answer(tmp_path: Path):
+def test_a_file_being_included_is_not_an_answer(tmp_path: Path):
     own = write(tmp_path / "description" / "ros2_control" / "x.xacro")
     relative = Path("ros2_control/x.xacro")
     assert inside_package(tmp_path, relative, ()) == own
     assert inside_package(tmp_path, relative, {str(own)}) is None
 
 
-def test_two_files_that_differ_only_in_case_are_no_answer(tmp_path: Path):
+def test_two_files_that_differ_only_in_case_are_not_an_answer(tmp_path: Path):
     write(tmp_path / "arm.stl")
     write(tmp_path / "ARM.stl")
     assert other_letter_case(tmp_path / "Arm.stl") is None
