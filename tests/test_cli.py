@@ -248,3 +248,20 @@ def test_a_package_folder_shows_its_own_model_and_config(
 
     found = find(package)
     assert (found.model, found.config) == (model, package / "rviz" / "view.rviz")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["check", "LONG"], "no model '"),
+        (["frames", "LONG.urdf"], "no model '"),
+        (["-d", "LONG.rviz", "--port", "0"], "no config '"),
+        (["frames", "-o", "LONG.svg"], "File name too long"),
+    ],
+)
+def test_a_name_that_no_file_system_takes_is_one_clear_line(
+    words: list[str], said: str, capsys: Capture
+) -> None:
+    assert main([word.replace("LONG", "a" * 300) for word in words]) == 2
+    err = capsys.readouterr().err
+    assert said in err and "internal error" not in err

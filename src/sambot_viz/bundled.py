@@ -10,6 +10,7 @@ launch/.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -129,11 +130,12 @@ def find(model: Path | None, config: Path | None = None) -> Found:
     Raises:
         UsageError: nothing there, or several models and none the obvious one.
     """
-    if config is not None and not config.is_file():
+    # os.path answers for names that no file system takes; Path raises OSError.
+    if config is not None and not os.path.isfile(config):
         raise UsageError(_missing("config", config))
     if model is None:
         return Found(model_path(), config)
-    if not model.exists():
+    if not os.path.exists(model):
         raise UsageError(_missing("model", model))
     if not model.is_dir():
         return Found(model, config)

@@ -47,7 +47,7 @@ def test_lit_faces_background_and_names_have_rvizs_colours(
     viewer.wait_for("window.sambotVizLook?.labels === 5")
     viewer.wait_until_drawn()
     pixels = viewer.pixels()
-    # The numbers are RViz's own (spec/rviz-core.md §10 N-19); without the script
+    # The numbers are RViz's own; without the script
     # faces are far lighter.
     assert shares(pixels, TOP) > 0.01
     assert shares(pixels, SIDE) > 0.01

@@ -1,4 +1,4 @@
-"""``sambot-viz echo`` beside tf2_echo (spec/ros-nodes.md §4.2)."""
+"""``sambot-viz echo`` beside tf2_echo."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def test_frames_of_separate_trees_end_with_1_and_say_what_is_missing(
     assert "no transform joins the two" in err
 
 
-def test_a_floating_joint_is_told_as_the_reason(
+def test_a_floating_joint_is_given_as_the_reason(
     tmp_path: Path, capsys: Capture
 ) -> None:
     model = tmp_path / "floating.urdf"
@@ -132,3 +132,20 @@ def test_a_ring_of_frames_is_refused_with_a_reason(capsys: Capture) -> None:
     added = ["--static-transform", "0 0 0 0 0 0 front_caster base_link"]
     assert main(["echo", "base_link", "front_caster", *added]) == 1
     assert "would form a ring" in capsys.readouterr().err
+
+
+def test_a_mimic_joint_that_disagrees_is_a_warning(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    model = tmp_path / "r.urdf"
+    model.write_text(
+        '<robot name="r"><link name="a"/><link name="b"/><link name="c"/>'
+        '<joint name="lead" type="continuous"><parent link="a"/><child link="b"/>'
+        '</joint><joint name="tail" type="continuous"><parent link="b"/>'
+        '<child link="c"/><mimic joint="lead"/></joint></robot>'
+    )
+    words = ["echo", str(model), "a", "c", "--joint", "lead=0.5"]
+    assert main([*words, "--joint", "tail=0.5"]) == 0
+    assert capsys.readouterr().err == ""
+    assert main([*words, "--joint", "tail=0.1"]) == 0
+    assert "joint 'tail' was given 0.1, but it mimics 'lead'" in capsys.readouterr().err

@@ -39,6 +39,8 @@ def test_another_ending_is_a_usage_error_that_says_how_to_get_a_pdf(
     assert "dot -Tpdf" in capsys.readouterr().err
 
 
-def test_a_file_that_cannot_be_written_is_told(tmp_path: Path, capsys: Capture) -> None:
+def test_a_file_that_cannot_be_written_is_reported(
+    tmp_path: Path, capsys: Capture
+) -> None:
     assert main(["frames", "-o", str(tmp_path / "none" / "tree.svg")]) == 2
     assert "cannot write" in capsys.readouterr().err

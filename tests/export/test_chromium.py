@@ -1,4 +1,4 @@
-"""What is said when the browser does not start, and that nothing is left behind."""
+"""What is reported when the browser does not start, and that nothing is left behind."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_a_file_that_is_no_program_is_said_so(tmp_path: Path, profiles: Path) ->
 
 
 @posix
-def test_an_address_that_nobody_serves_is_an_error(
+def test_an_address_without_a_server_is_an_error(
     tmp_path: Path, profiles: Path
 ) -> None:
     # Port 9 of this machine is closed as far as any machine has one.

@@ -47,7 +47,7 @@ def test_a_wrong_environment_variable_is_an_error_not_another_browser(
         find_browser(environment)
     assert isinstance(error.value, ServerError)
     assert str(error.value) == (
-        "SAMBOT_VIZ_BROWSER is 'chromum', which is no program here; "
+        "SAMBOT_VIZ_BROWSER is 'chromum', which is not a program here; "
         "give the path of a Chromium or Chrome, or unset it"
     )
 
@@ -86,7 +86,7 @@ def test_windows_and_mac_keep_browsers_outside_path(
         ("freebsd", "install one"),
     ],
 )
-def test_every_system_is_told_how_to_get_one(
+def test_every_system_gets_its_own_advice(
     platform: str, part: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys, "platform", platform)

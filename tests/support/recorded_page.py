@@ -122,7 +122,7 @@ class RecordedPage(BrowserPage):
                 pass
 
     def _record_request(self, request: str, url: str) -> None:
-        # What the page carries within itself is no request, and can be very long.
+        # What the page carries within itself is not a request, and can be very long.
         if not url.startswith(("data:", "blob:")):
             self._urls_by_request[request] = url
             self.requests.append(url)

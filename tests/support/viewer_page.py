@@ -131,7 +131,7 @@ class ViewerPage:
     def wait_for_pose(
         self, name: str, T_parent_node: Matrix, parent: str = "", atol: float = 1e-4
     ) -> None:
-        """Wait until a node stands in three.js where it should."""
+        """Wait until a node is where it should be in three.js."""
         # three.js keeps matrices column by column.
         wanted = [
             float(T_parent_node[row, col]) for col in range(4) for row in range(4)
@@ -246,7 +246,7 @@ class ViewerPage:
         self.page.mouse.drag((x, y), (left + fraction * (right - left), y))
 
     def enter(self, label: str, text: str) -> None:
-        """Replace what stands in the input field with this label, then leave it."""
+        """Replace the text of the input field with this label, then leave it."""
         widget = self._widget(label)
         self.page.wait_for(widget)
         self.page.evaluate(f"(w => {{ w.focus(); w.select(); }})({widget})")

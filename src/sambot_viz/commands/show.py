@@ -54,10 +54,12 @@ def run(words: list[str]) -> int:
         _announce(url_of(server), given.open)
         if not only_this_machine(options.host):
             sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
+        from sambot_viz.commands.posed_frames import start_state
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer.of_inputs(inputs, server):
             problem_text.write(inputs.robot().problems, model=options.model)
+            start_state(inputs.robot(), options)
             stop.wait()
     finally:
         close(server)

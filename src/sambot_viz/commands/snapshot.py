@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz import problem_text
 from sambot_viz.commands.command_line import Parser, parse, warn
+from sambot_viz.commands.posed_frames import start_state
 from sambot_viz.errors import UsageError
 from sambot_viz.files import write_atomically
 from sambot_viz.inputs import Inputs
@@ -28,6 +30,7 @@ def run(words: list[str]) -> int:
     output = _output(given.output)
     inputs = Inputs(options)
     problem_text.write(inputs.robot().problems, model=options.model)
+    start_state(inputs.robot(), options)
 
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import snapshot
@@ -81,7 +84,7 @@ def _output(text: str) -> Path:
     path = Path(text)
     if path.suffix.lower() != ".png":
         raise UsageError(f"-o {text}: only PNG files can be written; name it FILE.png")
-    if path.is_dir():
+    if os.path.isdir(path):
         raise UsageError(f"-o {text} is a folder; name a file in it")
     if not path.parent.is_dir():
         raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")

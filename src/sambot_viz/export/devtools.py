@@ -1,8 +1,8 @@
 """The DevTools protocol: one websocket to a browser, calls with answers, and events.
 
 Only what a snapshot and a browser test need; everything about one page is in
-`browser_page`. A thread reads the socket, so that events are recorded while nobody
-asks for anything.
+`browser_page`. A thread reads the socket, so that events are recorded while
+no call waits for an answer.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class DevTools:
             timeout: how long a call may take at most [s].
 
         Raises:
-            BrowserError: nobody answers at this address.
+            BrowserError: there is no answer at this address.
         """
         # The import is late because most commands never start a browser.
         from websockets.exceptions import WebSocketException

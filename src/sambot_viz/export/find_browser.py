@@ -60,7 +60,7 @@ def find_browser(environment: Mapping[str, str] = os.environ) -> Path | None:
         found = shutil.which(wanted, path=path)
         if found is None:
             raise BrowserError(
-                f"{ENVIRONMENT_VARIABLE} is '{wanted}', which is no program here; "
+                f"{ENVIRONMENT_VARIABLE} is '{wanted}', which is not a program here; "
                 "give the path of a Chromium or Chrome, or unset it"
             )
         return Path(found)

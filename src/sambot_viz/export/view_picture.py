@@ -66,7 +66,7 @@ def snapshot(
         while time.monotonic() < end:
             # viser draws a picture's background where the page's own camera is, and
             # nothing beyond 1000 m: the page itself must stand there. A page that was
-            # just opened may report its first camera after it was told another.
+            # just opened may report its first camera after another one was set.
             if standing is None or not np.allclose(
                 _place(client), standing, rtol=1e-4, atol=1e-3
             ):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import cast
@@ -29,7 +30,7 @@ class Presets:
     def __init__(self, path: Path | None = None) -> None:
         self.path = path
         self._poses: dict[str, Pose] = {}
-        if path is not None and path.exists():
+        if path is not None and os.path.exists(path):
             self._poses = _load(path)
 
     def in_memory(self) -> Presets:

@@ -6,6 +6,7 @@ nothing else, because whoever can open the page can press the buttons.
 
 from __future__ import annotations
 
+import os
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
@@ -127,7 +128,7 @@ class ConfigFile:
             raise UsageError(f"give a name of at most {LONGEST_NAME} bytes")
         target = self.target
         path = (Path.cwd() if target is None else target.parent) / name
-        if path != target and path.exists():
+        if path != target and os.path.exists(path):
             raise UsageError(f"{name} exists already; choose another name")
         return path
 
