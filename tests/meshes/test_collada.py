@@ -1,7 +1,4 @@
-"""COLLADA as RViz shows it.
-
-spec/rviz-core.md §5.5 and §5.6, spec/real-files.md §2 rows 13 to 15.
-"""
+"""COLLADA as RViz shows it, damaged files included."""
 
 from __future__ import annotations
 
@@ -105,7 +102,9 @@ def test_a_unit_that_makes_no_sense_is_one_metre_with_a_warning(
     mesh = read_mesh(write("a.dae", collada(asset=f'<unit meter="{meter}"/>')))
     assert np.allclose(mesh.bounds, [[0, 0, 0], [2, 1, 0]])
     assert codes(mesh) == ["mesh-unit-invalid"]
-    assert f'<unit meter="{meter}"> is no positive number' in mesh.problems[0].message
+    assert (
+        f'<unit meter="{meter}"> is not a positive number' in mesh.problems[0].message
+    )
 
 
 def test_node_transforms_are_applied_in_the_order_of_the_document(write: Write) -> None:

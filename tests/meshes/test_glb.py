@@ -1,4 +1,4 @@
-"""The GLB writer, read back by somebody else's reader and by ours."""
+"""The GLB writer, read back by another reader and by ours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""glTF and GLB as RViz shows them: spec/rviz-core.md §5.5, §5.6."""
+"""glTF and GLB as RViz shows them."""
 
 from __future__ import annotations
 
@@ -261,3 +261,18 @@ def test_vertices_that_no_file_shares_are_shared(write: Write) -> None:
     binary = soup.tobytes() + NORMALS[[0] * 6].tobytes()
     (part,) = read_mesh(write("a.glb", glb(content, binary))).parts
     assert len(part.faces) == 2 and len(part.vertices) == 4
+
+
+@pytest.mark.parametrize(
+    ("factor", "shown"),
+    [([0, 0.8, 0.5], (0.2, 0.8, 1)), (["x"], (0.2, 0, 0.75)), (3, (0.2, 0, 0.75))],
+)
+def test_emission_adds_to_the_base_colour(
+    write: Write, factor: object, shown: tuple[float, float, float]
+) -> None:
+    pbr = {"baseColorFactor": [0.2, 0, 0.75, 1]}
+    material = {"pbrMetallicRoughness": pbr, "emissiveFactor": factor}
+    content = document(materials=[material])
+    content["meshes"][0]["primitives"][0]["material"] = 0
+    mesh = read_mesh(write("a.glb", glb(content)))
+    assert mesh.parts[0].rgba == (*shown, 1)

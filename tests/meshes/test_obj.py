@@ -1,4 +1,4 @@
-"""OBJ and MTL as RViz shows them: spec/rviz-core.md §5.6."""
+"""OBJ and MTL as RViz shows them."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ def codes(mesh: Mesh) -> list[str]:
 )
 def test_faces_are_read_however_they_are_written(write: Write, faces: str) -> None:
     mesh = read_mesh(write("a.obj", SQUARE + faces + "\n"))
-    (part,) = mesh.parts
-    a, b, c = part.vertices[part.faces].transpose(1, 0, 2)
+    triangles = np.concatenate([part.vertices[part.faces] for part in mesh.parts])
+    a, b, c = triangles.transpose(1, 0, 2)
     assert mesh.triangles == 2
     assert np.allclose(np.cross(b - a, c - a).sum(axis=0), [0, 0, 4])
-    assert part.rgba == (0.6, 0.6, 0.6, 1.0)
+    assert {part.rgba for part in mesh.parts} == {(0.6, 0.6, 0.6, 1.0)}
     assert mesh.problems == ()
 
 
@@ -123,7 +123,39 @@ def test_indices_that_point_nowhere_are_left_out(write: Write) -> None:
 
 
 def test_lines_that_are_no_numbers_are_said(write: Write) -> None:
-    with pytest.raises(MeshError, match="an index that is no whole number"):
+    with pytest.raises(MeshError, match="an index that is not a whole number"):
         read_mesh(write("a.obj", SQUARE + "f a b c\n"))
     mesh = read_mesh(write("b.obj", SQUARE + "v x y z\nf 1 2 3\nf 1 2 5\n"))
     assert mesh.triangles == 1 and "mesh-geometry-broken" in codes(mesh)
+
+
+MIXED = (
+    "mtllib a.mtl\nusemtl a\n" + SQUARE + "v 0 0 -1\nv 1 0 -1\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+    "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 1 5 6 2\n"
+)
+
+
+def test_a_face_without_uv_and_normals_leaves_those_of_the_other_faces(
+    write: Write, png: Callable[..., bytes]
+) -> None:
+    write("a.png", png())
+    write("a.mtl", "newmtl a\nKd 1 1 1\nmap_Kd a.png\n")
+    mesh = read_mesh(write("a.obj", MIXED))
+    smooth = next(part for part in mesh.parts if part.normals is not None)
+    flat = next(part for part in mesh.parts if part.normals is None)
+    assert smooth.texture is not None and len(smooth.faces) == len(flat.faces) == 2
+    assert smooth.uv is not None and {tuple(row) for row in smooth.uv.tolist()} == {
+        (0, 0),
+        (1, 0),
+        (1, 1),
+        (0, 1),
+    }
+    # As in Assimp, the corners without uv take the image at (0, 0).
+    assert flat.uv is not None and not np.any(flat.uv)
+
+
+def test_emission_adds_to_the_diffuse_colour(write: Write) -> None:
+    write("a.mtl", "newmtl a\nKe 0 0.8 0.5\nKd 0.2 0 0.75\nd 0.5\n")
+    mesh = read_mesh(write("a.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE + "f 1 2 3\n"))
+    assert mesh.parts[0].rgba == (0.2, 0.8, 1.0, 0.5)

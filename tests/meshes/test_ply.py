@@ -1,4 +1,4 @@
-"""PLY as RViz shows it: spec/rviz-core.md §5.6."""
+"""PLY as RViz shows it."""
 
 from __future__ import annotations
 

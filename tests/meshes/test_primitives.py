@@ -1,4 +1,4 @@
-"""The unit shapes against the figures in spec/rviz-core.md §5.5."""
+"""The unit shapes against the figures of RViz's own meshes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said about files that are no meshes."""
+"""What is said about files that are not meshes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:abc\nsize 12\n
         ("a.obj", "# nothing\n", "mesh-empty", "no triangles"),
         ("a.glb", b"glTF\2\0", "mesh-broken", "only 6 bytes"),
         ("a.gltf", "{", "mesh-broken", "its JSON cannot be read"),
-        ("a.gltf", "[]", "mesh-broken", "its JSON is no object"),
+        ("a.gltf", "[]", "mesh-broken", "its JSON is not an object"),
         ("a.ply", "plx", "mesh-broken", "no PLY header"),
     ],
 )

@@ -78,7 +78,7 @@ def colours(mesh: Mesh) -> list[tuple[float, ...]]:
 
 
 def test_the_pr2_base_has_the_size_rviz_tests_for(shared: Path) -> None:
-    """M-02 of spec/rviz-core.md §10."""
+    """RViz draws the file with its own unit."""
     found = list((shared / "data" / "robots").rglob("pr2-base.dae"))
     if not found:
         pytest.skip("the collection has no pr2-base.dae")

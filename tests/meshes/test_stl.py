@@ -1,4 +1,4 @@
-"""STL as RViz reads it: spec/rviz-core.md §10, M-03 to M-05."""
+"""STL as RViz reads it."""
 
 from __future__ import annotations
 
@@ -103,7 +103,10 @@ def test_triangles_with_corners_that_are_no_numbers_are_left_out(
     mesh = read_mesh(write("a.stl", binary_stl(bad)))
     assert mesh.triangles == 1
     assert [problem.code for problem in mesh.problems] == ["mesh-vertex-not-finite"]
-    assert "1 triangles have a corner that is no number" in mesh.problems[0].message
+    assert (
+        "1 triangles have a corner that is not a finite number"
+        in mesh.problems[0].message
+    )
 
 
 def test_a_mesh_without_any_usable_triangle_is_refused_with_the_cause(

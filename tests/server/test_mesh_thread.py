@@ -180,11 +180,11 @@ class Waiting:
     def __init__(self, fails: bool = False) -> None:
         self.heard: list[frozenset[Asset]] = []
         self.fails = fails
-        self.told = threading.Event()
+        self.called = threading.Event()
 
     def arrived(self, assets: frozenset[Asset]) -> None:
         self.heard.append(assets)
-        self.told.set()
+        self.called.set()
         if self.fails:
             raise ZeroDivisionError("a session failed")
 
@@ -199,7 +199,7 @@ def test_all_listeners_of_a_file_are_called_and_none_after_the_end(
     for listener in (one, two, two):
         thread.request(asset, listener)
     cache.let(1)
-    assert one.told.wait(20) and two.told.wait(20)
+    assert one.called.wait(20) and two.called.wait(20)
     assert one.heard == two.heard == [{asset}]
     thread.close()
     cache.let(1)
@@ -216,9 +216,9 @@ def test_a_listener_that_fails_ends_neither_the_thread_nor_the_others(
     cache.let(10)
     for number in range(3):
         for listener in (bad, good):
-            listener.told.clear()
+            listener.called.clear()
             thread.request(Asset("mesh", tmp_path / f"{number}.stl"), listener)
-        assert bad.told.wait(20) and good.told.wait(20)
+        assert bad.called.wait(20) and good.called.wait(20)
     thread.close()
     assert errors and {str(error) for error in errors} == {"a session failed"}
 

@@ -1,7 +1,7 @@
 """A small GLB writer: one primitive per part, the texture's own bytes inside.
 
 Written by hand because the general one decodes and encodes every texture again for
-every part, which takes seconds (spec/real-files.md row 7).
+every part, which takes seconds.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from sambot_viz.meshes.mesh import WHITE, Mesh, MeshPart, Texture
 _FLOAT, _UINT32, _UINT16 = 5126, 5125, 5123
 _VERTICES, _INDICES = 34962, 34963
 _OPAQUE = 0.9998
-"""From this alpha on RViz draws without blending (spec/rviz-core.md §8.4)."""
+"""From this alpha on RViz draws without blending."""
 
 
 def to_glb(

@@ -1,10 +1,9 @@
 """The unit shapes that RViz draws boxes, cylinders, spheres and arrow heads with.
 
 All of them are flat shaded and have diameter and height 1, so that a URDF shape is
-its unit shape scaled: box (x, y, z), cylinder (2r, 2r, length), sphere (2r, 2r, 2r)
-(spec/rviz-core.md §5.5). The axis of cylinder, cone and sphere is z, as URDF has it.
-Texture coordinates follow what the pictures of the real RViz show (golden case
-"texture"); v points up the image (0 is its bottom edge).
+its unit shape scaled: box (x, y, z), cylinder (2r, 2r, length), sphere (2r, 2r, 2r).
+The axis of cylinder, cone and sphere is z, as in URDF. Texture coordinates follow
+what pictures of the real RViz show; v points up the image (0 is its bottom edge).
 """
 
 from __future__ import annotations
@@ -74,7 +73,7 @@ def unit_cylinder() -> Primitive:
     polygons: list[_Polygon] = []
     for i in range(SIDES):
         j = (i + 1) % SIDES
-        # Round the side the image stands on its head, as RViz shows it; its seam
+        # Round the side the image is upside down, as in RViz; its seam
         # is at −y, three quarters of the way round.
         u0, u1 = 0.75 - i / SIDES, 0.75 - (i + 1) / SIDES
         u0, u1 = (u0, u1) if u1 >= 0 else (u0 + 1, u1 + 1)

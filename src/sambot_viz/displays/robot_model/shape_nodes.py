@@ -1,4 +1,4 @@
-"""One <visual> or <collision> as scene nodes (spec/rviz-core.md §5.5–5.7)."""
+"""One <visual> or <collision> as scene nodes."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
 ERROR_WHITE: Rgb = (255, 255, 255)
 STAND_IN_COLOR: Rgb = (255, 140, 0)
 STAND_IN_SIZE = 0.1
-"""Edge of the wire box that stands for a mesh that could not be read [m]."""
+"""Edge of the wire box drawn in place of a mesh that could not be read [m]."""
 UNLIT = "toon3"
 """The page script draws toon materials unlit; nothing else here uses one."""
 

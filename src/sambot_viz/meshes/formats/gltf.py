@@ -1,7 +1,13 @@
-"""glTF 2.0 and GLB, as RViz shows them (spec/rviz-core.md §5.5, §5.6).
+"""glTF 2.0 and GLB, as RViz shows them.
 
 Coordinates are taken as they are (y stays y), nodes are baked in, colours are base
-colour factor times base colour texture; vertex colours, skins and morphs are ignored.
+colour factor plus emission, times base colour texture; vertex colours, skins and
+morphs are ignored.
+
+trimesh is not used: it reads the arrays in an eighth of the time (0.002 s instead of
+0.017 s for 82,000 triangles), but importing it takes 0.5 to 1.3 s of processor time,
+just when the page starts. It also trusts the counts of a file, decodes every image, and
+says nothing when one is missing.
 """
 
 from __future__ import annotations
@@ -75,7 +81,7 @@ def _split(data: bytes) -> tuple[Json, bytes | None]:
     except (ValueError, RecursionError) as error:
         raise Broken(f"its JSON cannot be read ({error})") from error
     if not isinstance(document, dict):
-        raise Broken("its JSON is no object")
+        raise Broken("its JSON is not an object")
     return cast(Json, document), binary
 
 
@@ -169,7 +175,7 @@ class _Scene:
         return known
 
     def _primitive(self, primitive: Json) -> Submesh | None:
-        """Points and lines are no concern of RViz's mesh loader."""
+        """The triangles of a primitive; points and lines are ignored, as in RViz."""
         mode = primitive.get("mode", _TRIANGLES)
         attributes = section(primitive, "attributes")
         if mode not in (_TRIANGLES, _STRIP, _FAN) or "POSITION" not in attributes:

@@ -1,4 +1,4 @@
-"""The colours and textures of glTF, as RViz reads them (spec/rviz-core.md §5.6)."""
+"""The colours and textures of glTF, as RViz reads them through Assimp."""
 
 from __future__ import annotations
 
@@ -56,6 +56,7 @@ class GltfMaterials:
         rgba = _rgba(factor)
         if material.get("alphaMode", "OPAQUE") != "BLEND" or rgba[3] == 0:
             rgba = (*rgba[:3], 1.0)
+        rgba = _with_emission(rgba, material.get("emissiveFactor"))
         if not info:
             return MeshMaterial(rgba), 0
         uv_set: object = info.get("texCoord", 0)
@@ -87,6 +88,16 @@ class GltfMaterials:
             "export the mesh again with its textures",
         )
         return None
+
+
+def _with_emission(rgba: Rgba, factor: Any) -> Rgba:
+    """RViz adds emission to the diffuse colour and multiplies both by the texture."""
+    try:
+        light = [min(1.0, max(0.0, float(v))) for v in factor or (0, 0, 0)]
+        red, green, blue = (min(1.0, a + b) for a, b in zip(rgba, light, strict=False))
+    except (TypeError, ValueError):
+        return rgba
+    return (red, green, blue, rgba[3])
 
 
 def _rgba(factor: Any) -> Rgba:

