@@ -9,9 +9,6 @@ from collections.abc import Iterator
 from importlib import metadata
 from pathlib import Path
 
-NOT_IMPORTED_YET = {"trimesh"}
-"""Declared for code that is being written."""
-
 
 def declared(repository: Path) -> dict[str, str]:
     """Distribution → the comment on its line: why it is needed."""
@@ -55,7 +52,7 @@ def test_what_is_imported_is_declared_and_the_other_way_round(
     repository: Path,
 ) -> None:
     wanted = {name.lower() for name in declared(repository)}
-    assert wanted - NOT_IMPORTED_YET == imported(repository) - NOT_IMPORTED_YET
+    assert wanted == imported(repository)
 
 
 def test_every_declared_package_says_why(repository: Path) -> None:
