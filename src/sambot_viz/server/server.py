@@ -160,7 +160,7 @@ class Server:
             f"internal error while drawing meshes: {type(error).__name__}: {error}"
         )
         hint = "start the program again, and please report it"
-        problem = Problem("error", "mesh-drawing-failed", message, hint)
+        problem = Problem("error", "reload-failed", message, hint)
         self.set_reload_problems("fault", (problem,))
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
