@@ -159,7 +159,6 @@ EXCEPTIONS: Mapping[str, str] = {
 
 RINGS = [
     {"robot.kinematics", "robot.model"},  # a Robot offers its own kinematics
-    {"tools.picking", "tools.tool"},
     {"displays.display", "displays.robot_model"},  # the reader of second models
 ]
 """Modules or folders beside each other that import each other, as known today."""

@@ -12,7 +12,7 @@ from sambot_viz.panels.picture import on_background, side
 from sambot_viz.panels.selection import facts, geometry_text, item_html
 from sambot_viz.robot.model import Box, Cylinder, MeshFile, Sphere
 from sambot_viz.session import Session
-from sambot_viz.tools.tool import Selectable
+from sambot_viz.tools.picking.hit import Selectable
 
 
 @pytest.fixture(scope="module")

@@ -18,8 +18,8 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer, bundled, load_config
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
+from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.tools.registry import TOOLS
-from sambot_viz.tools.tool import Selectable
 
 PREFIX = "rviz_default_plugins/"
 LABELS = [tool.label for tool in TOOLS.values()]

@@ -16,7 +16,8 @@ from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
 from sambot_viz.session import Event, Session
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
-from sambot_viz.tools.tool import Selectable, Tool
+from sambot_viz.tools.picking.hit import Selectable
+from sambot_viz.tools.tool import Tool
 
 REFRESH = 0.2
 """Shortest time between two updates of the poses, as in RViz [s]."""

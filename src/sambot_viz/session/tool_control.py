@@ -18,12 +18,13 @@ import viser
 from sambot_viz.errors import UsageError
 from sambot_viz.geometry import rotation_from_xyzw
 from sambot_viz.tools.move_camera import MoveCameraTool
+from sambot_viz.tools.picking.hit import Hit, Selectable
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool
-from sambot_viz.tools.tool import Click, Hit, Selectable, Tool
+from sambot_viz.tools.tool import Click, Tool
 
 if TYPE_CHECKING:
     from sambot_viz.session import Event, Session

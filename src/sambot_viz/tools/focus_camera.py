@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from sambot_viz.tools.tool import Click, Hit, Tool
+from sambot_viz.tools.picking.hit import Hit
+from sambot_viz.tools.tool import Click, Tool
 
 AHEAD = 1.0
 """A click on the background makes the camera look this far along the ray [m]."""

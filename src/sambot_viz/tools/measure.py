@@ -6,8 +6,9 @@ import numpy as np
 import viser
 
 from sambot_viz.rviz import ColorProperty, ToolConfig
+from sambot_viz.tools.picking.hit import Hit
 from sambot_viz.tools.picking.rays import Array
-from sambot_viz.tools.tool import Click, Hit, Tool, ToolContext
+from sambot_viz.tools.tool import Click, Tool, ToolContext
 
 COLOR = (128, 128, 0)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from sambot_viz.tools.tool import Click, Hit, Selectable, Tool
+from sambot_viz.tools.picking.hit import Hit, Selectable
+from sambot_viz.tools.tool import Click, Tool
 
 
 class SelectTool(Tool):

@@ -8,17 +8,10 @@ from typing import ClassVar, Literal, Protocol
 import viser
 
 from sambot_viz.rviz import Property, ToolConfig
+from sambot_viz.tools.picking.hit import Hit, Selectable
 from sambot_viz.tools.picking.rays import Array
 
 Key = Literal["I", "M", "S", "C", "N"]
-
-
-@dataclass(frozen=True, slots=True)
-class Selectable:
-    """Something that can be selected: a link of the robot, or a TF frame."""
-
-    kind: Literal["link", "frame"]
-    name: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,20 +29,6 @@ class Click:
     origin: Array
     direction: Array
     modifier: str | None = None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Hit:
-    """What is under the cursor.
-
-    Attributes:
-        point: the nearest point of what is drawn, in the fixed frame, (3,) [m]; None
-            for the background.
-        item: the link or frame; None for the grid and the background.
-    """
-
-    point: Array | None
-    item: Selectable | None
 
 
 class ToolContext(Protocol):

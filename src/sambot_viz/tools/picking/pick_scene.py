@@ -18,9 +18,9 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.mesh import Mesh
 from sambot_viz.robot.model import Cylinder, MeshFile, Robot, Shape, Sphere
 from sambot_viz.robot.shape_files import asset_of
+from sambot_viz.tools.picking.hit import Hit, Selectable
 from sambot_viz.tools.picking.raycast import Collider, bounds, cast, cast_plane
 from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
-from sambot_viz.tools.tool import Hit, Selectable
 
 FRAME_RADIUS = 0.1
 """A frame is selected within this part of the Marker Scale around its origin."""
