@@ -149,8 +149,6 @@ ROOMS: Mapping[str, Row] = {
 
 EXCEPTIONS: Mapping[str, str] = {
     "session/worker.py": "asyncio threading",  # each session has one worker thread
-    # Reads second models; a thread that belongs to server/, beside the mesh thread.
-    "displays/robot_model/model_reader.py": "threading",
     "robot/xacro/expand.py": "signal subprocess",  # xacro runs in a child process
     # In that child: the one thread of the pure rooms watches for the parent's end.
     "robot/xacro/child/main.py": "_thread signal",
@@ -159,7 +157,6 @@ EXCEPTIONS: Mapping[str, str] = {
 
 RINGS = [
     {"robot.kinematics", "robot.model"},  # a Robot offers its own kinematics
-    {"displays.display", "displays.robot_model"},  # the reader of second models
 ]
 """Modules or folders beside each other that import each other, as known today."""
 

@@ -11,7 +11,6 @@ from typing import Any, Concatenate, ParamSpec
 
 import viser
 
-from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.errors import ServerError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
@@ -22,6 +21,7 @@ from sambot_viz.open_config import declarations
 from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Documents, Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
@@ -102,7 +102,7 @@ class Visualizer:
         prepare(document)
         documents = Documents(document, None if options.session == "shared" else _copy)
         self._reloader: Reloader | None = None
-        models = ModelReader(inputs.load, options.package_path)
+        models = ModelThread(inputs.load, options.package_path)
         self._server = Server(
             options, documents, models, listening, Presets(inputs.poses)
         )

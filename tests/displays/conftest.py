@@ -9,11 +9,11 @@ import pytest
 import viser
 
 from sambot_viz import load_robot
-from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.open_config import declarations
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 
@@ -81,7 +81,7 @@ def show(arm: Robot) -> Iterator[Show]:
         document = RvizConfig.parse(text, declarations())
         options = Options(port=0, panels=False)
         robots = {Path(name).name: robot for name, robot in (files or {}).items()}
-        models = ModelReader(lambda path, trusted: robots[path.name])
+        models = ModelThread(lambda path, trusted: robots[path.name])
         server = Server(options, lambda: document, models)
         servers.append(server)
         if robot is not None:

@@ -15,7 +15,7 @@ from typing import ClassVar
 import viser
 
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.robot_model.model_reader import ModelReader
+from sambot_viz.displays.model_reader import ModelReader
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.status import StatusList

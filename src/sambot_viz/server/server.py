@@ -14,7 +14,6 @@ from typing import cast
 import viser
 
 from sambot_viz import viser_private
-from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
@@ -26,6 +25,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.bind import close, listen, url_of
 from sambot_viz.server.door import guard
 from sambot_viz.server.mesh_thread import MeshThread
+from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
 from sambot_viz.session.worker import Worker
@@ -57,7 +57,7 @@ class Server:
         self,
         options: Options,
         make_config: MakeConfig,
-        models: ModelReader | None = None,
+        models: ModelThread | None = None,
         listening: viser.ViserServer | None = None,
         poses: Presets | None = None,
     ) -> None:

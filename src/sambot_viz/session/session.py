@@ -17,8 +17,8 @@ import numpy as np
 import viser
 
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.model_reader import ModelReader
 from sambot_viz.displays.registry import DISPLAYS
-from sambot_viz.displays.robot_model.model_reader import ModelReader
 from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.displays.status import Status

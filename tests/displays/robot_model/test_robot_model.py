@@ -13,6 +13,7 @@ import viser
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.frames import Transform
 from sambot_viz.robot.model import Robot
+from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Session
 
 Show = Callable[..., Session]
@@ -264,7 +265,7 @@ def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_late
     assert model_of(session).status.rows["URDF"].level == "Error"
     session.show_robot(replace(arm, files=(tmp_path / "opened.urdf",)))
     models = session.context.models
-    assert models is not None
+    assert isinstance(models, ModelThread)
     assert models.wait(20)
     assert "b/tool" in session.tree.frames
 

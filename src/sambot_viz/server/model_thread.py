@@ -1,19 +1,17 @@
-"""Reading the models that displays name, away from the event loop."""
+"""The background thread that reads the models named by displays."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TypeAlias
 
+from sambot_viz.displays.model_reader import ModelResult
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
 
-Result: TypeAlias = "Robot | RobotError"
 
-
-class ModelReader:
+class ModelThread:
     """Reads one model after the other in a thread that lives while there is work.
 
     Expanding a xacro file may take 20 seconds. Of several requests of one display only
@@ -37,20 +35,25 @@ class ModelReader:
         self._running = False
 
     def read(
-        self, owner: object, path: Path, trusted: bool, done: Callable[[Result], None]
+        self,
+        owner: object,
+        path: Path,
+        trusted: bool,
+        done: Callable[[ModelResult], None],
     ) -> None:
         """Read a model soon.
 
         Args:
-            owner: who asks; replaces what it asked for before.
+            owner: the display that asks; replaces what it asked for before.
             path: the file.
             trusted: whether its code may run.
-            done: takes the robot, or why there is none; called in the thread.
+            done: takes the robot, or the reason why there is none; called in the
+                thread.
         """
 
         def work() -> None:
             try:
-                result: Result = self._load(path, trusted)
+                result: ModelResult = self._load(path, trusted)
             except RobotError as error:
                 result = error
             done(result)

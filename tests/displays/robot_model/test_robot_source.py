@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import Visualizer
-from sambot_viz.displays.robot_model.model_reader import ModelReader
-from sambot_viz.displays.robot_model.robot_model import OUTSIDE
+from sambot_viz.displays.robot_model.robot_source import OUTSIDE
 from sambot_viz.errors import RobotError, UsageError
 from sambot_viz.open_config import declarations
 from sambot_viz.options import Options
 from sambot_viz.robot.load import load_robot
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 
@@ -46,7 +46,7 @@ def urdf(link: str) -> str:
 class Case:
     """A session, and what its displays have asked to be read."""
 
-    def __init__(self, session: Session, models: ModelReader) -> None:
+    def __init__(self, session: Session, models: ModelThread) -> None:
         self.session, self.models = session, models
         self.display = session.displays[0]
 
@@ -102,7 +102,7 @@ def open_case(package: Path, loader: Loader) -> Iterator[Callable[..., Case]]:
 
     def opened(body: str = "") -> Case:
         document = RvizConfig.parse(CONFIG.format(body=body), declarations())
-        models = ModelReader(loader)
+        models = ModelThread(loader)
         server = Server(Options(port=0, panels=False), lambda: document, models)
         servers.append(server)
         server.show_robot(load_robot(package / "urdf" / "first.urdf"))
@@ -243,7 +243,7 @@ def test_only_the_latest_of_several_files_is_read(
 
 def test_a_reader_survives_an_internal_error_of_what_it_calls(tmp_path: Path) -> None:
     """One exception must not end all reading."""
-    reader = ModelReader(lambda path, trusted: load_robot(path))
+    reader = ModelThread(lambda path, trusted: load_robot(path))
     failed: list[object] = []
     before, threading.excepthook = threading.excepthook, failed.append
     file = tmp_path / "a.urdf"

@@ -1,0 +1,158 @@
+"""Which robot a RobotModel shows: the opened one, or that of "Description File"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.model_reader import ModelResult
+from sambot_viz.displays.robot_model.description_file import (
+    find_below,
+    find_description,
+    opened_folders,
+)
+from sambot_viz.displays.status import Status
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import DisplayConfig
+
+FILE = "Description File"
+OUTSIDE = "The model file must lie below the folders that were opened"
+"""All that is said: a browser learns nothing about other files."""
+
+Change = Literal["none", "edited", "other"]
+
+
+class RobotSource:
+    """Chooses the robot of one display, and reads it when it has a file of its own.
+
+    Args:
+        context: the opened robot and the reader of models.
+        config: the display.
+        on_read: called when a model has been read, or could not be.
+
+    Attributes:
+        robot: the robot to draw, or None while there is none.
+        files: the files that a robot of its own comes from.
+        status: why there is no robot, or not the latest one; None when all is well.
+    """
+
+    def __init__(
+        self,
+        context: DisplayContext,
+        config: DisplayConfig,
+        on_read: Callable[[], None],
+    ) -> None:
+        self.robot: Robot | None = None
+        self.files: tuple[Path, ...] = ()
+        self.status: Status | None = None
+        self._context = context
+        self._config = config
+        self._on_read = on_read
+        self._source: tuple[object, ...] = ()
+        self._looked_for: tuple[object, ...] = ()
+        self._found: Path | None = None
+
+    @property
+    def from_file(self) -> bool:
+        """Whether the robot is that of "Description File"."""
+        return self._source[:1] == ("File",)
+
+    def choose(self) -> Change:
+        """Take the robot that the properties ask for.
+
+        Returns:
+            "edited" when it is another version of the opened robot, "other" when it
+            is another robot.
+        """
+        source: tuple[object, ...]
+        if self._config.get("Description Source") == "File":
+            source = ("File", *self._named_file())
+        else:
+            source = ("Topic", id(self._context.robot))
+        if source == self._source:
+            return "none"
+        kinds = (source[0], *self._source[:1])
+        self._source = source
+        self.robot, self.files, self.status = None, (), None
+        if self.from_file:
+            self._read_file()
+        else:
+            self.robot = self._context.robot
+        return "edited" if kinds == ("Topic", "Topic") else "other"
+
+    def forget(self) -> None:
+        """Choose again from the start when the robot is next asked for."""
+        self._source = ()
+
+    def read_again(self) -> None:
+        """Read "Description File" again; the last good robot stays until then."""
+        if self.from_file:
+            self._read_file()
+
+    def may_name(self, name: str) -> bool:
+        """Whether a browser may set "Description File" to this path."""
+        trusted = name in self._context.trusted_files
+        return trusted or self._find(name, trusted=False) is not None
+
+    def _named_file(self) -> tuple[str, bool, Path | None]:
+        """What "Description File" says, whether it is trusted, and the file it means.
+
+        The file is looked for again when a robot is opened elsewhere.
+        """
+        name = str(self._config.get(FILE))
+        trusted = name in self._context.trusted_files
+        wanted = (name, trusted, self._opened())
+        if wanted != self._looked_for:
+            self._looked_for = wanted
+            self._found = self._find(name, trusted) if name else None
+        return (name, trusted, self._found)
+
+    def _opened(self) -> tuple[Path, ...]:
+        context = self._context
+        packages = context.models.package_path if context.models is not None else ()
+        return opened_folders(context.robot, context.config_file, packages)
+
+    def _find(self, name: str, trusted: bool) -> Path | None:
+        opened = self._opened()
+        if not trusted:
+            return find_below(name, opened)
+        robot = self._context.robot
+        beside = [file.parent for file in robot.files[:1]] if robot else []
+        return find_description(name, [*beside, *opened, Path.cwd()])
+
+    def _read_file(self) -> None:
+        """Start reading "Description File"; `_take` gets the result."""
+        name, trusted, path = self._named_file()
+        models = self._context.models
+        if not name or models is None:
+            return
+        if path is None:
+            text = f"URDF is empty: no file '{name}'" if trusted else OUTSIDE
+            self.status = Status("Error", text)
+            return
+        if self.robot is None:
+            self.status = Status("Warn", "The model file is still being read")
+        source = self._source
+        self.files = tuple(dict.fromkeys((path, *self.files)))
+
+        def done(result: ModelResult) -> None:
+            self._context.apply(lambda: self._take(source, trusted, result))
+
+        models.read(self, path, trusted, done)
+
+    def _take(
+        self, source: tuple[object, ...], trusted: bool, result: ModelResult
+    ) -> None:
+        """Keep what was read, unless another robot is wanted by now."""
+        if source != self._source:
+            return
+        if isinstance(result, Robot):
+            self.robot, self.status = result, None
+            self.files = tuple(dict.fromkeys((*self.files[:1], *result.files)))
+        else:
+            # A browser could name any file here: its text is not quoted.
+            why = result.problems[0].message if trusted else "see `sambot-viz check`"
+            self.status = Status("Error", f"URDF failed Model parse: {why}")
+        self._on_read()
