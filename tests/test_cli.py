@@ -78,6 +78,35 @@ def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
         assert err == ""
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="uses a shell script")
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)]
+)
+def test_a_snapshot_that_is_ended_removes_what_its_browser_wrote(
+    number: signal.Signals,
+    code: int,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # A browser that reports its start by opening a pipe, and then never answers.
+    started = tmp_path / "started"
+    os.mkfifo(started)
+    browser = tmp_path / "browser"
+    browser.write_text(f"#!/bin/sh\necho $$ > {started}\nexec sleep 60\n")
+    browser.chmod(0o755)
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setenv("SAMBOT_VIZ_BROWSER", str(browser))
+    monkeypatch.setenv("TMPDIR", str(folder))
+    with running("snapshot", "-o", str(tmp_path / "a.png")) as process:
+        started.read_text()
+        assert list(folder.iterdir())
+        process.send_signal(number)
+        _, err = process.communicate(timeout=20)
+        assert (process.returncode, err) == (code, "")
+    assert list(folder.iterdir()) == []
+
+
 def test_the_students_file_ends_with_the_line_the_cause_and_the_fix(
     shared: Path, capsys: Capture
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -102,3 +103,26 @@ def test_an_option_that_makes_no_sense_is_refused(
 ) -> None:
     with pytest.raises(UsageError, match=said):
         Options(**wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["sam_bot.urdf.xacro", "mbot.urdf.xacro"])
+def test_a_yourdfpy_model_is_shown_like_the_robot_it_came_from(
+    name: str, repository: Path
+) -> None:
+    robot = load_robot(repository / "assets" / name)
+    inputs = Inputs(Options(robot.to_yourdfpy()))
+    assert inputs.model is None
+    assert list(inputs.robot().links) == list(robot.links)
+    with Visualizer(model=robot.to_yourdfpy()) as viz:
+        assert set(viz.joint_positions) == {
+            name for name, joint in robot.joints.items() if joint.type != "fixed"
+        }
+
+
+def test_an_object_that_is_not_a_model_is_refused_with_what_can_be_given() -> None:
+    wrong: Any = 5
+    with pytest.raises(UsageError) as refused:
+        Inputs(Options(wrong))
+    assert str(refused.value) == (
+        "model is of type int; give a file name, a Robot or a yourdfpy.URDF"
+    )

@@ -1,8 +1,8 @@
 """The command line: which command runs, and what its errors mean as exit codes.
 
 Exit codes: 0 fine, 1 errors found, 2 a command line that makes no sense, 3 an internal
-error. The commands are files of `commands/`, loaded when they are called, so that each
-imports only what it needs.
+error, 130 ended by Ctrl-C (which ends a server with 0). The commands are files of
+`commands/`, loaded when they are called, so that each imports only what it needs.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any, TextIO, cast
 from sambot_viz import problem_text
 from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageError
 
-OK, ERRORS, USAGE, INTERNAL = 0, 1, 2, 3
+OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
 
 COMMANDS = ("check", "config", "echo", "expand", "frames", "snapshot")
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
@@ -51,7 +51,7 @@ def _run(words: list[str]) -> int:
     except SambotVizError as error:
         return _complain(error, ERRORS)
     except KeyboardInterrupt:
-        return OK
+        return INTERRUPTED
     except BrokenPipeError:
         # The reader of standard output has gone (`| head`): nothing more is wanted.
         _write_to_nowhere(sys.stdout)

@@ -7,13 +7,18 @@ from collections.abc import Callable
 from concurrent.futures import Future, InvalidStateError
 from pathlib import Path
 from threading import Thread
+from typing import TYPE_CHECKING
 
 from sambot_viz import bundled
+from sambot_viz.errors import UsageError
 from sambot_viz.options import Options, PathLike
 from sambot_viz.robot.load import OpenedModel, load_robot, open_model
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.document import Document
+
+if TYPE_CHECKING:
+    import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
 
 class Inputs:
@@ -27,14 +32,14 @@ class Inputs:
         options: what the user asked for.
 
     Attributes:
-        model: the model file; None for a `Robot` from Python.
+        model: the model file; None for a robot from Python.
         config: the .rviz file, or None when none was named and none belongs to the
-            model; the bundled one serves then.
+            model; the bundled one is used then.
         poses: the file for named poses, or None to keep them in memory.
 
     Raises:
-        UsageError: a file does not exist.
-        RobotError: the model is not XML.
+        UsageError: a file does not exist, or the model is an object of a wrong type.
+        RobotError: the model is not XML, or ROS would refuse a `yourdfpy.URDF`.
         ConfigError: the config is not a .rviz document.
     """
 
@@ -48,13 +53,13 @@ class Inputs:
         self.config = None if isinstance(config, RvizConfig) else found.config
         self._document = None if self.config is None else Document.load(self.config)
         self._robot: Future[Robot] = Future()
-        if isinstance(model, Robot):
-            self.model = None
-            self._robot.set_result(model)
-        else:
+        if model is None or isinstance(model, Path | str):
             self.model = found.model
             opened = open_model(found.model)
             _in_thread(lambda: self.load(opened), self._robot)
+        else:
+            self.model = None
+            self._robot.set_result(_robot_of(model))
         self.poses = self._poses_file()
 
     @property
@@ -121,6 +126,21 @@ class Inputs:
         if self._options.poses is not None:
             return Path(self._options.poses)
         return None if self.model is None else poses_beside(self.model)
+
+
+def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
+    """The robot of an object from Python."""
+    if isinstance(model, Robot):
+        return model
+    import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
+
+    # Scripts that no type checker has read can give anything.
+    if not isinstance(model, yourdfpy.URDF):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise UsageError(
+            f"model is of type {type(model).__name__}; give a file name, a Robot or a "
+            "yourdfpy.URDF"
+        )
+    return Robot.from_yourdfpy(model)
 
 
 def poses_beside(model: Path) -> Path | None:

@@ -18,6 +18,8 @@ from sambot_viz.errors import Problem, UsageError
 
 # A command line is read before anything heavy is imported.
 if TYPE_CHECKING:
+    import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
+
     from sambot_viz.frames.static_transform import StaticTransform
     from sambot_viz.joints.start import StartPose
     from sambot_viz.robot.model import Robot
@@ -120,10 +122,10 @@ class Options:
         StaticTransformError: a text that static_transform_publisher would refuse.
     """
 
-    model: PathLike | Robot | None = _option(
+    model: PathLike | Robot | yourdfpy.URDF | None = _option(
         None,
-        "model file or package folder, or a Robot from Python; the bundled sam_bot "
-        "without one",
+        "model file or package folder; from Python also a Robot or a yourdfpy.URDF; "
+        "without one, the bundled sam_bot",
     )
     config: PathLike | RvizConfig | None = _option(
         None,

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import subprocess
 import sys
 import tempfile
 import textwrap
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,6 +17,7 @@ from browser_input import Keyboard, Mouse
 
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import BrowserError, Fields
+from sambot_viz.export.find_browser import find_browser
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="uses a shell script")
 
@@ -34,12 +39,57 @@ def program(folder: Path, script: str) -> Path:
 
 
 def is_running(process: int) -> bool:
-    """Whether a process runs; one that only waits to be buried does not."""
+    """Whether a process runs; one that has ended but was not waited for does not."""
     try:
         state = Path(f"/proc/{process}/stat").read_text("utf-8")
     except (FileNotFoundError, ProcessLookupError):
         return False
     return state.rpartition(")")[2].split()[0] != "Z"
+
+
+def becomes_true(condition: Callable[[], bool], timeout: float = 20.0) -> bool:
+    """Whether a condition is met in time [s]."""
+    end = time.monotonic() + timeout
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.02)
+    return condition()
+
+
+def processes_with(text: str) -> list[int]:
+    """The processes that have a text in their command lines."""
+    found: list[int] = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes()
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+        if text.encode() in words:
+            found.append(int(folder.name))
+    return found
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+@pytest.mark.skipif(find_browser() is None, reason="there is no browser")
+def test_a_browser_ends_when_its_python_process_is_killed(tmp_path: Path) -> None:
+    script = (
+        "from sambot_viz.export.chromium import Chromium\n"
+        "with Chromium(timeout=60.0) as browser:\n"
+        "    browser.open()\n"
+        "    print('open', flush=True)\n"
+        "    input()\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script],
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    ) as python:
+        assert python.stdout is not None
+        assert python.stdout.readline() == b"open\n"
+        assert processes_with(str(tmp_path))
+        python.kill()
+    assert becomes_true(lambda: not processes_with(str(tmp_path)))
+    assert becomes_true(lambda: not list(tmp_path.glob("sambot-viz-browser-*")))
 
 
 @posix
@@ -48,8 +98,8 @@ def test_a_browser_that_ends_at_once_is_quoted(tmp_path: Path, profiles: Path) -
     with pytest.raises(BrowserError) as error, Chromium(wrong):
         pass
     assert str(error.value) == (
-        f"the browser {wrong} ended or did not answer in 30 s; it said: "
-        "No usable sandbox!; name another one in SAMBOT_VIZ_BROWSER"
+        f"the browser {wrong} ended or did not answer in 30 s; its last "
+        "output: No usable sandbox!; name another one in SAMBOT_VIZ_BROWSER"
     )
     assert list(profiles.iterdir()) == []
 
@@ -62,7 +112,7 @@ def test_a_browser_that_never_answers_is_ended_with_its_children(
     silent = program(tmp_path, f"sleep 60 & echo $! > {noted}; wait")
     with (
         pytest.raises(
-            BrowserError, match=r"did not answer in 0\.3 s; it said: nothing"
+            BrowserError, match=r"did not answer in 0\.3 s; its last output: nothing"
         ),
         Chromium(silent, timeout=0.3),
     ):
@@ -72,10 +122,12 @@ def test_a_browser_that_never_answers_is_ended_with_its_children(
 
 
 @posix
-def test_a_file_that_is_no_program_is_said_so(tmp_path: Path, profiles: Path) -> None:
+def test_a_file_that_is_not_a_program_is_refused(
+    tmp_path: Path, profiles: Path
+) -> None:
     wrong = tmp_path / "browser"
     wrong.touch()
-    with pytest.raises(BrowserError, match=r"cannot be started: Permission denied; "):
+    with pytest.raises(BrowserError, match=r"ended .* Permission denied; name another"):
         Chromium(wrong).__enter__()
     assert list(profiles.iterdir()) == []
 

@@ -61,6 +61,8 @@ def run(words: list[str]) -> int:
             problem_text.write(inputs.robot().problems, model=options.model)
             start_state(inputs.robot(), options)
             stop.wait()
+    except KeyboardInterrupt:
+        pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:
         close(server)
     return 0

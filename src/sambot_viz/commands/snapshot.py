@@ -5,6 +5,11 @@ from __future__ import annotations
 import io
 import os
 import re
+import signal
+import sys
+import threading
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,7 +41,7 @@ def run(words: list[str]) -> int:
     from sambot_viz.export.view_picture import snapshot
     from sambot_viz.visualizer import Visualizer
 
-    with Visualizer.of_inputs(inputs) as viz:
+    with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions()[0]
         problem_text.write(session.config.problems)
         _report_fixed_frame(session)
@@ -60,6 +65,24 @@ def parser() -> Parser:
     add("-o", "--output", required=True, metavar="FILE.png", help="where to write it")
     add("--size", default="800x600", metavar="WxH", help="default: %(default)s")
     return made
+
+
+@contextmanager
+def _exit_on_sigterm() -> Generator[None]:
+    """Let SIGTERM, such as `timeout` sends, leave the block, so that it cleans up."""
+
+    def leave(number: int, frame: object) -> None:
+        del frame
+        sys.exit(128 + number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _report_fixed_frame(session: Session) -> None:

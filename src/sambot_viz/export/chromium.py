@@ -9,19 +9,14 @@ from __future__ import annotations
 
 import os
 import shutil
-import signal
-import subprocess
-import sys
 import tempfile
-import threading
-from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
-from typing import IO
 
 from sambot_viz.export.browser_page import BrowserPage
+from sambot_viz.export.browser_process import BrowserProcess
 from sambot_viz.export.devtools import BrowserError, DevTools
 from sambot_viz.export.find_browser import (
     ENVIRONMENT_VARIABLE,
@@ -63,7 +58,6 @@ _FLAGS = (
     "--disable-dev-shm-usage",
     "--remote-debugging-port=0",
 )
-_ADDRESS_MARK = "DevTools listening on "
 
 
 class Chromium:
@@ -91,9 +85,8 @@ class Chromium:
         self._executable = executable
         self._timeout = timeout
         self._flags = tuple(flags)
-        self._process: subprocess.Popen[str] | None = None
+        self._process: BrowserProcess | None = None
         self._profile: Path | None = None
-        self._output: _Output | None = None
         self._devtools: DevTools | None = None
 
     def __enter__(self) -> Chromium:
@@ -167,115 +160,36 @@ class Chromium:
         devtools, self._devtools = self._devtools, None
         patience = 0.0
         if devtools is not None:
-            # A browser that is asked to end puts away its helpers by itself.
+            # A browser that is asked to end also ends its children.
             with suppress(BrowserError):
                 devtools.call("Browser.close", timeout=2.0)
                 patience = 3.0
             devtools.close()
         process, self._process = self._process, None
         if process is not None:
-            _end_tree(process, patience)
-        output, self._output = self._output, None
-        if output is not None:
-            output.wait_for_end(timeout=5.0)
+            process.end(patience)
         profile, self._profile = self._profile, None
         if profile is not None:
             shutil.rmtree(profile, ignore_errors=True)
 
     def _start(self, executable: Path) -> None:
         self._profile = Path(tempfile.mkdtemp(prefix="sambot-viz-browser-"))
-        command = [str(executable), *_FLAGS, f"--user-data-dir={self._profile}"]
+        command = [str(executable), *_FLAGS, *self._flags]
         # Chromium refuses to start its sandbox for root, which is who runs containers.
         if hasattr(os, "geteuid") and os.geteuid() == 0:
             command.append("--no-sandbox")
         try:
-            self._process = subprocess.Popen(
-                [*command, *self._flags],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                encoding="utf-8",
-                errors="replace",
-                start_new_session=True,
-            )
+            self._process = BrowserProcess(command, self._profile)
         except OSError as error:
             raise BrowserError(
                 f"the browser {executable} cannot be started: {error.strerror}; "
                 f"{how_to_get_a_browser()}"
             ) from error
-        pipe = self._process.stderr
-        if pipe is None:
-            raise BrowserError(f"the browser {executable} has no error output")
-        self._output = _Output(pipe)
-        address = self._output.wait_for_address(self._timeout)
+        address = self._process.wait_for_address(self._timeout)
         if address is None:
             raise BrowserError(
                 f"the browser {executable} ended or did not answer in "
-                f"{self._timeout:g} s; it said: {self._output.last_lines()}; "
+                f"{self._timeout:g} s; its last output: {self._process.last_lines()}; "
                 f"name another one in {ENVIRONMENT_VARIABLE}"
             )
         self._devtools = DevTools(address, self._timeout)
-
-
-class _Output:
-    """What the browser writes to its error output, read until all its processes end."""
-
-    def __init__(self, pipe: IO[str]) -> None:
-        self._pipe = pipe
-        self._changed = threading.Condition()
-        self._lines: deque[str] = deque(maxlen=4)
-        self._address: str | None = None
-        self._ended = False
-        self._thread = threading.Thread(target=self._read, daemon=True)
-        self._thread.start()
-
-    def wait_for_address(self, timeout: float) -> str | None:
-        """The debugging address, or None when the browser ended or time is up."""
-        with self._changed:
-            self._changed.wait_for(lambda: self._address or self._ended, timeout)
-            return self._address
-
-    def wait_for_end(self, timeout: float) -> None:
-        """Wait until no process of the browser holds its error output any more."""
-        self._thread.join(timeout)
-
-    def last_lines(self) -> str:
-        with self._changed:
-            return " | ".join(self._lines) or "nothing"
-
-    def _read(self) -> None:
-        with self._pipe:
-            for line in self._pipe:
-                with self._changed:
-                    self._lines.append(line.strip())
-                    if line.startswith(_ADDRESS_MARK):
-                        self._address = line[len(_ADDRESS_MARK) :].strip()
-                    self._changed.notify_all()
-        with self._changed:
-            self._ended = True
-            self._changed.notify_all()
-
-
-def _end_tree(process: subprocess.Popen[str], patience: float) -> None:
-    """End a process that was started in a session of its own, and its children.
-
-    Args:
-        process: the leader.
-        patience: how long it may take to end by itself [s].
-    """
-    with suppress(subprocess.TimeoutExpired):
-        process.wait(patience)
-    if sys.platform == "win32":
-        subprocess.run(
-            ["taskkill", "/PID", str(process.pid), "/T", "/F"],
-            check=False,
-            capture_output=True,
-        )
-        process.wait()
-        return
-    # The children are in the leader's process group, and only they are.
-    for number in (signal.SIGTERM, signal.SIGKILL):
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, number)
-        with suppress(subprocess.TimeoutExpired):
-            process.wait(timeout=2.0)

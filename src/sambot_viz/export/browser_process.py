@@ -1,0 +1,136 @@
+"""The process of a browser: started, read, and ended with all its children."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import IO
+
+_ADDRESS_MARK = "DevTools listening on "
+
+_TETHER = """
+profile=$1; shift
+"$@" --remote-debugging-pipe 3<&0 4>/dev/null </dev/null
+rm -rf -- "$profile"
+"""
+"""A shell script that starts the browser and removes its profile at the end. Chromium
+ends when the pipe at its descriptor 3 is closed, which is our child's standard input:
+the system closes it however this process ends, also when it is killed."""
+
+
+class BrowserProcess:
+    """A running browser, which ends with this process even when that is killed.
+
+    On Windows only `end` ends it.
+
+    Args:
+        command: the program and its flags.
+        profile: the folder of its profile.
+
+    Raises:
+        OSError: the program cannot be started.
+    """
+
+    def __init__(self, command: Sequence[str], profile: Path) -> None:
+        flag = f"--user-data-dir={profile}"
+        tethered = sys.platform != "win32"
+        if tethered:
+            command = ["/bin/sh", "-c", _TETHER, "sh", str(profile), *command]
+        self._process = subprocess.Popen(
+            [*command, flag],
+            stdin=subprocess.PIPE if tethered else subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            errors="replace",
+            start_new_session=True,
+        )
+        assert self._process.stderr is not None
+        self._output = _Output(self._process.stderr)
+
+    def wait_for_address(self, timeout: float) -> str | None:
+        """The debugging address, or None when the browser ended or time is up.
+
+        Args:
+            timeout: how long it may take [s].
+        """
+        return self._output.wait_for_address(timeout)
+
+    def last_lines(self) -> str:
+        """What the browser wrote last, or "nothing"."""
+        return self._output.last_lines()
+
+    def end(self, patience: float) -> None:
+        """End the browser with its children.
+
+        Args:
+            patience: how long it may take to end by itself [s].
+        """
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(patience)
+        self._kill()
+        self._output.wait_for_end(timeout=5.0)
+
+    def _kill(self) -> None:
+        number = self._process.pid
+        if sys.platform == "win32":
+            subprocess.run(
+                ["taskkill", "/PID", str(number), "/T", "/F"],
+                check=False,
+                capture_output=True,
+            )
+            self._process.wait()
+            return
+        # The children are in the process group of the first process, and only they are.
+        for kind in (signal.SIGTERM, signal.SIGKILL):
+            with suppress(ProcessLookupError):
+                os.killpg(number, kind)
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(timeout=2.0)
+
+
+class _Output:
+    """What the browser writes to its error output, read until all its processes end."""
+
+    def __init__(self, pipe: IO[str]) -> None:
+        self._pipe = pipe
+        self._changed = threading.Condition()
+        self._lines: deque[str] = deque(maxlen=4)
+        self._address: str | None = None
+        self._ended = False
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def wait_for_address(self, timeout: float) -> str | None:
+        with self._changed:
+            self._changed.wait_for(lambda: self._address or self._ended, timeout)
+            return self._address
+
+    def wait_for_end(self, timeout: float) -> None:
+        """Wait until no process of the browser holds its error output any more."""
+        self._thread.join(timeout)
+
+    def last_lines(self) -> str:
+        with self._changed:
+            return " | ".join(self._lines) or "nothing"
+
+    def _read(self) -> None:
+        with self._pipe:
+            for line in self._pipe:
+                with self._changed:
+                    self._lines.append(line.strip())
+                    if line.startswith(_ADDRESS_MARK):
+                        self._address = line[len(_ADDRESS_MARK) :].strip()
+                    self._changed.notify_all()
+        with self._changed:
+            self._ended = True
+            self._changed.notify_all()
