@@ -82,7 +82,7 @@ PURE = ("robot", "meshes", "checks", "rviz", "frames", "joints", "drive")
 
 ROOMS: Mapping[str, Row] = {
     # From files to numbers.
-    "meshes": Row("", "PIL lxml mapbox_earcut numpy"),
+    "meshes": Row("", "PIL lxml mapbox_earcut numpy trimesh"),
     "robot": Row("meshes", "numpy xacro yourdfpy"),
     "rviz": Row("", "yaml re2"),
     "frames": Row("robot", "numpy"),

@@ -60,6 +60,32 @@ def test_an_ascii_stl_is_read_whatever_the_letter_case(
 
 
 @pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("solid part", "solid vertex group of Müller"),
+        ("endsolid part\n", ""),
+        ("endsolid part\n", "endsolid vertex"),
+        ("\n", "\r"),
+        ("\n", "\r\n"),
+        ("normal 0 0 1", "normal -nan(ind) x"),
+    ],
+)
+def test_names_ends_of_lines_and_normals_of_an_ascii_stl_do_not_matter(
+    write: Callable[..., Path], old: str, new: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    mesh = read_mesh(write("a.stl", ASCII.replace(old, new)))
+    assert np.array_equal(mesh.bounds, [[0, 0, 0], [1, 1, 0]])
+    assert mesh.problems == () and caplog.records == []
+
+
+def test_all_solids_of_an_ascii_stl_are_drawn(write: Callable[..., Path]) -> None:
+    second = ASCII.replace("part", "vertex").replace("0 1 0", "0 3 0")
+    mesh = read_mesh(write("a.stl", ASCII + second))
+    assert mesh.triangles == 2
+    assert np.array_equal(mesh.bounds, [[0, 0, 0], [1, 3, 0]])
+
+
+@pytest.mark.parametrize(
     ("damage", "sentence"),
     [
         (lambda data: data[:60], "has only 60 bytes"),
