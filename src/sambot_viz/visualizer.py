@@ -188,7 +188,7 @@ class Visualizer:
         """
         transform = Transform.from_xyz_rpy(xyz, rpy)
         for session in self._server.sessions():
-            session.set_static_transform(parent, child, transform)
+            session.add_frame(parent, child, transform)
 
     def wait(self) -> None:
         """Return when the server is stopped (by `stop`, or by Ctrl-C)."""

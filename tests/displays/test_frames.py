@@ -106,7 +106,7 @@ def test_a_frame_of_another_tree_is_not_drawn_and_warned_of(
     tf: Show, nodes: Nodes
 ) -> None:
     session = tf()
-    session.set_static_transform("map", "odom", Transform.from_xyz_rpy((1, 0, 0)))
+    session.add_frame("map", "odom", Transform.from_xyz_rpy((1, 0, 0)))
     assert drawn(session, nodes) == {"base", "upper", "tool"}
     status = display_of(session).status
     assert status.level == "Warn"
@@ -119,6 +119,6 @@ def test_without_the_fixed_frame_no_heap_of_axes_is_drawn(
 ) -> None:
     session = tf(fixed="nowhere")
     assert drawn(session, nodes) == set()
-    assert session.global_status().text == "Frame [nowhere] does not exist"
+    assert session.picture.global_status().text == "Frame [nowhere] does not exist"
     session.set_global("Fixed Frame", "base")
     assert drawn(session, nodes) == {"base", "upper", "tool"}

@@ -107,7 +107,7 @@ def test_a_grid_and_axes_that_have_not_changed_are_not_sent_again(
     session = grid()
     before = nodes(session)
     session.refresh()
-    session.set_static_transform("base", "laser", Transform.identity())
+    session.add_frame("base", "laser", Transform.identity())
     session.set_global("Background Color", (255, 255, 255))
     after = nodes(session)
     assert len(before) > 1

@@ -187,7 +187,7 @@ def test_a_name_that_is_too_long_is_refused_with_words(page: Page) -> None:
     page.press("Save under this name")
     answers = [str(message.fields) for message in page.client.since(mark)]
     assert any("at most 200 bytes" in answer for answer in answers)
-    assert page.session.reload_problems == {}
+    assert page.session.problems.of_saves == {}
 
 
 def test_the_document_can_be_downloaded(page: Page) -> None:

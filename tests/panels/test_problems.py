@@ -108,12 +108,12 @@ def test_the_panel_is_there_while_there_is_something_to_tell(
     viz: Visualizer, session: Session, client: ProtocolClient
 ) -> None:
     assert not panel(client)["visible"]
-    session.set_reload_problems("model", [Problem("error", "e", "it is broken")])
+    session.problems.set_saves("model", [Problem("error", "e", "it is broken")])
     client.settle(viz.viser)
     assert panel(client)["visible"]
     assert panel(client)["_tab_labels"] == ["Problems (1)"]
     assert any("last good version" in str(m.fields) for m in client.messages)
-    session.set_reload_problems("model", [])
+    session.problems.set_saves("model", [])
     client.settle(viz.viser)
     assert not panel(client)["visible"]
     assert panel(client)["_tab_labels"] == ["Problems"]
@@ -122,10 +122,10 @@ def test_the_panel_is_there_while_there_is_something_to_tell(
 def test_the_same_problems_are_not_sent_twice(
     viz: Visualizer, session: Session, client: ProtocolClient
 ) -> None:
-    session.set_reload_problems("model", [Problem("error", "e", "it is broken")])
+    session.problems.set_saves("model", [Problem("error", "e", "it is broken")])
     client.settle(viz.viser)
     mark = client.mark()
-    session.set_reload_problems("model", [Problem("error", "e", "it is broken")])
-    session.set_problems([Problem("warning", "w", "behind the error")])
+    session.problems.set_saves("model", [Problem("error", "e", "it is broken")])
+    session.problems.set_model([Problem("warning", "w", "behind the error")])
     client.settle(viz.viser)
     assert client.since(mark) == []

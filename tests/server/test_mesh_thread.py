@@ -234,8 +234,8 @@ def test_a_session_that_cannot_draw_reports_it_and_draws_the_next_mesh(
 
     monkeypatch.setattr(assets, "_on_read", fail)
     opened.store.let(1)
-    opened.client.wait_until(lambda: bool(session.reload_problems.get("fault")))
-    (problem,) = session.reload_problems["fault"]
+    opened.client.wait_until(lambda: bool(session.problems.of_saves.get("fault")))
+    (problem,) = session.problems.of_saves["fault"]
     assert "internal error while drawing meshes: ZeroDivisionError" in problem.message
     opened.store.let(COUNT)
     opened.wait()

@@ -139,7 +139,7 @@ def test_a_private_page_that_opens_during_a_save_shows_what_was_saved(
         until(lambda: len(server.sessions()) == 1)
         (session,) = server.sessions()
         until(lambda: session.robot is new)
-        assert session.reload_problems["model"] == (problem,)
+        assert session.problems.of_saves["model"] == (problem,)
 
 
 def test_a_browser_may_leave_while_its_session_opens_and_meshes_load(

@@ -213,7 +213,7 @@ class Followed:
 
     @property
     def failed(self) -> list[str]:
-        problems = self.session.reload_problems
+        problems = self.session.problems.of_saves
         return [p.code for found in problems.values() for p in found]
 
 
@@ -438,8 +438,9 @@ def test_a_session_that_fails_does_not_keep_the_others_from_a_save(
         for client in clients:
             client.wait_until(lambda c=client: c.types()["BoxMessage"] > 0)
         first = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-        for name in ("show_robot", "set_reload_problems", "refresh"):
+        for name in ("show_robot", "refresh"):
             monkeypatch.setattr(first, name, fail)
+        monkeypatch.setattr(first.problems, "set_saves", fail)
         marks = [client.mark() for client in clients]
         content = model.read_text("utf-8")
         for size in ("0.5", "0.6"):

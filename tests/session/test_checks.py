@@ -54,7 +54,7 @@ def session_of(viz: Visualizer) -> Session:
 
 
 def codes(viz: Visualizer) -> list[str]:
-    return [problem.code for problem in session_of(viz).problems]
+    return [problem.code for problem in session_of(viz).problems.of_model]
 
 
 def test_problems_of_the_robot_that_is_shown_are_listed(model: Path) -> None:
@@ -70,7 +70,7 @@ def test_a_fixed_frame_that_does_not_exist_is_reported_until_another_is_chosen(
 ) -> None:
     with Visualizer(model, config, port=0) as viz:
         assert codes(viz) == ["limit-in-degrees", "setup-fixed-frame"]
-        assert session_of(viz).problems[1].line == 9
+        assert session_of(viz).problems.of_model[1].line == 9
         session_of(viz).set_global("Fixed Frame", "base_link")
         assert codes(viz) == ["limit-in-degrees"]
 

@@ -14,8 +14,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import FrameError, JointError, Visualizer, load_robot
 from sambot_viz.frames import Transform
-from sambot_viz.session import Session
-from sambot_viz.session.session import Event
+from sambot_viz.session import Event, Session
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 ARM = """<robot name="arm">
@@ -98,7 +97,7 @@ def test_threads_a_browser_and_reloads_together_end_in_one_state(
     assert viz.joint_positions[LEFT] == pytest.approx(0.99)
     assert viz.joint_positions[RIGHT] == pytest.approx(1.0)
     assert client.value_of(RIGHT) == pytest.approx(1.0)
-    assert session.reload_problems == {}
+    assert session.problems.of_saves == {}
 
 
 def test_a_listener_that_fails_is_shown_and_the_others_are_called(
@@ -115,7 +114,7 @@ def test_a_listener_that_fails_is_shown_and_the_others_are_called(
         viz.set_joint_positions({LEFT: 0.5})
         viz.set_joint_positions({LEFT: 0.6})
     assert "joints" in heard
-    (problem,) = session.reload_problems["fault"]
+    (problem,) = session.problems.of_saves["fault"]
     assert (problem.severity, problem.code) == ("error", "internal-error")
     assert problem.message == "internal error: RuntimeError: the panel is broken"
     assert len(caplog.records) == 1, "the same error is logged once"
@@ -129,7 +128,7 @@ def test_a_refused_call_changes_nothing(viz: Visualizer, session: Session) -> No
     assert viz.joint_positions[LEFT] == 0.0
     viz.set_joint_positions({LEFT: 1.0})
     assert viz.joint_positions[LEFT] == 1.0
-    assert session.reload_problems == {}
+    assert session.problems.of_saves == {}
 
 
 def test_stopping_ends_motion_and_waits_for_no_lock(
@@ -254,7 +253,7 @@ def test_an_added_frame_that_an_edit_makes_impossible_is_a_warning(arm: Path) ->
             "utf-8",
         )
         session.show_robot(load_robot(arm))
-        assert "static-transform" in [p.code for p in session.problems]
+        assert "static-transform" in [p.code for p in session.problems.of_model]
         assert "tool" in viz.frames
 
 

@@ -70,7 +70,9 @@ def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
     )
     with Visualizer(model, port=0) as viz:
         session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-        problem = next(p for p in session.problems if p.code == "floating-joint")
+        problem = next(
+            p for p in session.problems.of_model if p.code == "floating-joint"
+        )
         assert "ROS publishes no transform" in problem.message
         assert viz.frames.can_lookup("a", "b")
 
@@ -78,5 +80,5 @@ def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
 def test_wheels_that_do_not_exist_are_told_in_the_problems() -> None:
     with Visualizer(port=0, left_wheel="lft", right_wheel=RIGHT) as viz:
         session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-        problem = next(p for p in session.problems if p.code == "drive-wheels")
+        problem = next(p for p in session.problems.of_model if p.code == "drive-wheels")
         assert "no continuous joint 'lft'" in problem.message

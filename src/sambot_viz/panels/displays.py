@@ -131,7 +131,7 @@ class DisplaysPanel:
         for row in self._rows:
             row.write_status()
         if self._statuses is not None:
-            status = self._session.global_status()
+            status = self._session.picture.global_status()
             lines = [
                 _status_html("Global Status", status.level, {"Fixed Frame": status})
             ]

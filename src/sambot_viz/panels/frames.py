@@ -138,7 +138,7 @@ class FramesPanel:
         try:
             added = parse_static_transform(self._arguments.value)
             session = self._session
-            session.set_static_transform(added.parent, added.child, added.transform)
+            session.add_frame(added.parent, added.child, added.transform)
         except (UsageError, FrameError) as error:
             self._say((str(error),), "error")
             return

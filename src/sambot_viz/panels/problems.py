@@ -69,9 +69,9 @@ def problems_of(session: Session) -> list[Problem]:
     While the saved model has a mistake, its problems take the place of those of the
     version that is shown, whose line numbers are out of date.
     """
-    saved = session.reload_problems
+    saved = session.problems.of_saves
     shapes = (p for display in session.displays for p in display.problems)
-    model = saved.get("model", ()) or (*session.problems, *shapes)
+    model = saved.get("model", ()) or (*session.problems.of_model, *shapes)
     config = saved.get("config", ()) or session.config.problems
     others = (*saved.get("fault", ()), *saved.get("watch", ()))
     return in_order((*model, *config, *others))
@@ -94,7 +94,7 @@ def title(problems: Iterable[Problem]) -> str:
 
 def last_good_note(session: Session) -> str:
     """HTML that says that the picture is older than the file, or nothing."""
-    faults = session.reload_problems.get("model", ())
+    faults = session.problems.of_saves.get("model", ())
     if not any(fault.severity == "error" for fault in faults):
         return ""
     return (

@@ -168,7 +168,7 @@ class Server:
         with self._lock:
             self._reload_problems[of] = tuple(problems)
         try:
-            self.for_each_session(lambda s: s.set_reload_problems(of, problems))
+            self.for_each_session(lambda s: s.problems.set_saves(of, problems))
         except Exception:
             # What was saved is shown to the others all the same.
             _log.exception("a session could not show the problems of a save")
@@ -238,7 +238,7 @@ class Server:
             session.show_robot(self._robot)
             worker.post(advice.give)
         for of, problems in self._reload_problems.items():
-            session.set_reload_problems(of, problems)
+            session.problems.set_saves(of, problems)
         if not self.options.panels:
             return session, None
         # A model that is being read may change the displays while panels are made.
@@ -283,7 +283,7 @@ class Server:
         if robot is not None and robot is not session.robot:
             session.show_robot(robot)
         for of, found in problems.items():
-            session.set_reload_problems(of, found)
+            session.problems.set_saves(of, found)
         self._give_view(session, client)
 
     async def _leave(self, client: viser.ClientHandle) -> None:

@@ -1,9 +1,12 @@
 """One robot, config, joints, frames and displays, shown to one audience.
 
-`Session` owns the state; what it does on the way stands beside it: the pose of the
-robot, frames added by hand, motion and driving, views, tools, the checks' advice.
+`Session` owns the state. Its parts have modules of their own: what is drawn, the
+robot's state, frames that users add, motion and driving, views, tools, problems.
 """
 
-from sambot_viz.session.session import Audience, Event, Reloaded, Session, walk
+from sambot_viz.session.picture import walk
+from sambot_viz.session.problem_list import Reloaded
+from sambot_viz.session.session import Session
+from sambot_viz.session.shared_state import Audience, Event
 
 __all__ = ["Audience", "Event", "Reloaded", "Session", "walk"]

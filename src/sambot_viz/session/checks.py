@@ -47,9 +47,9 @@ class CheckResults:
             self._of_robot = tuple(check_robot(robot, mesh=self._mesh))
         problems = (*self._of_robot, *of_joints, *of_config)
         with session.lock:
-            if session.robot is robot and session.problems != problems:
+            if session.robot is robot and session.problems.of_model != problems:
                 with session.change():
-                    session.set_problems(problems)
+                    session.problems.set_model(problems)
 
     def _mesh(self, path: Path) -> Mesh | None:
         """A mesh that has been read for the picture; the rules read none themselves.

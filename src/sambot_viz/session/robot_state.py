@@ -33,7 +33,7 @@ class RobotState:
         self._tree = tree
         self._added = added
         self._moved: dict[str, None] = {}
-        self._swept: dict[str, Matrix] = {}
+        self._new_poses: dict[str, Matrix] = {}
 
     def take(self, robot: Robot, start: StartPose) -> None:
         """Take a robot, or the same after an edit: joints keep their values."""
@@ -44,7 +44,7 @@ class RobotState:
             self.joints.reload(robot)
 
     def build_tree(self) -> tuple[Problem, ...]:
-        """The frames of the robot, then the added ones again; why some cannot be."""
+        """Set the frames of the robot, then the added ones; returns refused ones."""
         if self.robot is None or self.joints is None:
             return ()
         self._tree.clear()
@@ -59,17 +59,35 @@ class RobotState:
         joints = self.robot.joints.values() if self.robot else ()
         return {plain_name(j.child): j.type for j in joints if j.movable}
 
-    def mark(self, joints: Iterable[str]) -> None:
-        """Note that some joints have other positions than their frames show."""
-        self._moved.update(dict.fromkeys(joints))
+    def move(
+        self, positions: Mapping[str, float], frames: Mapping[str, Matrix]
+    ) -> None:
+        """Note new positions of joints and poses of added frames, for `settle`.
 
-    def sweep(self, frames: Mapping[str, Matrix]) -> None:
-        """Note new poses of added frames: frame → (4, 4) T_parent_child."""
-        self._swept.update(frames)
+        Args:
+            positions: joint → position [rad or m].
+            frames: added frame → (4, 4) T_parent_child; kept, not copied.
 
-    def forget_sweep(self, frame: str) -> None:
-        """Drop a noted pose, because the frame is set anew or taken away."""
-        self._swept.pop(plain_name(frame), None)
+        Raises:
+            JointError: an unknown joint, a follower, or no finite number.
+        """
+        if self.joints is not None:
+            self._note(self.joints.set_all(positions))
+        self._new_poses.update(frames)
+
+    def center(self) -> None:
+        """Note the start values of all joints."""
+        if self.joints is not None:
+            self._note(self.joints.center())
+
+    def randomize(self, seed: int | None) -> None:
+        """Note random values of all joints."""
+        if self.joints is not None:
+            self._note(self.joints.randomize(seed))
+
+    def forget_pose(self, frame: str) -> None:
+        """Drop a noted pose, because the frame is set again or removed."""
+        self._new_poses.pop(plain_name(frame), None)
 
     def settle(self) -> dict[str, Matrix]:
         """Set all noted changes in the tree.
@@ -78,19 +96,22 @@ class RobotState:
             Child frame → (4, 4) T_parent_child of what changed since the last time.
         """
         moved, self._moved = self._moved, {}
-        swept, self._swept = self._swept, {}
-        frames = {**self._joint_frames(moved), **swept}
+        poses, self._new_poses = self._new_poses, {}
+        frames = {**self._joint_frames(moved), **poses}
         if frames:
             self._tree.update(frames)
-        for frame, T in swept.items():
+        for frame, T in poses.items():
             self._added.moved(frame, Transform.trusted(T))
         return frames
+
+    def _note(self, joints: Iterable[str]) -> None:
+        self._moved.update(dict.fromkeys(joints))
 
     def _joint_frames(self, moved: Iterable[str]) -> dict[str, Matrix]:
         robot, joints = self.robot, self.joints
         if robot is None or joints is None:
             return {}
         frames = {name: plain_name(robot.joints[name].child) for name in moved}
-        # A frame that was hung elsewhere by hand no longer follows its joint.
+        # A frame that a user attached elsewhere no longer follows its joint.
         free = [name for name, frame in frames.items() if frame not in self._added]
         return {frames[name]: T for name, T in joints.transforms(free).items()}

@@ -233,7 +233,7 @@ def test_a_robot_from_a_file_brings_its_own_frames(
     session = show(second, files={"other.urdf": arm})
     assert {"base", "upper", "b/base", "b/upper", "b/tool"} <= set(session.tree.frames)
     assert model_of(session).status.rows["b/upper"].level == "Error"
-    session.set_static_transform("base", "b/base", Transform.from_xyz_rpy((2, 0, 0)))
+    session.add_frame("base", "b/base", Transform.from_xyz_rpy((2, 0, 0)))
     rows = model_of(session).status.rows
     assert rows["b/upper"].text == "Transform OK"
     at_two = session.tree.lookup("base", "b/upper").translation
