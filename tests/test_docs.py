@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def written_commands() -> list[str]:
-    """Every line in the README that calls the program, as somebody would type it."""
+    """Every line in the README that calls the program, as a user types it."""
     text = (ROOT / "README.md").read_text("utf-8")
     blocks = re.findall(r"```(?:sh|console|text)\n(.*?)```", text, re.DOTALL)
     lines = [line.removeprefix("$ ") for block in blocks for line in block.split("\n")]

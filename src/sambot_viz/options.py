@@ -192,8 +192,8 @@ class Options:
     )
     static_transforms: Sequence[StaticTransform | str] = _option(
         (),
-        "another frame, with the arguments of static_transform_publisher, old or new, "
-        f"in quotes{_AGAIN}",
+        "another frame: the arguments of static_transform_publisher, with or without "
+        f"its flags such as --x, all in one pair of quotes{_AGAIN}",
         "--static-transform",
         group="pose",
         metavar='"X Y Z YAW PITCH ROLL PARENT CHILD"',

@@ -15,6 +15,10 @@ from sambot_viz.options import Flag, Group, Options, declared, flag_of
 
 _ARGUMENT = re.compile(r"\s*([A-Za-z_][\w.-]*)\s*:=(.*)", re.DOTALL)
 _YES, _NO = ("true", "1"), ("false", "0")
+_ABOUT_MODELS = (
+    "Without MODEL, the bundled sam_bot is used. NAME:=VALUE is an argument for xacro, "
+    "anywhere on the line."
+)
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,6 +31,8 @@ class Parser(argparse.ArgumentParser):
     """
 
     def __init__(self, prog: str, groups: Sequence[Group] = (), **rest: Any) -> None:
+        if groups:
+            rest.setdefault("epilog", _ABOUT_MODELS)
         super().__init__(prog=prog, **rest)
         self.options = [o for o in declared() if _is_taken(flag_of(o), groups)]
         if groups:

@@ -36,6 +36,11 @@ def parser() -> Parser:
         "without being shown, display by display. Exit status: 0 fine, 1 not a .rviz "
         "file, 2 usage.",
     )
-    made.add_argument("file", metavar="FILE.rviz", help="of ROS 2 or ROS 1")
-    made.add_argument("--format", choices=("text", "json"), default="text")
+    made.add_argument("file", metavar="FILE.rviz", help="the file, of ROS 2 or ROS 1")
+    made.add_argument(
+        "--format",
+        choices=("text", "json"),
+        default="text",
+        help="how to print it (default: %(default)s)",
+    )
     return made

@@ -56,5 +56,10 @@ def parser() -> Parser:
     )
     made.add_argument("source", metavar="SOURCE", help="the frame to look from")
     made.add_argument("target", metavar="TARGET", help="the frame to look at")
-    made.add_argument("--format", choices=("text", "json"), default="text")
+    made.add_argument(
+        "--format",
+        choices=("text", "json"),
+        default="text",
+        help="how to print it (default: %(default)s)",
+    )
     return made

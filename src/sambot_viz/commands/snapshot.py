@@ -63,7 +63,12 @@ def parser() -> Parser:
     )
     add = made.add_argument
     add("-o", "--output", required=True, metavar="FILE.png", help="where to write it")
-    add("--size", default="800x600", metavar="WxH", help="default: %(default)s")
+    add(
+        "--size",
+        default="800x600",
+        metavar="WxH",
+        help="size [pixels] (default: %(default)s)",
+    )
     return made
 
 

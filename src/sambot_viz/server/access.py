@@ -1,11 +1,11 @@
-"""Private by default: which web pages may talk to this server.
+"""Which web pages may use this server: by default only its own.
 
-viser takes every connection, so any page that a user visits could open
+viser accepts every connection, so any page that a user visits could open
 ``ws://localhost:8080``, see the robot and move it. Here a browser is only let in from
 the page that this server itself sent, or from an origin that was allowed by name: a
 page of another origin is refused, and so is one that reached the server under a foreign
 name (DNS rebinding). Other pages cannot show this one in a frame. Programs send no
-Origin and pass.
+Origin and are let in.
 
 What stays weak: a server that listens on a network, and has no allowed origins, cannot
 know its own names, so it takes any name that a browser reached it by, also a foreign
@@ -125,7 +125,7 @@ def checked(listening_on: str, allowed: Sequence[str] = ()) -> Generator[None]:
             try:
                 response = answer(connection, request) if answer else None
             except (OSError, ValueError):
-                # The system takes no file name as long as that, or with a NUL.
+                # The file name is too long for the system, or contains a NUL.
                 return _refusal(http.HTTPStatus.NOT_FOUND, "No such page.")
             if response is not None:
                 response.headers["Content-Security-Policy"] = policy

@@ -33,8 +33,8 @@ def listen(
 ) -> viser.ViserServer:
     """A viser server on exactly this address.
 
-    viser itself takes the next free port in silence, and tries forever on an address
-    that this machine does not have.
+    viser itself takes the next free port without a message, and tries forever on an
+    address that this machine does not have.
 
     Args:
         host: address to listen on.
@@ -88,6 +88,6 @@ def _taken(host: str, port: int) -> ServerError:
 
 
 def close(server: viser.ViserServer) -> None:
-    """Stop a server without a word; a second call does nothing."""
+    """Stop a server and print nothing; a second call does nothing."""
     with viser_private.without_banner():
         server.stop()

@@ -4,8 +4,9 @@ viser itself takes any message from anyone: any attribute of a widget, uploads o
 size, values that cannot be sent to the other browsers. Here a browser may report its
 camera, set a visible and enabled widget to a value of the widget's type, hold a button,
 press a key of a command, click or draw a rectangle with the current tool, and send the
-picture that it was asked for. Everything else is dropped. A browser counts only after
-its first camera, because viser runs no callback, and so no check of ours, before that.
+picture that it was asked for. Everything else is dropped: clicks on nodes, drags,
+transform controls, forms, uploads. Nothing is accepted from a browser before its first
+camera, because viser runs no callback, and so none of our checks, before that.
 
 A message is limited in size, and a browser in messages per second: one that sends more
 is slowed down, by reading less from its connection. One that does not read what it is
@@ -39,19 +40,19 @@ from sambot_viz.server.browser_messages import (
 )
 
 LARGEST_MESSAGE = 64 * 1024
-"""A longer message ends its connection [bytes]."""
+"""A connection that sends a longer message is closed [bytes]."""
 LONGEST_TEXT = 1000
 """Of a value that is a text [characters]."""
 MESSAGES_PER_SECOND = 300.0
-"""A hand with a mouse sends about 110: 60 values and 50 cameras."""
+"""A user with a mouse sends about 110: 60 values and 50 cameras."""
 BURST = 600.0
-"""So many messages may come at once."""
+"""How many messages may come at once."""
 STALL_PERIOD = 10.0
 """A browser that hardly reads is disconnected after one to two of these [s]."""
 SLOWEST = 1000.0
 """A slower browser hardly reads [bytes/s]."""
 CLOSE_TIME = 1.0
-"""How long the end of the program waits for a browser's goodbye [s]."""
+"""How long the end of the program waits for a browser to close its connection [s]."""
 LOG_PERIOD = 10.0
 """Refused messages are reported once in so long at most [s]."""
 _LARGEST_INT = 2**53
@@ -136,7 +137,7 @@ class Door:
         options: Sequence[str] | None = getattr(handle, "options", None)
         if fits(handle.value, value) and (options is None or value in options):
             return None
-        # The page shows what its user entered; it gets the value that holds back.
+        # The page shows what its user entered; send it the value that is kept.
         viser_private.send_value(self._server, self._client_id, handle)
         return "a value that is not of its widget's type"
 
@@ -232,7 +233,7 @@ _next_report = 0.0
 
 
 def _report(client_id: int, reason: str) -> None:
-    """Say in the log that a message was dropped; rarely, as there may be many."""
+    """Log that a message was dropped; rarely, because there may be many."""
     global _next_report
     if (now := time.monotonic()) >= _next_report:
         _next_report = now + LOG_PERIOD

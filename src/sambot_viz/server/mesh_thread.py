@@ -45,7 +45,7 @@ class MeshThread:
         self._reporting = threading.RLock()
 
     def request(self, asset: Asset, listener: Listener) -> None:
-        """Read a file soon, then tell the listener, several files at a time."""
+        """Read a file soon, then call the listener, with several files at a time."""
         with self._changed:
             if self._closed:
                 return

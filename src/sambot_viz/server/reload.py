@@ -1,7 +1,7 @@
 """Showing what was saved: the model, its meshes and textures, the config.
 
-A save with a mistake never takes the robot away: the last good one stays, with a note
-that says so, until a save fixes it.
+A save with a mistake never removes the robot: the last good one stays, with the
+problem beside it, until a save fixes it.
 """
 
 from __future__ import annotations
@@ -268,7 +268,7 @@ def _folders_in(folder: Path) -> Iterator[Path]:
 
 
 def _is_pipe(path: Path) -> bool:
-    """Whether a path is a pipe or a device: reading it could take for ever."""
+    """Whether a path is a pipe or a device: reading it might never end."""
     try:
         mode = path.stat().st_mode
     except (OSError, ValueError):

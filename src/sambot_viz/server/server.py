@@ -103,7 +103,7 @@ class Server:
 
     @property
     def viser(self) -> viser.ViserServer:
-        """The viser server, to add nodes and widgets of one's own."""
+        """The viser server, to add your own nodes and widgets."""
         return self._viser
 
     def sessions(self) -> list[Session]:

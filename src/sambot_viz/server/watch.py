@@ -5,7 +5,7 @@ folders, and once a second in any case: that finds what the system does not repo
 (network drives, a link that points elsewhere, a folder that was created again), and
 takes over when the system cannot watch at all. What counts is the state of the files:
 how an editor saves, in place, by renaming or in two steps, makes no difference. An
-error, of the file system or of a callback, is logged and ends nothing.
+error, of the file system or of a callback, is logged; the watching goes on.
 """
 
 from __future__ import annotations
