@@ -8,12 +8,19 @@ from default_config import DEFAULT_TEXT
 
 from sambot_viz.errors import ConfigError
 from sambot_viz.rviz import (
+    BoolProperty,
     Declarations,
+    EntryItem,
+    FloatProperty,
     PropertyError,
     RvizConfig,
     UnknownPropertyError,
 )
 
+LINK = (
+    BoolProperty("Value", default=True),
+    FloatProperty("Alpha", default=1.0, minimum=0.0, maximum=1.0),
+)
 Parse = Callable[[str], RvizConfig]
 
 GRID = "Class: rviz_default_plugins/Grid\nName: Grid\n"
@@ -336,20 +343,71 @@ def test_links_can_be_read_and_written_whatever_their_names(one_display: Parse):
         "Alpha": "0.5"
     }
     assert robot.dynamic("Links") == {}
-    robot.set_dynamic(("Link/Joint Tree", "base_link"), False)
-    robot.set_dynamic(("Links", "wheel/left", "Alpha"), 0.5)
-    robot.set_dynamic(("Links", "wheel/left", "Note"), "a: b")
+    base = EntryItem(robot, ("Link/Joint Tree", "base_link"), LINK, nested=True)
+    assert base.get("Alpha") == 0.5
+    base.set("Value", False)
+    EntryItem(robot, ("Links", "wheel/left"), LINK).set("Alpha", 0.5)
     text = config.to_yaml()
     assert "    Details: {Alpha: 0.5}\n          Value: false\n" in text
-    assert (
-        "      Links:\n"
-        "        wheel/left:\n"
-        "          Alpha: 0.5\n"
-        '          Note: "a: b"\n'
-    ) in text
+    assert "      Links:\n        wheel/left:\n          Alpha: 0.5\n" in text
 
 
-def test_dynamic_keys_of_declared_containers_are_no_unknown_keys(one_display: Parse):
+@pytest.mark.parametrize("written", ["{Value: false}", "false", "{Value: no}"])
+def test_an_entry_is_read_from_a_map_or_from_a_text(one_display: Parse, written: str):
+    config = one_display(
+        f"Class: rviz_default_plugins/RobotModel\nLinks: {{arm: {written}}}"
+    )
+    before = config.to_yaml()
+    arm = EntryItem(config.displays[0], ("Links", "arm"), LINK)
+    assert dict(arm.properties) == {"Value": False, "Alpha": 1.0}
+    assert config.to_yaml() == before
+    arm.set("Alpha", 0.5)
+    again = EntryItem(config.displays[0], ("Links", "arm"), LINK)
+    assert dict(again.properties) == {"Value": False, "Alpha": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("written", "alpha"), [("7", 1.0), ("-1", 0.0), (".5", 0.5), (".nan", 1.0)]
+)
+def test_a_bad_value_of_an_entry_is_clamped_and_reported_at_its_place(
+    one_display: Parse, written: str, alpha: float
+):
+    config = one_display(
+        f"Class: rviz_default_plugins/RobotModel\nLinks: {{arm: {{Alpha: {written}}}}}"
+    )
+    arm = EntryItem(config.displays[0], ("Links", "arm"), LINK)
+    assert arm.get("Alpha") == alpha
+    found = [problem.message for problem in config.problems]
+    assert ["'Alpha' is" in message for message in found] == [True] * (alpha != 0.5)
+
+
+def test_an_entry_that_another_one_has_made_meanwhile_is_kept(one_display: Parse):
+    config = one_display("Class: rviz_default_plugins/RobotModel\nLink Tree: {}")
+    robot = config.displays[0]
+    base = EntryItem(robot, ("Link Tree", "base"), LINK, nested=True)
+    arm = EntryItem(robot, ("Link Tree", "base", "arm"), LINK, nested=True)
+    arm.set("Alpha", 0.5)
+    base.set("Value", False)
+    assert robot.dynamic("Link Tree") == {
+        "base": {"Value": "false", "arm": {"Details": {"Alpha": "0.5"}}}
+    }
+
+
+def test_a_default_that_is_assumed_gives_way_to_what_the_file_says(one_display: Parse):
+    config = one_display(
+        "Class: rviz_default_plugins/RobotModel\nLinks: {arm: {Value: true}}"
+    )
+    arm, tool = (
+        EntryItem(config.displays[0], ("Links", name), LINK) for name in ("arm", "tool")
+    )
+    for item in (arm, tool):
+        item.assume("Value", False)
+    assert (arm.get("Value"), tool.get("Value")) == (True, False)
+    tool.set("Value", True)
+    assert config.displays[0].dynamic(("Links", "tool")) == {"Value": "true"}
+
+
+def test_names_of_links_and_frames_are_not_unknown_keys(one_display: Parse):
     tf = one_display(
         "Class: rviz_default_plugins/TF\n"
         "Frames: {All Enabled: false, base_link: {Value: true}}\n"

@@ -1,4 +1,4 @@
-"""Per-link, per-joint and per-frame settings of a display.
+"""The links, joints or frames of a display, each with properties of its own.
 
 A robot has hundreds of them, so the panel offers a list to choose from and shows the
 rows of the chosen one only.
@@ -10,9 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.rviz import Property
-
-Rows = Mapping[str, Any]
+from sambot_viz.rviz import EntryItem
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,28 +21,19 @@ class EntryList:
         title: RViz's name for all of them: "Links", "Joints", "Frames".
         singular: what one of them is called.
         names: those there are.
-        properties: the rows that each of them has.
-        get: name → row → value.
-        set: takes a name, a row and a checked value, and writes them into the document.
+        item: name → its item of the document, with its properties.
+        set: (name, property, value) → the value it has now; others may follow.
         facts: name → what is only shown, such as "Position" → "1; 2; 3".
-        rows: name → the rows it has, when not all of them.
+        rows: name → the properties that have a row, when not all of them do.
     """
 
     title: str
     singular: str
     names: Sequence[str]
-    properties: tuple[Property, ...]
-    get: Callable[[str], Rows]
-    set: Callable[[str, str, Any], None]
+    item: Callable[[str], EntryItem]
+    set: Callable[[str, str, Any], Any]
     facts: Callable[[str], Mapping[str, str]]
     rows: Callable[[str], Sequence[str]] | None = None
-
-
-def is_on(value: object, default: bool = True) -> bool:
-    """A box that nobody declared, by RViz's rule and YAML's words."""
-    if not isinstance(value, str):
-        return default
-    return value.lower() not in ("", "0", "false", "no", "off")
 
 
 def numbers(values: Sequence[float]) -> str:

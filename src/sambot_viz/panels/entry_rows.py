@@ -16,6 +16,7 @@ import viser
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.panels.widgets import Input, add_property, options, watch
+from sambot_viz.rviz import ConfigItem
 from sambot_viz.session import Session
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
@@ -31,7 +32,7 @@ class EntryRows:
     Args:
         session: whose display it is.
         display: whose links, joints or frames they are.
-        entries: gives them as they are now, or None while there are not numbers.
+        entries: gives them as they are now, or None while there are none.
     """
 
     def __init__(
@@ -106,22 +107,24 @@ class EntryRows:
             self._folder.visible = False
             return
         if not self._inputs:
-            self._build(found)
-        rows = found.get(self._chosen)
-        wanted = found.rows(self._chosen) if found.rows else tuple(rows)
+            self._build(found.item(self._chosen))
+        item = found.item(self._chosen)
+        wanted = found.rows(self._chosen) if found.rows else tuple(item.declared)
         for name, handle in self._inputs.items():
             handle.visible = name in wanted
-            if handle.value != rows[name]:
-                handle.value = rows[name]
+            if handle.value != item.get(name):
+                handle.value = item.get(name)
         self._folder.visible = True
         self._write_facts()
 
-    def _build(self, found: EntryList) -> None:
+    def _build(self, item: ConfigItem) -> None:
         with self._folder:
-            for prop in found.properties:
-                shown = replace(prop, name="Enabled") if prop.name == "Value" else prop
-                self._inputs[prop.name] = add_property(
-                    self._session, shown, prop.default, partial(self._set, prop.name)
+            for path, declared in item.declared.items():
+                prop = declared.property
+                # A box is saved as "Value"; RViz shows it beside the name.
+                shown = replace(prop, name="Enabled") if path == "Value" else prop
+                self._inputs[path] = add_property(
+                    self._session, shown, item.get(path), partial(self._set, path)
                 )
             self._facts = self._gui.add_html("")
 

@@ -21,6 +21,7 @@ from sambot_viz.rviz.class_items import (
 )
 from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.declared import Declared, UnknownPropertyError
+from sambot_viz.rviz.entry_item import EntryItem
 from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
 from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.properties.base import Property, PropertyError
@@ -57,6 +58,7 @@ __all__ = [
     "Declared",
     "DisplayConfig",
     "EditableEnumProperty",
+    "EntryItem",
     "EnumProperty",
     "FileProperty",
     "FloatProperty",

@@ -66,7 +66,7 @@ class ClassItem(ConfigItem):
         Raises:
             PropertyError: the name is not a text.
         """
-        self._map_at(()).put_text("Name", checked_text("Name", name))
+        self.map_at(()).put_text("Name", checked_text("Name", name))
 
 
 class DisplayConfig(ClassItem):

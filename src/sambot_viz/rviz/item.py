@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
@@ -12,10 +12,8 @@ from sambot_viz.rviz.properties.base import Property
 from sambot_viz.rviz.properties.kinds import (
     EnumProperty,
     KeptProperty,
-    VectorProperty,
-    checked_text,
 )
-from sambot_viz.rviz.properties.number_text import float_text
+from sambot_viz.rviz.unknown_keys import unknown_keys
 from sambot_viz.rviz.yaml.nodes import Map, Node, Plain, plain
 
 Path = str | Sequence[str]
@@ -25,8 +23,7 @@ class ConfigItem:
     """Typed values of one map: Global Options, a display, a view, a tool.
 
     Values are read once, kept typed, and written into the document when they are set.
-    Keys that are not declared stay untouched and can be reached as text with `raw`,
-    `dynamic` and `set_dynamic`.
+    Keys that are not declared stay untouched; `raw` and `dynamic` give them as text.
     """
 
     _own_keys: frozenset[str] = frozenset()
@@ -61,7 +58,13 @@ class ConfigItem:
         self._fresh = NewNodes(self._declared, self._values)
         self._top = tuple(p if ros1 or not p.ros1_only else _kept(p) for p in declared)
         for prop in self._top:
-            self._read(prop, (), self._node, None)
+            above, start = self._place(prop)
+            self._read(prop, above, start, None)
+
+    def _place(self, prop: Property) -> tuple[tuple[str, ...], Node | None]:
+        """The keys and the node that a property of the first level is below."""
+        del prop
+        return (), self._node
 
     def _read(
         self,
@@ -77,7 +80,7 @@ class ConfigItem:
                 key, found = alias, node.get(alias)
         if found is None:
             key = prop.name
-        path = "/".join((*above, prop.name))
+        path = prop.name if parent is None else f"{parent.path}/{prop.name}"
         declared = Declared(path, (*above, key), prop, parent)
         self._declared[path] = declared
         if prop.has_value and not prop.read_only:
@@ -103,6 +106,11 @@ class ConfigItem:
     def node(self) -> Map:
         """Its map in the document."""
         return self._node
+
+    @property
+    def findings(self) -> ConfigFindings:
+        """Takes what is doubtful in the file."""
+        return self._findings
 
     @property
     def label(self) -> str:
@@ -166,8 +174,18 @@ class ConfigItem:
         self._unreadable.discard(path)
         return new
 
+    def assume(self, path: str, value: Any) -> None:
+        """Use another default for a property that the file does not give.
+
+        Args:
+            path: the property.
+            value: of the property's own type.
+        """
+        if path not in self._given:
+            self._values[path] = value
+
     def is_shown(self, path: str) -> bool:
-        """Whether the row of a property is to be seen, as its siblings stand."""
+        """Whether the row of a property is shown: it may depend on another one."""
         declared: Declared | None = self._declared.get(path)
         if declared is None:
             raise self._unknown(path)
@@ -188,7 +206,7 @@ class ConfigItem:
         return UnknownPropertyError(self.label, path, list(self._values))
 
     def _write(self, declared: Declared, value: Any) -> None:
-        above, key = self._map_at(declared.keys[:-1]), declared.keys[-1]
+        above, key = self.map_at(declared.keys[:-1]), declared.keys[-1]
         prop, old = declared.property, above.get(key)
         parts = prop.components(value)
         if parts is not None:
@@ -215,8 +233,11 @@ class ConfigItem:
             if known is None or known[part] != text:
                 old.put_text(part, text)
 
-    def _map_at(self, keys: Sequence[str]) -> Map:
-        """The map at some keys, made of what stands there."""
+    def map_at(self, keys: Sequence[str]) -> Map:
+        """The map at some keys, made in the document where it is missing.
+
+        A text in its place becomes its "Value".
+        """
         if self._attach is not None:
             self._attach(self._node)
             self._attach = None
@@ -242,7 +263,7 @@ class ConfigItem:
         return found if isinstance(found, dict) else {}
 
     def dynamic(self, path: Path) -> dict[str, Plain]:
-        """What stands below a key, declared or not, such as "Links" or "Frames".
+        """What is below a key, declared or not, such as "Links" or "Frames".
 
         Args:
             path: one key, or a sequence of keys (which may contain slashes).
@@ -250,58 +271,21 @@ class ConfigItem:
         Returns:
             Nested dicts of text; empty when there is no map.
         """
-        node: Node | None = self._node
-        for key in _keys(path):
-            node = node.get(key) if isinstance(node, Map) else None
-        found = plain(node)
+        found = plain(self.node_at(_keys(path)))
         return found if isinstance(found, dict) else {}
 
-    def set_dynamic(self, path: Sequence[str], value: str | bool | float) -> None:
-        """Write a text, a number or a box below keys that need not be declared.
-
-        Args:
-            path: the keys, such as ("Links", "base_link", "Value").
-            value: what to write.
-        """
-        keys = _keys(path)
-        if isinstance(value, bool):
-            text = "true" if value else "false"
-        elif isinstance(value, str):
-            text = checked_text(keys[-1], value)
-        else:
-            text = float_text(value)
-        above = self._map_at(keys[:-1])
-        old = above.get(keys[-1])
-        if isinstance(old, Map):
-            old.put_text("Value", text)
-        else:
-            above.put_text(keys[-1], text)
+    def node_at(self, keys: Sequence[str]) -> Node | None:
+        """The node below some keys, declared or not; None when there is none."""
+        node: Node | None = self._node
+        for key in keys:
+            node = node.get(key) if isinstance(node, Map) else None
+        return node
 
     @property
     def unknown_keys(self) -> tuple[str, ...]:
         """Paths in the file that nothing declares, in the order of the file."""
-        return tuple(self._unknown_in(self._node, (), None))
-
-    def _unknown_in(
-        self, node: Map, above: tuple[str, ...], owner: Declared | None
-    ) -> Iterator[str]:
-        known = {d.keys: d for d in self._declared.values()}
-        for key in node.keys():
-            keys = (*above, key)
-            declared, value = known.get(keys), node.get(key)
-            if declared is None:
-                if not self._is_own(key, owner):
-                    yield "/".join(keys)
-            elif isinstance(value, Map):
-                yield from self._unknown_in(value, keys, declared)
-
-    def _is_own(self, key: str, owner: Declared | None) -> bool:
-        if owner is None:
-            return key in self._own_keys
-        prop = owner.property
-        if isinstance(prop, VectorProperty):
-            return key in prop.keys
-        return prop.open_keys or (key == "Value" and prop.has_value)
+        known = {declared.keys: declared for declared in self._declared.values()}
+        return tuple(unknown_keys(self._node, known, self._own_keys))
 
 
 def _keys(path: Path) -> tuple[str, ...]:

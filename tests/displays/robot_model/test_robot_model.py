@@ -136,7 +136,54 @@ def test_a_change_is_written_where_the_style_has_the_link(
     links = display.entries()[0]
     links.set("upper", "Alpha", 0.25)
     assert display.config.dynamic(place)["Alpha"] == "0.25"
-    assert links.get("upper")["Alpha"] == 0.25
+    assert links.item("upper").get("Alpha") == 0.25
+
+
+def test_an_edit_of_a_link_changes_one_line_of_the_file(show: Show) -> None:
+    body = """
+      Links:
+        base:
+          Alpha: 0.40  # as written by hand
+          Show Axes: yes
+        upper: {Alpha: 7, Value: false}
+"""
+    session = show(body.strip("\n"))
+    before = session.config.to_yaml().splitlines()
+    links = model_of(session).entries()[0]
+    assert links.set("upper", "Alpha", 1.0) == 1.0
+    assert links.set("base", "Show Axes", True) is True
+    assert session.config.to_yaml().splitlines() == before
+    assert links.set("base", "Alpha", 0.25) == 0.25
+    after = session.config.to_yaml().splitlines()
+    assert [pair for pair in zip(before, after, strict=True) if pair[0] != pair[1]] == [
+        (
+            "          Alpha: 0.40  # as written by hand",
+            "          Alpha: 0.25  # as written by hand",
+        )
+    ]
+
+
+def test_a_link_of_a_list_is_switched_on_alone(show: Show, nodes: Nodes) -> None:
+    session = show("      Links: {All Links Enabled: false}")
+    display = model_of(session)
+    links, joints = display.entries()
+    assert joints.item("shoulder").get("Value") is False
+    links.set("upper", "Value", True)
+    display.draw()
+    assert "v0" in at(session, "upper", nodes)
+    assert "v0" not in at(session, "base", nodes)
+    assert joints.item("shoulder").get("Value") is True
+    assert display.config.dynamic(("Links", "upper")) == {"Value": "true"}
+    session.set_property(display, "Links/All Links Enabled", True)
+    assert "v0" in at(session, "base", nodes)
+
+
+def test_another_style_of_the_rows_is_taken_at_once(show: Show) -> None:
+    display = model_of(session := show(""))
+    session.set_property(display, "Links/Link Tree Style", "Tree of links")
+    display.entries()[0].set("upper", "Alpha", 0.5)
+    place = ("Links", "upper", "Details")
+    assert display.config.dynamic(place) == {"Alpha": "0.5"}
 
 
 def test_a_new_link_of_a_tree_is_written_below_those_above_it(show: Show) -> None:
@@ -150,9 +197,9 @@ def test_the_box_of_a_joint_in_a_tree_switches_all_links_below(show: Show) -> No
     display = model_of(show(BOTH_TREE))
     links, joints = display.entries()
     joints.set("shoulder", "Value", True)
-    assert links.get("upper")["Value"] and links.get("tool")["Value"]
+    assert links.item("upper").get("Value") and links.item("tool").get("Value")
     joints.set("shoulder", "Value", False)
-    assert not links.get("upper")["Value"] and not links.get("tool")["Value"]
+    assert not links.item("upper").get("Value") and not links.item("tool").get("Value")
 
 
 def test_links_and_joints_have_the_rows_and_facts_of_rviz(show: Show) -> None:
@@ -282,7 +329,7 @@ def test_joint_rows_that_a_list_of_joints_saved_under_links_are_read(
 ) -> None:
     session = show(JOINT_ROWS.strip("\n"))
     joints = next(e for e in model_of(session).entries() if e.title == "Joints")
-    assert joints.get("shoulder") == {
+    assert dict(joints.item("shoulder").properties) == {
         "Value": False,
         "Show Axes": True,
         "Show Joint Axis": True,
@@ -300,7 +347,7 @@ def test_joint_rows_that_a_list_of_joints_saved_under_links_are_read(
 def test_link_rows_below_a_list_of_joints_are_read_as_well(show: Show) -> None:
     session = show(JOINT_ROWS.strip("\n") + "\n        base: {Alpha: 0.5}")
     links = next(e for e in model_of(session).entries() if e.title == "Links")
-    assert links.get("base")["Alpha"] == 0.5
+    assert links.item("base").get("Alpha") == 0.5
 
 
 def test_rows_nested_under_links_are_read_in_the_style_of_a_tree(show: Show) -> None:
@@ -316,5 +363,5 @@ def test_rows_nested_under_links_are_read_in_the_style_of_a_tree(show: Show) -> 
 """
     session = show(body.strip("\n"))
     links, joints = model_of(session).entries()
-    assert joints.get("shoulder")["Show Axes"] is True
-    assert links.get("upper")["Alpha"] == 0.25
+    assert joints.item("shoulder").get("Show Axes") is True
+    assert links.item("upper").get("Alpha") == 0.25

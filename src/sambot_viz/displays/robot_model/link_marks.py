@@ -11,7 +11,7 @@ from typing import Any
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
-from sambot_viz.displays.robot_model.link_settings import RobotSettings
+from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
 from sambot_viz.displays.robot_model.trail import Trail
 from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
@@ -61,26 +61,26 @@ class RobotMarks:
         self._trails: dict[str, Trail] = {}
         self._fixed = context.fixed_frame
 
-    def draw(self, robot: Robot, settings: RobotSettings, wanted: Wanted) -> None:
+    def draw(self, robot: Robot, entries: RobotEntries, wanted: Wanted) -> None:
         """Draw what is missing, take out what is not wanted any more."""
         keep: set[tuple[str, str]] = set()
         for link in robot.links.values():
-            own = settings.link(link.name)
-            shown = own.enabled or not (link.visuals or link.collisions)
+            own = entries.link(link.name)
+            shown = own.get(BOX) or not (link.visuals or link.collisions)
             marks: dict[str, bool] = {
-                "a": own.show_axes and shown,
+                "a": own.get("Show Axes") and shown,
                 "m": wanted.mass and shown,
                 "i": wanted.inertia and shown,
             }
             for what, on in marks.items():
                 if on and self._at(what, link.name, link):
                     keep.add((what, link.name))
-            self._draw_trail(link.name, own.show_trail, shown)
+            self._draw_trail(link.name, own.get("Show Trail"), shown)
         for joint in robot.joints.values():
-            own_joint = settings.joint(joint.name)
+            own_joint = entries.joint(joint.name)
             for what, on in {
-                "j": own_joint.show_axes,
-                "x": own_joint.show_joint_axis and joint.type in WITH_AXIS,
+                "j": own_joint.get("Show Axes"),
+                "x": own_joint.get("Show Joint Axis") and joint.type in WITH_AXIS,
             }.items():
                 if on and self._at(what, joint.name, joint):
                     keep.add((what, joint.name))

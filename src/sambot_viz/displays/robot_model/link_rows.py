@@ -3,62 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList, numbers
 from sambot_viz.displays.robot_model.link_marks import WITH_AXIS
-from sambot_viz.displays.robot_model.link_settings import (
-    JOINT_PROPERTIES,
-    LINK_PROPERTIES,
-    RobotSettings,
-)
+from sambot_viz.displays.robot_model.robot_entries import RobotEntries
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.robot.model import Joint, Link, Robot
-from sambot_viz.rviz import DisplayConfig
 
 FrameOf = Callable[[str], str]
 
 
-def robot_entries(
-    context: DisplayContext, config: DisplayConfig, robot: Robot, frame_of: FrameOf
+def robot_lists(
+    context: DisplayContext, entries: RobotEntries, robot: Robot, frame_of: FrameOf
 ) -> tuple[EntryList, ...]:
     """The links and joints of a robot, in RViz's alphabetic order."""
     children = _child_joints(robot)
-
-    def link(name: str) -> Mapping[str, Any]:
-        own = RobotSettings(config, robot).link(name)
-        return {
-            "Value": own.enabled,
-            "Alpha": own.alpha,
-            "Show Trail": own.show_trail,
-            "Show Axes": own.show_axes,
-        }
-
-    def joint(name: str) -> Mapping[str, Any]:
-        settings = RobotSettings(config, robot)
-        own = settings.joint(name)
-        child = settings.link(robot.joints[name].child)
-        return {
-            "Value": child.enabled if own.enabled is None else own.enabled,
-            "Show Axes": own.show_axes,
-            "Show Joint Axis": own.show_joint_axis,
-        }
-
-    def set_link(name: str, row: str, value: Any) -> None:
-        RobotSettings(config, robot).set("link", name, row, value)
-
-    def set_joint(name: str, row: str, value: Any) -> None:
-        RobotSettings(config, robot).set("joint", name, row, value)
-
     links = EntryList(
         "Links",
         "link",
         sorted(robot.links),
-        LINK_PROPERTIES,
-        link,
-        set_link,
+        entries.link,
+        entries.set_link,
         lambda name: _link_facts(context, robot, name, frame_of, children),
         lambda name: _link_rows(robot.links[name]),
     )
@@ -66,9 +33,8 @@ def robot_entries(
         "Joints",
         "joint",
         sorted(robot.joints),
-        JOINT_PROPERTIES,
-        joint,
-        set_joint,
+        entries.joint,
+        entries.set_joint,
         lambda name: _joint_facts(context, robot.joints[name], frame_of),
         lambda name: _joint_rows(robot, robot.joints[name]),
     )

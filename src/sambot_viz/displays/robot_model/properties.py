@@ -1,8 +1,7 @@
-"""The properties of a RobotModel, in RViz's order."""
+"""The properties of a RobotModel, of its links and of its joints, in RViz's order."""
 
 from __future__ import annotations
 
-from sambot_viz.displays.robot_model.link_settings import LINK_TREE_PROPERTIES
 from sambot_viz.displays.robot_model.robot_source import FILE
 from sambot_viz.rviz import (
     BoolProperty,
@@ -15,6 +14,84 @@ from sambot_viz.rviz import (
     StringProperty,
     TopicProperty,
 )
+
+STYLES = (
+    "Links in Alphabetic Order",
+    "Joints in Alphabetic Order",
+    "Tree of links",
+    "Tree of links and joints",
+)
+STYLE = "Links/Link Tree Style"
+ALL_ENABLED = "Links/All Links Enabled"
+ALL_LINKS_ENABLED = BoolProperty(
+    "All Links Enabled", default=True, help="Show or hide all links."
+)
+
+LINK_TREE_PROPERTIES: tuple[Property, ...] = (
+    GroupProperty(
+        "Links",
+        help="The links of the robot, each with settings of its own.",
+        open_keys=True,
+        children=(
+            EnumProperty(
+                "Link Tree Style",
+                default=STYLES[0],
+                options=STYLES,
+                help="How RViz lists the links; here there is a list to choose from.",
+                support="approximate",
+            ),
+            BoolProperty(
+                "Expand Tree",
+                default=False,
+                help="Kept for RViz: its tree of links is not drawn here.",
+                support="approximate",
+            ),
+            BoolProperty(
+                "Expand Link Details",
+                default=False,
+                help="Kept for RViz: its tree of links is not drawn here.",
+                support="approximate",
+            ),
+            BoolProperty(
+                "Expand Joint Details",
+                default=False,
+                help="Kept for RViz: its tree of links is not drawn here.",
+                support="approximate",
+            ),
+            ALL_LINKS_ENABLED,
+        ),
+    ),
+    GroupProperty("Joints", help="The joints.", open_keys=True, read_only=True),
+    GroupProperty(
+        "Link Tree", help="The links as a tree.", open_keys=True, read_only=True
+    ),
+    GroupProperty(
+        "Link/Joint Tree",
+        help="The links and joints as a tree.",
+        open_keys=True,
+        read_only=True,
+    ),
+)
+LINK_PROPERTIES: tuple[Property, ...] = (
+    BoolProperty("Value", default=True, help="Show the link."),
+    FloatProperty(
+        "Alpha",
+        default=1.0,
+        minimum=0.0,
+        maximum=1.0,
+        help="How opaque the link is, on top of the robot's own Alpha.",
+    ),
+    BoolProperty("Show Trail", default=False, help="Draw the way the link took."),
+    BoolProperty("Show Axes", default=False, help="Draw the axes of the link."),
+)
+JOINT_PROPERTIES: tuple[Property, ...] = (
+    BoolProperty("Value", default=True, help="Show the links that the joint carries."),
+    BoolProperty("Show Axes", default=False, help="Draw the axes of the joint."),
+    BoolProperty(
+        "Show Joint Axis", default=False, help="Draw the axis the joint moves about."
+    ),
+)
+
 
 ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
     BoolProperty(

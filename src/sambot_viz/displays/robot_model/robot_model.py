@@ -9,12 +9,12 @@ from typing import Literal
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
-from sambot_viz.displays.robot_model.link_rows import robot_entries
-from sambot_viz.displays.robot_model.link_settings import (
+from sambot_viz.displays.robot_model.link_rows import robot_lists
+from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
-    RobotSettings,
+    ROBOT_MODEL_PROPERTIES,
 )
-from sambot_viz.displays.robot_model.properties import ROBOT_MODEL_PROPERTIES
+from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
 from sambot_viz.displays.robot_model.robot_source import FILE, OUTSIDE, RobotSource
 from sambot_viz.displays.robot_model.second_robot import publish_frames
 from sambot_viz.displays.robot_model.shape_nodes import ShapeLook, ShapeNode
@@ -42,6 +42,7 @@ class RobotModelDisplay(Display):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """See `Display`."""
         super().__init__(context, config, key)
+        self._entries: RobotEntries | None = None
         self._source = RobotSource(context, config, self._file_read)
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
         self._marks = RobotMarks(context, key, self.frame_of)
@@ -59,7 +60,7 @@ class RobotModelDisplay(Display):
             return
         if self.publish():
             self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
-        settings = RobotSettings(self.config, robot)
+        entries = self.entries_of(robot)
         alpha = float(self.config.get("Alpha"))
         on: Mapping[Kind, bool] = {
             "visual": bool(self.config.get("Visual Enabled")),
@@ -70,20 +71,20 @@ class RobotModelDisplay(Display):
             frame = self.frame_of(link.name)
             connected = self.context.nodes.connected(frame)
             above = self.context.nodes.path(frame) if connected else ""
-            own = settings.link(link.name)
-            opacity = alpha * own.alpha if connected else 1.0
+            own = entries.link(link.name)
+            opacity = alpha * own.get("Alpha") if connected else 1.0
             for kind, index, shape in _shapes_of(link):
                 key = (link.name, kind, index)
                 wanted.add(key)
                 node = self._node(key, above or "", shape)
-                node.draw(ShapeLook(on[kind] and own.enabled, opacity, not connected))
+                node.draw(ShapeLook(on[kind] and own.get(BOX), opacity, not connected))
         for key in [key for key in self._shapes if key not in wanted]:
             self._shapes.pop(key)[1].remove()
         wanted_marks = Wanted(
             bool(self.config.get("Mass Properties/Mass")),
             bool(self.config.get("Mass Properties/Inertia")),
         )
-        self._marks.draw(robot, settings, wanted_marks)
+        self._marks.draw(robot, entries, wanted_marks)
         self._report(robot)
 
     def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
@@ -203,19 +204,24 @@ class RobotModelDisplay(Display):
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
-        if path == ALL_ENABLED and self._source.robot is not None:
-            RobotSettings(self.config, self._source.robot).set_all(
-                bool(self.config.get(ALL_ENABLED))
-            )
+        robot = self._source.robot
+        if path == ALL_ENABLED and robot is not None:
+            self.entries_of(robot).set_all(bool(self.config.get(ALL_ENABLED)))
         super().property_changed(path)
 
     def entries(self) -> tuple[EntryList, ...]:
         """The links and the joints."""
-        if self._source.robot is None:
+        robot = self._source.robot
+        if robot is None:
             return ()
-        return robot_entries(
-            self.context, self.config, self._source.robot, self.frame_of
-        )
+        entries = self.entries_of(robot)
+        return robot_lists(self.context, entries, robot, self.frame_of)
+
+    def entries_of(self, robot: Robot) -> RobotEntries:
+        """The links and joints of a robot as items of the document."""
+        if self._entries is None or not self._entries.holds_for(robot):
+            self._entries = RobotEntries(self.config, robot)
+        return self._entries
 
     def frames_moved(self, frames: Iterable[str]) -> None:
         """The shapes hang below their frames; only trails have to follow."""

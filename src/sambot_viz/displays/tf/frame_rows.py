@@ -6,58 +6,71 @@ from collections.abc import Mapping
 from typing import Any
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.entries import EntryList, is_on, numbers
+from sambot_viz.displays.entries import EntryList, numbers
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
-from sambot_viz.rviz import BoolProperty, DisplayConfig, Property
+from sambot_viz.rviz import BoolProperty, DisplayConfig, EntryItem, Property
 
 ALL_ENABLED = "Frames/All Enabled"
-ALL_FRAMES = ""
-"""Stands for the frames a file does not name."""
+BOX = "Value"
+"""The property that shows or hides a frame."""
 
 FRAME_PROPERTIES: tuple[Property, ...] = (
-    BoolProperty("Value", default=True, help="Show the frame and its arrow."),
+    BoolProperty(BOX, default=False, help="Show the frame and its arrow."),
 )
 
 
-def frame_boxes(config: DisplayConfig) -> dict[str, bool]:
-    """The box of every frame the file names, and of all others.
+class FrameEntries:
+    """The frames of one TF display as items of the document.
 
-    A frame without a "Value" counts as off, as in RViz.
+    A frame that the file names without a "Value" is off, as in RViz; one that it does
+    not name follows "All Enabled".
+
+    Args:
+        config: the display.
     """
-    boxes = {ALL_FRAMES: bool(config.get(ALL_ENABLED))}
-    for frame, entry in config.dynamic("Frames").items():
-        if frame != "All Enabled":
-            value = entry.get("Value") if isinstance(entry, dict) else entry
-            boxes[frame] = is_on(value, default=False)
-    return boxes
+
+    def __init__(self, config: DisplayConfig) -> None:
+        self._config = config
+        named = config.dynamic("Frames").keys() - {"All Enabled"}
+        self._items = {frame: self._read(frame) for frame in named}
+        self._named = frozenset(self._items)
+
+    def item(self, frame: str) -> EntryItem:
+        """The item of a frame."""
+        item = self._items.get(frame)
+        if item is None:
+            item = self._items[frame] = self._read(frame)
+        if frame not in self._named:
+            item.assume(BOX, bool(self._config.get(ALL_ENABLED)))
+        return item
+
+    def is_on(self, frame: str) -> bool:
+        """Whether the box of a frame is ticked."""
+        return bool(self.item(frame).get(BOX))
+
+    def set(self, frame: str, path: str, value: object) -> Any:
+        """Set a property of a frame, and return the value it has now."""
+        return self.item(frame).set(path, value)
+
+    def set_all(self, enabled: bool) -> None:
+        """Tick or untick the frames that the document names."""
+        for frame, item in self._items.items():
+            if frame in self._named or item.is_given(BOX):
+                item.set(BOX, enabled)
+
+    def _read(self, frame: str) -> EntryItem:
+        return EntryItem(self._config, ("Frames", frame), FRAME_PROPERTIES)
 
 
-def set_all_frames(config: DisplayConfig) -> None:
-    """Tick or untick the frames that the file names, as All Enabled stands."""
-    enabled = bool(config.get(ALL_ENABLED))
-    for frame in config.dynamic("Frames"):
-        if frame != "All Enabled":
-            config.set_dynamic(("Frames", frame, "Value"), enabled)
-
-
-def frame_entries(context: DisplayContext, config: DisplayConfig) -> EntryList:
+def frame_list(context: DisplayContext, entries: FrameEntries) -> EntryList:
     """All frames, in the order in which they became known."""
-
-    def rows(frame: str) -> Mapping[str, Any]:
-        boxes = frame_boxes(config)
-        return {"Value": boxes.get(frame, boxes[ALL_FRAMES])}
-
-    def set_row(frame: str, row: str, value: Any) -> None:
-        config.set_dynamic(("Frames", frame, row), bool(value))
-
     return EntryList(
         "Frames",
         "frame",
         context.tree.frames,
-        FRAME_PROPERTIES,
-        rows,
-        set_row,
+        entries.item,
+        entries.set,
         lambda frame: _facts(context, frame),
     )
 

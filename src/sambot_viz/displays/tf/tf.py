@@ -21,10 +21,8 @@ from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes
 from sambot_viz.displays.status import Status
 from sambot_viz.displays.tf.frame_rows import (
     ALL_ENABLED,
-    ALL_FRAMES,
-    frame_boxes,
-    frame_entries,
-    set_all_frames,
+    FrameEntries,
+    frame_list,
 )
 from sambot_viz.geometry import Vector3
 from sambot_viz.rviz import (
@@ -152,20 +150,18 @@ class TfDisplay(Display):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """See `Display`."""
         super().__init__(context, config, key)
+        self._entries = FrameEntries(config)
         self._marks: dict[str, _FrameMarks] = {}
         self._arrows: dict[str, KeptNodes] = {}
 
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
         tree, nodes = self.context.tree, self.context.nodes
-        boxes = frame_boxes(self.config)
         passes = self._filter()
         frames = {
             frame: None
             for frame in tree.frames
-            if nodes.connected(frame)
-            and boxes.get(frame, boxes[ALL_FRAMES])
-            and passes(frame)
+            if nodes.connected(frame) and self._entries.is_on(frame) and passes(frame)
         }
         for frame in [f for f in self._marks if f not in frames]:
             self._drop(self._marks.pop(frame))
@@ -180,7 +176,7 @@ class TfDisplay(Display):
         self._report()
 
     def _filter(self) -> Callable[[str], bool]:
-        """What tells whether the two filters let a frame through."""
+        """A check whether the two filters let a frame through."""
         whitelist = RegexProperty.compiled(self.config.get("Filter (whitelist)"))
         blacklist = RegexProperty.compiled(self.config.get("Filter (blacklist)"))
 
@@ -252,12 +248,12 @@ class TfDisplay(Display):
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
         if path == ALL_ENABLED:
-            set_all_frames(self.config)
+            self._entries.set_all(bool(self.config.get(ALL_ENABLED)))
         super().property_changed(path)
 
     def entries(self) -> tuple[EntryList, ...]:
         """The frames."""
-        return (frame_entries(self.context, self.config),)
+        return (frame_list(self.context, self._entries),)
 
     def frames_moved(self, frames: Iterable[str]) -> None:
         """An arrow only changes when its frame has moved away from its parent."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.grid import GridDisplay
-from sambot_viz.displays.robot_model.link_settings import RobotSettings
+from sambot_viz.displays.robot_model.robot_entries import BOX
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.displays.tf.tf import AXES_DIAMETER, AXES_LENGTH, TfDisplay
 from sambot_viz.geometry import Matrix
@@ -176,16 +176,17 @@ class PickScene:
         robot, get = self._context.robot, display.config.get
         if robot is None or get("Description Source") == "File":
             return
-        settings = RobotSettings(display.config, robot)
+        entries = display.entries_of(robot)
         for link, shapes in _shapes(
             robot, get("Visual Enabled"), get("Collision Enabled")
         ):
             item = Selectable("link", link)
             if only not in (None, item):
                 continue
-            own = settings.link(link)
+            own = entries.link(link)
             T_fixed_link = self._pose(display.frame_of(link))
-            if not own.enabled or own.alpha * get("Alpha") == 0 or T_fixed_link is None:
+            alpha = own.get("Alpha") * get("Alpha")
+            if not own.get(BOX) or alpha == 0 or T_fixed_link is None:
                 continue
             for shape in shapes:
                 T = T_fixed_link @ shape.origin.matrix
