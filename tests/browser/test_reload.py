@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -39,13 +40,12 @@ def shows(text: str) -> str:
 def settled_picture(viewer: ViewerPage) -> Pixels:
     """The picture once nothing is missing in it any more, such as a name."""
     viewer.wait_for("window.sambotVizLook?.labels > 0")
-    before = viewer.pixels()
-    for _ in range(50):
-        after = viewer.pixels()
-        if np.array_equal(before, after):
-            return after
-        before = after
-    raise AssertionError("the picture never came to rest")
+    end = time.monotonic() + 30.0
+    before, after = viewer.pixels(), viewer.pixels()
+    while not np.array_equal(before, after):
+        assert time.monotonic() < end, "the picture kept changing"
+        before, after = after, viewer.pixels()
+    return after
 
 
 def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
+from sambot_viz.views.view import STEEPEST
 
 pytestmark = pytest.mark.browser
 
@@ -66,12 +68,11 @@ def viewer(viz: Visualizer, open_viewer: Open) -> ViewerPage:
 
 
 def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
-    """Wait until the server knows; the page's frames are the clock."""
-    for _ in range(100):
-        if holds():
-            return
+    """Wait until something holds on the server, while the page goes on drawing."""
+    end = time.monotonic() + 30.0
+    while not holds():
+        assert time.monotonic() < end, "the server did not hear of it in time"
         viewer.wait_for_frames()
-    raise AssertionError("the server never came to know")
 
 
 def chosen(session: Session, viewer: ViewerPage, label: str) -> None:
@@ -113,6 +114,20 @@ def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(
     viewer.page.keyboard.press("z")
     until(viewer, lambda: value(session, "Distance") == 10.0)
     viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 10) < 1e-3")
+
+
+def test_moving_a_view_from_straight_above_keeps_its_yaw(
+    session: Session, viewer: ViewerPage
+) -> None:
+    session.views.set("Pitch", 2.0)
+    assert value(session, "Pitch") == STEEPEST
+    viewer.wait_for("__viserMutable.cameraControl.polarAngle < 0.002")
+    yaws: list[float] = []
+    session.listeners.append(lambda event: yaws.append(value(session, "Yaw")))
+    for x, y in ((30, 0), (0, 30), (-30, -20)):
+        viewer.page.mouse.drag(SKY, (SKY[0] + x, SKY[1] + y), button="middle")
+    until(viewer, lambda: abs(value(session, "Focal Point")[0]) > 0.01)
+    assert yaws == pytest.approx([1.0] * len(yaws), abs=0.01)
 
 
 def test_another_type_of_view_has_its_own_mouse(

@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
 import yaml
 from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
+from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.session import Session
 
 FRESH = (3.0, 3.0, 3.0)
@@ -49,22 +51,35 @@ def session_of(viz: Visualizer) -> Session:
     return shared
 
 
+def looking(position: Vector3, look_at: Vector3) -> Wxyz:
+    """The orientation of a camera: its z is forward, its y is down in the picture."""
+    forward = np.subtract(look_at, position) / np.linalg.norm(
+        np.subtract(look_at, position)
+    )
+    right = np.cross(forward, (0.0, 0.0, 1.0))
+    right /= np.linalg.norm(right)
+    T = np.eye(4)
+    T[:3, :3] = np.stack([right, np.cross(forward, right), forward], axis=1)
+    return wxyz_from_matrix(T)
+
+
 def report(
     client: ProtocolClient,
-    position: tuple[float, float, float],
-    look_at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    position: Vector3,
+    look_at: Vector3 = (0.0, 0.0, 0.0),
+    target: Vector3 | None = None,
 ) -> None:
-    """What a page says when its camera has moved."""
+    """Report a camera, as a page does; one that moves may have another target."""
     client.send(
         "ViewerCameraMessage",
-        wxyz=(0.5, -0.5, -0.5, 0.5),
+        wxyz=looking(position, look_at),
         position=position,
         fov=0.7853981633974483,
         near=0.01,
         far=1e5,
         image_height=480,
         image_width=640,
-        look_at=look_at,
+        look_at=look_at if target is None else target,
         up_direction=(0.0, 0.0, 1.0),
     )
 
@@ -109,6 +124,17 @@ def test_the_echo_of_a_camera_is_no_move_but_a_mouse_is(
     client.settle(viser_server(viz))
     assert session.config.view.get("Distance") == pytest.approx(2.0)
     assert session.config.view.get("Yaw") == pytest.approx(1.5707963)
+
+
+def test_the_yaw_stays_while_a_camera_above_its_target_moves(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    session = session_of(viz)
+    client = join(viz, protocol, (0.004, 0.0, 4.0))
+    report(client, (0.104, 0.0, 4.0), (0.1, 0.0, 0.0), target=(0.1, 0.3, 0.0))
+    client.settle(viser_server(viz))
+    assert session.config.view.get("Yaw") == pytest.approx(0.0, abs=1e-4)
+    assert session.config.view.get("Focal Point") == pytest.approx((0.1, 0, 0), abs=0.1)
 
 
 def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(

@@ -32,6 +32,8 @@ POLE = 1e-5
 [rad]."""
 CLOSE = 0.1
 """For a nearer target, viser may ignore a small change of direction [m]."""
+SAME_WAY = 1e-6
+"""A camera at rest looks at its target, with at most this deviation [rad]."""
 FARTHEST = 1e12
 """A camera with larger numbers is not taken from a browser [m]."""
 WIDEST_ORTHO = 2 * ORTHO_FIELD_OF_VIEW
@@ -128,10 +130,16 @@ class BrowserCamera:
         wxyz, fov = _numbers(handle.wxyz, 4), _numbers([handle.fov], 1)
         if position is None or look_at is None or up is None:
             return None
-        if wxyz is None or fov is None or not wxyz.any():
+        if wxyz is None or fov is None or length(wxyz) < 1e-3:
             return None
-        if length(look_at - position) < 1e-9:
+        away = length(look_at - position)
+        if away < 1e-9:
             return None
+        forward = _rotation(wxyz)[:, 2]
+        if length(look_at - position - away * forward) > SAME_WAY * away:
+            # A camera that moves reports where its target will be when it stops. At
+            # the pole the yaw between the two would be anything.
+            look_at = position + away * forward
         orthographic = 0.0 < fov[0] < WIDEST_ORTHO
         if orthographic:
             # It leans a little; an orthographic view looks straight down.
