@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,9 +16,10 @@ import yaml
 from inside import viser_server
 from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer, bundled, load_config
+from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
+from sambot_viz.session.tool_control import INLINE
 from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.tools.registry import TOOLS
 
@@ -403,8 +405,6 @@ def test_settings_go_into_the_document_that_was_read_last(
 
 def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
     """A mesh that is not read yet is not under the cursor yet; nobody waits for it."""
-    from sambot_viz import load_robot
-
     mesh = tmp_path / "m.stl"
     mesh.write_text("solid m\n" + FACET + "endsolid m\n", "utf-8")
     model = tmp_path / "m.urdf"
@@ -421,6 +421,49 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
     mesh.unlink()
     browser.click_down(0.0, 0.0)
     assert np.isfinite(browser.session.views.camera.position).all()
+
+
+def test_a_click_into_a_large_mesh_is_followed_in_a_thread(
+    browser: Browser, tmp_path: Path
+) -> None:
+    mesh = tmp_path / "large.stl"
+    count = write_flat_mesh(mesh, side=225)
+    assert count > INLINE
+    model = tmp_path / "large.urdf"
+    model.write_text(
+        '<robot name="m"><link name="base_link"><visual><geometry>'
+        f'<mesh filename="file://{mesh}"/></geometry></visual></link></robot>',
+        "utf-8",
+    )
+    browser.session.show_robot(load_robot(model))
+    browser.viz._server.wait_for_meshes(30.0)  # pyright: ignore[reportPrivateUsage]
+    browser.trigger("Select")
+    browser.click_down(0.1, 0.2)
+    browser.client.wait_until(lambda: browser.selected == ["base_link"])
+    threads = [thread.name for thread in threading.enumerate()]
+    assert any(name.startswith("sambot-viz-rays") for name in threads)
+    browser.click_down(5.0, 5.0)
+    browser.client.wait_until(lambda: browser.selected == [])
+
+
+def write_flat_mesh(path: Path, side: int) -> int:
+    """Write a square of 2 m as a binary STL; returns its number of triangles."""
+    at = np.linspace(-1.0, 1.0, side + 1)
+    x, y = (grid.ravel() for grid in np.meshgrid(at[:-1], at[:-1]))
+    step = at[1] - at[0]
+    triangles = np.zeros(
+        2 * len(x), [("normal", "<f4", 3), ("at", "<f4", (3, 3)), ("attributes", "<u2")]
+    )
+    for first, corners in (
+        (0, ((0, 0), (1, 0), (1, 1))),
+        (1, ((0, 0), (1, 1), (0, 1))),
+    ):
+        for corner, (dx, dy) in enumerate(corners):
+            triangles["at"][first::2, corner, 0] = x + dx * step
+            triangles["at"][first::2, corner, 1] = y + dy * step
+    header = bytes(80) + len(triangles).to_bytes(4, "little")
+    path.write_bytes(header + triangles.tobytes())
+    return len(triangles)
 
 
 FACET = """facet normal 0 0 1
