@@ -26,14 +26,15 @@ if TYPE_CHECKING:
     from sambot_viz.frames import Transform
     from sambot_viz.open_config import load_config
     from sambot_viz.robot import load_robot
-    from sambot_viz.robot.model import Joint, Link, Robot
+    from sambot_viz.robot.joint import Joint
+    from sambot_viz.robot.model import Link, Robot
     from sambot_viz.rviz import RvizConfig
     from sambot_viz.visualizer import Visualizer
 
 _HOMES = {
     "ConfigError": "errors",
     "FrameError": "errors",
-    "Joint": "robot.model",
+    "Joint": "robot.joint",
     "JointError": "errors",
     "Link": "robot.model",
     "Problem": "errors",

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from sambot_viz.robot.model import Joint, Link, Origin, Robot
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Link, Robot
+from sambot_viz.robot.origin import Origin
 
 
 @pytest.fixture

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from sambot_viz.robot.model import Joint, Limit, Link, Mimic, Robot
+from sambot_viz.robot.joint import Joint, Limit, Mimic
+from sambot_viz.robot.model import Link, Robot
 
 MakeRobot = Callable[..., Robot]
 

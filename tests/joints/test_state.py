@@ -9,7 +9,8 @@ import pytest
 
 from sambot_viz.errors import JointError
 from sambot_viz.joints import JointState
-from sambot_viz.robot.model import Joint, Limit, Mimic, Robot, SoftLimit
+from sambot_viz.robot.joint import Joint, Limit, Mimic, SoftLimit
+from sambot_viz.robot.model import Robot
 
 MakeRobot = Callable[..., Robot]
 

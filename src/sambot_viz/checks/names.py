@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Joint, Link
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Link
 
 
 def names_that_differ_in_case(subject: Subject) -> Iterator[Problem]:

@@ -73,7 +73,8 @@ def floating_problems(robot: Robot) -> tuple[Problem, ...]:
     at the origin of the fixed frame.
     """
     return tuple(
-        Problem(
+        Problem.at(
+            joint.place,
             "warning",
             "floating-joint",
             f"joint '{joint.name}' is floating: ROS publishes no transform for it, so "
@@ -81,9 +82,6 @@ def floating_problems(robot: Robot) -> tuple[Problem, ...]:
             "joint's origin",
             f"let something publish '{joint.parent}' → '{joint.child}', or make the "
             "joint fixed",
-            joint.place.file if joint.place else None,
-            joint.place.line if joint.place else None,
-            joint.place.column if joint.place else None,
         )
         for joint in robot.joints.values()
         if joint.type == "floating"

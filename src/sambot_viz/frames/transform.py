@@ -22,7 +22,7 @@ from sambot_viz.geometry import (
     xyzw_from_matrix,
     xyzw_from_rpy,
 )
-from sambot_viz.robot.model import Origin
+from sambot_viz.robot.origin import Origin
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -1,16 +1,18 @@
-"""Who follows whom: mimic chains and the free joint at their end.
+"""Mimic joints: the free joint that each one follows, or why it cannot follow.
 
-The positions themselves come from `Kinematics`. What would kill joint_state_publisher
-(spec/ros-nodes.md §1.6) becomes a Problem here, also when it comes from a parameter.
+The positions come from `Kinematics`. joint_state_publisher ends with an exception at
+a mimic joint that cannot follow; here it is a Problem.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, did_you_mean
-from sambot_viz.robot.model import Joint, Mimic
+from sambot_viz.robot.joint import Joint, Mimic
+from sambot_viz.robot.mimic import mimic_chain
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +50,7 @@ def find_followers(
         if isinstance(found, Follower):
             followers[joint.name] = found
         elif frozenset(found[0]) not in rings:
-            # A ring is told once, not again for each of its joints.
+            # A ring is reported once, not again for each of its joints.
             rings.add(frozenset(found[0]))
             problems.append(found[1])
     return followers, tuple(problems)
@@ -57,18 +59,19 @@ def find_followers(
 def _follow(
     joint: Joint, joints: Mapping[str, Joint]
 ) -> Follower | tuple[tuple[str, ...], Problem]:
-    passed = [joint.name]
-    current = joint
-    while current.mimic is not None:
-        leader = joints.get(current.mimic.joint)
-        if leader is None or not leader.movable:
-            return ((joint.name,), _no_leader(joint, current, joints))
-        if leader.name in passed:
-            ring = (*passed[passed.index(leader.name) :], leader.name)
-            return (ring, _ring(joint, ring))
-        passed.append(leader.name)
-        current = leader
-    return Follower(joint.mimic or Mimic(current.name), current.name)
+    """How a mimic joint follows; or the joints that keep it from that, and why."""
+    chain = mimic_chain(joint, joints)
+    for follower, leader in itertools.pairwise(chain.joints):
+        if not leader.movable:
+            return ((joint.name,), _no_leader(joint, follower, joints))
+    last = chain.joints[-1]
+    if chain.end == "unknown":
+        return ((joint.name,), _no_leader(joint, last, joints))
+    if chain.end == "ring":
+        names = [joint.name for joint in chain.ring]
+        ring = (*names, names[0])
+        return (ring, _ring(joint, ring))
+    return Follower(joint.mimic or Mimic(last.name), last.name)
 
 
 def _no_leader(joint: Joint, last: Joint, joints: Mapping[str, Joint]) -> Problem:
@@ -83,7 +86,7 @@ def _no_leader(joint: Joint, last: Joint, joints: Mapping[str, Joint]) -> Proble
         code, fault = "mimic-joint-immovable", f"which is {leader.type}"
         hint = "name a revolute, continuous or prismatic joint"
     message = f"joint '{joint.name}' mimics '{name}'{through}, {fault}"
-    return _problem(joint, code, message, hint)
+    return Problem.at(joint.place, "error", code, message, hint)
 
 
 def _ring(joint: Joint, ring: tuple[str, ...]) -> Problem:
@@ -91,11 +94,5 @@ def _ring(joint: Joint, ring: tuple[str, ...]) -> Problem:
         message = f"joint '{joint.name}' mimics itself"
     else:
         message = f"the joints {' → '.join(ring)} mimic each other in a ring"
-    return _problem(joint, "mimic-ring", message, "one of them must be free")
-
-
-def _problem(joint: Joint, code: str, message: str, hint: str) -> Problem:
-    place = joint.place
-    if place is None:
-        return Problem("error", code, message, hint)
-    return Problem("error", code, message, hint, place.file, place.line, place.column)
+    hint = "one of them must be free"
+    return Problem.at(joint.place, "error", "mimic-ring", message, hint)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
-from sambot_viz.robot.model import Joint
+from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Session
 
 SHOWN_FOR = 1.5

@@ -6,7 +6,7 @@ import math
 
 from sambot_viz.joints import JointState
 from sambot_viz.joints.values import as_topic_pub, as_yaml
-from sambot_viz.robot.model import Joint
+from sambot_viz.robot.joint import Joint
 from sambot_viz.text import html_text, text
 
 MOST_SKIPPED = 20

@@ -23,7 +23,7 @@ from sambot_viz.panels.widgets import (
     show_values,
     watch,
 )
-from sambot_viz.robot.model import Joint
+from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Event, Session
 from sambot_viz.session.motion import HOLD
 from sambot_viz.session.throttle import Throttle

@@ -11,7 +11,8 @@ from sambot_viz.displays.entries import numbers
 from sambot_viz.errors import Place
 from sambot_viz.frames import LookupRefused
 from sambot_viz.panels.widgets import Input, add_property, frame_choices
-from sambot_viz.robot.model import Box, Geometry, Joint, Link, MeshFile, Sphere
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
 from sambot_viz.session import Event, Session
 from sambot_viz.session.throttle import Throttle

@@ -5,37 +5,33 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.geometry import Matrix, finite, rotation_from_axis, rotations_from_axes
-from sambot_viz.robot.model import Joint, Robot
+from sambot_viz.robot.joint import Joint, Mimic
+from sambot_viz.robot.mimic import mimic_chain
 
 _Ints = npt.NDArray[np.int64]
 _Floats = npt.NDArray[np.float64]
 _SPINNING = ("revolute", "continuous")
 
 
-def forward_kinematics(
-    robot: Robot, positions: Mapping[str, float]
-) -> dict[str, Matrix]:
-    """Poses of all links in the root link.
+class JointTree(Protocol):
+    """What the kinematics needs of a robot."""
 
-    A caller that asks more than once keeps a `Kinematics` instead.
+    @property
+    def root(self) -> str:
+        """The name of the root link."""
+        ...
 
-    Args:
-        robot: the robot.
-        positions: joint name → position [rad or m].
-
-    Returns:
-        Link name → (4, 4) float64, T_root_link.
-
-    Raises:
-        JointError: an unknown joint, or a value that is not finite.
-    """
-    return Kinematics(robot).forward(positions)
+    @property
+    def joints(self) -> Mapping[str, Joint]:
+        """The joints by name."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +53,11 @@ class _Follow:
 
 
 FEW = 12
-"""Up to so many joints are cheaper one by one than all of the robot together."""
+"""Up to this many joints are computed one by one, more with the whole robot."""
 
 
 class Kinematics:
-    """The poses that joint positions give: prepared once, then asked often.
+    """Link poses from joint positions: prepared once per robot, then asked often.
 
     Attributes:
         links: link names, the root first, then by depth.
@@ -69,7 +65,7 @@ class Kinematics:
             ``links[i + 1]``.
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: JointTree) -> None:
         order, parents, starts = _by_depth(robot)
         self.links: tuple[str, ...] = (robot.root, *(j.child for j in order))
         self.joints: tuple[str, ...] = tuple(joint.name for joint in order)
@@ -201,7 +197,7 @@ class Kinematics:
         return T
 
 
-def _by_depth(robot: Robot) -> tuple[list[Joint], list[int], list[int]]:
+def _by_depth(robot: JointTree) -> tuple[list[Joint], list[int], list[int]]:
     """Joints by depth, the row of each one's parent link, where each depth begins."""
     children: dict[str, list[Joint]] = {}
     for joint in robot.joints.values():
@@ -223,23 +219,21 @@ def _by_depth(robot: Robot) -> tuple[list[Joint], list[int], list[int]]:
 
 
 def _follows(order: Iterable[Joint], rows: Mapping[str, int]) -> list[_Follow]:
-    """The mimic joints, leaders first; rings and unknown leaders stay where they are.
+    """The mimic joints, leaders first; rings and unknown leaders keep start values.
 
     joint_state_publisher ends at those with an exception; here a Problem names them.
     """
-    waiting = {
-        rows[joint.name]: (rows[joint.mimic.joint], joint.mimic)
-        for joint in order
-        if joint.mimic is not None and joint.mimic.joint in rows
-    }
+    joints = {joint.name: joint for joint in order}
+    chains = [mimic_chain(joint, joints) for joint in joints.values()]
     follows: list[_Follow] = []
-    while True:
-        ready = [row for row, (leader, _) in waiting.items() if leader not in waiting]
-        if not ready:
-            return follows
-        for row in ready:
-            leader, mimic = waiting.pop(row)
-            follows.append(_Follow(row, leader, mimic.multiplier, mimic.offset))
+    for chain in sorted(chains, key=lambda chain: len(chain.joints)):
+        if len(chain.joints) == 1 or chain.end == "ring":
+            continue
+        joint, leader = chain.joints[:2]
+        mimic = joint.mimic or Mimic(leader.name)
+        row, leader_row = rows[joint.name], rows[leader.name]
+        follows.append(_Follow(row, leader_row, mimic.multiplier, mimic.offset))
+    return follows
 
 
 def _start(joint: Joint) -> float:

@@ -8,44 +8,19 @@ robot written in two files is equal.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, Literal
-
-import numpy as np
+from typing import TYPE_CHECKING, ClassVar
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.geometry import Matrix, Rgba, Vector3, rotation_from_rpy
+from sambot_viz.geometry import Matrix, Rgba, Vector3
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.kinematics import Kinematics
+from sambot_viz.robot.origin import Origin
 
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
-
-JointType = Literal[
-    "revolute", "continuous", "prismatic", "fixed", "floating", "planar"
-]
-MOVABLE_TYPES: frozenset[str] = frozenset({"revolute", "continuous", "prismatic"})
-"""The joint types that joint_state_publisher drives."""
-
-
-@dataclass(frozen=True)
-class Origin:
-    """A pose as URDF writes it: translation xyz [m], fixed-axis rpy [rad]."""
-
-    xyz: Vector3 = (0.0, 0.0, 0.0)
-    rpy: Vector3 = (0.0, 0.0, 0.0)
-    place: Place | None = field(default=None, compare=False)
-
-    @cached_property
-    def matrix(self) -> Matrix:
-        """The read-only (4, 4) transform, R = Rz(yaw) @ Ry(pitch) @ Rx(roll)."""
-        T = np.eye(4)
-        T[:3, :3] = rotation_from_rpy(*self.rpy)
-        T[:3, 3] = self.xyz
-        T.flags.writeable = False
-        return T
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,96 +136,6 @@ class Link:
     place: Place | None = field(default=None, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """Joint limit: lower and upper [rad or m], effort [N m or N], velocity [1/s]."""
-
-    lower: float = 0.0
-    upper: float = 0.0
-    effort: float = 0.0
-    velocity: float = 0.0
-    place: Place | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True, slots=True)
-class SoftLimit:
-    """The soft limits of <safety_controller>; None where not given."""
-
-    lower: float | None = None
-    upper: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Mimic:
-    """position = multiplier · position of `joint` + offset."""
-
-    joint: str
-    multiplier: float = 1.0
-    offset: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Joint:
-    """A joint between two links.
-
-    Attributes:
-        name: the joint's name.
-        type: one of `JointType`.
-        parent: name of the parent link.
-        child: name of the child link.
-        origin: pose of the joint frame in the parent link (T_parent_joint).
-        axis: unit vector in the joint frame; (0, 0, 0) when the file gives no
-            direction (the joint then cannot move).
-        limit: None when the file has no <limit>.
-        soft_limit: soft limits, or None.
-        mimic: the joint it follows, or None.
-        place: where the element is.
-    """
-
-    name: str
-    type: JointType
-    parent: str
-    child: str
-    origin: Origin = field(default_factory=Origin)
-    axis: Vector3 = (1.0, 0.0, 0.0)
-    limit: Limit | None = None
-    soft_limit: SoftLimit | None = None
-    mimic: Mimic | None = None
-    place: Place | None = field(default=None, compare=False)
-
-    @property
-    def movable(self) -> bool:
-        """Whether a position moves it (revolute, continuous, prismatic)."""
-        return self.type in MOVABLE_TYPES
-
-    @property
-    def range(self) -> tuple[float, float]:
-        """Lower and upper position [rad or m], as joint_state_publisher takes them.
-
-        Continuous joints have −π … π whatever the file says; soft limits narrow the
-        range.
-        """
-        if self.type == "continuous":
-            return (-math.pi, math.pi)
-        limit = self.limit or Limit()
-        lower, upper = limit.lower, limit.upper
-        if self.soft_limit is not None:
-            if self.soft_limit.lower is not None:
-                lower = max(lower, self.soft_limit.lower)
-            if self.soft_limit.upper is not None:
-                upper = min(upper, self.soft_limit.upper)
-        return (lower, upper)
-
-    @property
-    def start(self) -> float:
-        """The start position [rad or m]: 0, or the middle of a range without 0.
-
-        The rule is joint_state_publisher's.
-        """
-        lower, upper = self.range
-        return (lower + upper) / 2 if lower > 0 or upper < 0 else 0.0
-
-
 @dataclass(frozen=True)
 class Robot:
     """A robot whose links form one tree.
@@ -286,7 +171,9 @@ class Robot:
 
         Args:
             positions: joint name → position [rad or m]. A joint that is not given
-                stands at its start value; mimic joints follow unless given.
+                has its start value; mimic joints follow unless given.
+
+        A caller that asks more than once keeps a `Kinematics` instead.
 
         Returns:
             Link name → (4, 4) float64, T_root_link. A link behind a floating joint
@@ -295,9 +182,7 @@ class Robot:
         Raises:
             JointError: an unknown joint name, or a value that is not finite.
         """
-        from sambot_viz.robot.kinematics import forward_kinematics
-
-        return forward_kinematics(self, positions or {})
+        return Kinematics(self).forward(positions or {})
 
     def to_yourdfpy(self) -> yourdfpy.URDF:
         """The same robot as a `yourdfpy.URDF`, meshes not loaded."""

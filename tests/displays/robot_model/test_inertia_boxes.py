@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
-from sambot_viz.robot.model import Inertial, Origin
+from sambot_viz.robot.model import Inertial
+from sambot_viz.robot.origin import Origin
 
 
 def inertial(mass: float, *moments: float, origin: Origin | None = None) -> Inertial:

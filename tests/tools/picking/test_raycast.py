@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from sambot_viz.robot.model import Box, Capsule, Cylinder, Origin, Sphere
+from sambot_viz.robot.model import Box, Capsule, Cylinder, Sphere
+from sambot_viz.robot.origin import Origin
 from sambot_viz.tools.picking.raycast import Collider, bounds, cast, cast_plane
 from sambot_viz.tools.picking.rays import RayGrid, TriangleMesh
 

@@ -17,7 +17,8 @@ from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes, sphere
 from sambot_viz.geometry import Vector3, wxyz_from_matrix
-from sambot_viz.robot.model import Joint, Link, Robot
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Link, Robot
 
 AXES_LENGTH, AXES_DIAMETER = 0.1, 0.01
 SHAFT, HEAD = (0.15, 0.05), (0.05, 0.08)

@@ -10,7 +10,8 @@ from typing import get_args
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.model import Joint, JointType, Mimic, Origin
+from sambot_viz.robot.joint import Joint, JointType, Mimic
+from sambot_viz.robot.origin import Origin
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.limits import LimitReader

@@ -10,7 +10,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from sambot_viz.errors import did_you_mean
-from sambot_viz.robot.model import Joint, Link
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element
 

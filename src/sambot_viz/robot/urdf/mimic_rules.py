@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from sambot_viz.errors import did_you_mean
-from sambot_viz.robot.model import Joint
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.mimic import mimic_chain
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element
 
@@ -47,17 +48,10 @@ def _report_ring(
     joint: Joint, joints: Mapping[str, Joint], element: Element, findings: UrdfFindings
 ) -> set[str]:
     """Report the ring that a joint's mimic chain runs into, if the joint is in it."""
-    chain = [joint.name]
-    current = joint
-    while current.mimic is not None and current.mimic.joint in joints:
-        current = joints[current.mimic.joint]
-        if current.name == joint.name:
-            break
-        if current.name in chain:
-            return set()
-        chain.append(current.name)
-    else:
+    ring = mimic_chain(joint, joints).ring
+    if not ring or ring[0] is not joint:
         return set()
+    chain = [member.name for member in ring]
     names = " → ".join([*chain, joint.name])
     what = (
         f"joint {joint.name} mimics itself"

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sambot_viz.robot.model import Joint, Link
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Link
 from sambot_viz.robot.urdf.findings import UrdfFindings, tag_text
 from sambot_viz.robot.urdf.joints import read_joint
 from sambot_viz.robot.urdf.link_tree import RobotParts, build_tree, is_fragment
