@@ -29,7 +29,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 Severity = Literal["error", "warning", "info"]
@@ -138,8 +138,12 @@ class Findings:
 
         Sentences are cut at 2000 characters: a file may make up names of any length.
         """
-        message, hint = _cut(message), _cut(hint)
-        problem = Problem.at(at, severity, code, message, hint)
+        self.note(Problem.at(at, severity, code, message, hint))
+
+    def note(self, problem: Problem) -> None:
+        """Add a problem that is made already, by the rules of `add`."""
+        message, hint = _cut(problem.message), _cut(problem.hint)
+        problem = replace(problem, message=message, hint=hint)
         if problem not in self.problems:
             self.problems.append(problem)
 

@@ -46,7 +46,7 @@ class AxesDisplay(Display):
     )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """See `Display`."""
+        """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._nodes = KeptNodes()
 

@@ -144,7 +144,7 @@ class GridDisplay(Display):
     )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """See `Display`."""
+        """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._nodes = KeptNodes()
 

@@ -11,7 +11,7 @@ _ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """One row: how things stand with a key, in words."""
+    """One row of a status: a level and a sentence."""
 
     level: Level
     text: str
@@ -55,5 +55,5 @@ class StatusList:
             self.version += 1
 
     def clear(self) -> None:
-        """Forget everything, as RViz's reset does."""
+        """Remove all rows, as RViz's reset does."""
         self.replace({})

@@ -24,7 +24,6 @@ from sambot_viz.rviz.declared import Declared, UnknownPropertyError
 from sambot_viz.rviz.entry_item import EntryItem
 from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
 from sambot_viz.rviz.item import ConfigItem
-from sambot_viz.rviz.properties.base import Property, PropertyError
 from sambot_viz.rviz.properties.kinds import (
     FILTER_SIZE,
     FIXED_FRAME,
@@ -44,6 +43,7 @@ from sambot_viz.rviz.properties.kinds import (
     TopicProperty,
     VectorProperty,
 )
+from sambot_viz.rviz.properties.property import Property, PropertyError
 from sambot_viz.rviz.rviz_config import RvizConfig
 
 __all__ = [

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from sambot_viz.rviz.class_name import NO_CLASS, is_ros1, kind_of
-from sambot_viz.rviz.declared import ConfigFindings
+from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.item import ConfigItem
-from sambot_viz.rviz.properties.base import Property
 from sambot_viz.rviz.properties.kinds import checked_text, read_bool
+from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.yaml.nodes import Entry, Map, Scalar
 
 
@@ -86,7 +86,14 @@ class DisplayConfig(ClassItem):
         findings: ConfigFindings,
         parent: DisplayConfig | None = None,
     ):
-        """See `ClassItem`."""
+        """Read one display.
+
+        Args:
+            node: its map.
+            declared: the properties of its class, or None when the class is not known.
+            findings: takes what is doubtful.
+            parent: the group it is in; None at the top.
+        """
         super().__init__(node, declared, findings)
         self.parent = parent
         self.members: list[DisplayConfig] = []

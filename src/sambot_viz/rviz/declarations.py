@@ -1,4 +1,4 @@
-"""Which classes there are and what properties they have; handed in by the caller."""
+"""The classes of displays, views and tools that a caller can show, with properties."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from sambot_viz.rviz.class_name import GROUP
 from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
-from sambot_viz.rviz.properties.base import Property
+from sambot_viz.rviz.properties.property import Property
 
 Classes: TypeAlias = Mapping[str, Sequence[Property]]
 """ROS 2 class id, such as "rviz_default_plugins/Grid", → its properties."""

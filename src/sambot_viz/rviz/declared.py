@@ -1,13 +1,12 @@
-"""Declared properties with their places, and what is found when they are read."""
+"""Declared properties with their places in the file."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sambot_viz.errors import Problem, UsageError, did_you_mean
-from sambot_viz.rviz.properties.base import Property
-from sambot_viz.rviz.yaml.nodes import Node
+from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.rviz.properties.property import Property
 
 
 class UnknownPropertyError(UsageError):
@@ -37,23 +36,3 @@ class Declared:
     keys: tuple[str, ...]
     property: Property
     above: Declared | None = None
-
-
-class ConfigFindings:
-    """Collects what is doubtful in a file.
-
-    Attributes:
-        problems: in the order they were found.
-    """
-
-    def __init__(self, file: str | None):
-        self.file = file
-        self.problems: list[Problem] = []
-
-    def add(self, code: str, node: Node, message: str, hint: str = "") -> None:
-        """Note a warning at a node; copies are reported at their originals."""
-        if node.span is None:
-            return
-        line, column = node.span.line, node.span.column
-        problem = Problem("warning", code, message, hint, self.file, line, column)
-        self.problems.append(problem)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_items import DisplayConfig, new_map
 from sambot_viz.rviz.class_name import GROUP, kind_of, short_name, written_in_ros1
-from sambot_viz.rviz.manager import VisualizationManager
+from sambot_viz.rviz.visualization_manager import VisualizationManager
 from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
 
 
@@ -23,7 +23,7 @@ class DisplayList(VisualizationManager):
             for entry in listed.entries:
                 if not isinstance(entry.value, Map):
                     what = "an item of 'Displays' is not a map with a class; it is kept"
-                    self._findings.add("config-value", entry.value, what)
+                    self._findings.warn("config-value", entry.value, what)
         for _, found in items_of(listed):
             members.append(self._display(found, group))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sambot_viz.rviz.item import ConfigItem
-from sambot_viz.rviz.properties.base import Property
+from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
 
 DETAILS = "Details"

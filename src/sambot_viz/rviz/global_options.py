@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from sambot_viz.rviz.properties.base import Property
 from sambot_viz.rviz.properties.kinds import (
     BoolProperty,
     ColorProperty,
     IntProperty,
     TfFrameProperty,
 )
+from sambot_viz.rviz.properties.property import Property
 
 GLOBAL_OPTIONS: tuple[Property, ...] = (
     TfFrameProperty(

@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
-from sambot_viz.rviz.declared import ConfigFindings, Declared, UnknownPropertyError
+from sambot_viz.rviz.config_findings import ConfigFindings
+from sambot_viz.rviz.declared import Declared, UnknownPropertyError
 from sambot_viz.rviz.new_nodes import NewNodes, parts_map
-from sambot_viz.rviz.properties.base import Property
 from sambot_viz.rviz.properties.kinds import (
     EnumProperty,
     KeptProperty,
 )
+from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.unknown_keys import unknown_keys
 from sambot_viz.rviz.yaml.nodes import Map, Node, Plain, plain
 
@@ -100,7 +101,7 @@ class ConfigItem:
         self._values[path] = prop.default_in(self._ros1) if value is None else value
 
     def _report(self, node: Node, message: str, hint: str) -> None:
-        self._findings.add("config-value", node, message, hint)
+        self._findings.warn("config-value", node, message, hint)
 
     @property
     def node(self) -> Map:
@@ -159,7 +160,7 @@ class ConfigItem:
 
         Raises:
             UnknownPropertyError: no such property is declared.
-            PropertyError: the value cannot be meant.
+            PropertyError: the value is of another type, or not one of the options.
         """
         if path not in self._values:
             raise self._unknown(path)
@@ -269,7 +270,7 @@ class ConfigItem:
             path: one key, or a sequence of keys (which may contain slashes).
 
         Returns:
-            Nested dicts of text; empty when there is no map.
+            Nested dicts of text; empty when nothing is there.
         """
         found = plain(self.node_at(_keys(path)))
         return found if isinstance(found, dict) else {}

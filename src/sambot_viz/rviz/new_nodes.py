@@ -49,7 +49,7 @@ class NewNodes:
 
         Args:
             keys: its place in the item.
-            old: what stands there; a text becomes the map's "Value".
+            old: what is there; a text becomes the map's "Value".
         """
         found = (d for d in self._declared.values() if d.keys == keys)
         declared = next(found, None)

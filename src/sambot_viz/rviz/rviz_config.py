@@ -7,8 +7,8 @@ import os
 from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import GlobalOptions, ToolConfig
 from sambot_viz.rviz.class_name import kind_of
+from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declarations import Declarations
-from sambot_viz.rviz.declared import ConfigFindings
 from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.view_list import ViewList
 from sambot_viz.rviz.yaml.document import Document
@@ -120,7 +120,7 @@ def _report_duplicates(node: Collection, findings: ConfigFindings) -> None:
     seen: set[str] = set()
     for entry in node.entries:
         if entry.key is not None and entry.key in seen:
-            findings.add(
+            findings.warn(
                 "config-duplicate-key",
                 entry.value,
                 f"'{entry.key}' is given twice in one map; the later one counts",

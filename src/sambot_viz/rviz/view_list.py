@@ -11,7 +11,7 @@ from sambot_viz.rviz.class_name import (
     short_name,
     written_in_ros1,
 )
-from sambot_viz.rviz.manager import VisualizationManager
+from sambot_viz.rviz.visualization_manager import VisualizationManager
 from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
 
 CURRENT = "Current View"
@@ -79,8 +79,8 @@ class ViewList(VisualizationManager):
     def set_view_class(self, kind: str) -> ViewConfig:
         """Make the current view one of another class.
 
-        Keys that both classes have keep their values; where the camera stands then is
-        for the caller to set.
+        Keys that both classes have keep their values; the caller sets the new place of
+        the camera.
 
         Args:
             kind: ROS 2 class id.
@@ -125,7 +125,7 @@ class ViewList(VisualizationManager):
         return view
 
     def remove_view(self, saved: ViewConfig) -> None:
-        """Take a saved view out.
+        """Remove a saved view.
 
         Raises:
             UsageError: it is not one of them.

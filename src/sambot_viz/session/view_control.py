@@ -17,7 +17,7 @@ import viser
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
-from sambot_viz.rviz.declared import ConfigFindings
+from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import copied_map
 from sambot_viz.session.browser_camera import BrowserCamera, same_picture
 from sambot_viz.session.throttle import Throttle

@@ -163,6 +163,19 @@ def test_an_edit_of_a_link_changes_one_line_of_the_file(show: Show) -> None:
     ]
 
 
+def test_a_bad_value_of_a_link_is_reported_once_with_its_line(show: Show) -> None:
+    session = show("      Links: {upper: {Alpha: 7}}")
+    for _ in range(2):
+        with session.change():
+            session.config.duplicate(session.displays[0].config)
+            session.show_config()
+    said = [str(problem) for problem in session.config.problems]
+    assert said == [
+        "7:30: warning[config-value]: 'Alpha' is 7, but must be a number from 0 to 1; "
+        "1 is used, as in RViz; write a number from 0 to 1"
+    ]
+
+
 def test_a_link_of_a_list_is_switched_on_alone(show: Show, nodes: Nodes) -> None:
     session = show("      Links: {All Links Enabled: false}")
     display = model_of(session)

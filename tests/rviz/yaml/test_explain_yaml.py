@@ -30,12 +30,12 @@ MANAGER = "Visualization Manager:\n"
         ),
         (
             MANAGER + "  Name a\n  Value: b\n",
-            "f:2: error[config-yaml]: this line is no 'key: value'; write a colon and "
+            "f:2: error[config-yaml]: this line is not 'key: value'; write a colon and "
             "a blank behind the key",
         ),
         (
             MANAGER + "  Value: b\n  Name\n",
-            "f:3: error[config-yaml]: this line is no 'key: value'; write a colon and "
+            "f:3: error[config-yaml]: this line is not 'key: value'; write a colon and "
             "a blank behind the key",
         ),
         (
@@ -75,7 +75,7 @@ MANAGER = "Visualization Manager:\n"
         ),
         (
             MANAGER + "  Name: &a [*a]\n",
-            "f:2:13: error[config-yaml]: the alias *a stands inside what it names; "
+            "f:2:13: error[config-yaml]: the alias *a is inside what it names; "
             "write the value out",
         ),
         (
@@ -85,7 +85,7 @@ MANAGER = "Visualization Manager:\n"
         ),
         (
             "%YAML 1.1 x\n---\nPanels: []\n",
-            "f:1:11: error[config-yaml]: this is no YAML: while scanning a directive "
+            "f:1:11: error[config-yaml]: this is not YAML: while scanning a directive "
             "did not find expected comment or line break; look at this line and the "
             "one above: all keys of one map are indented alike, with spaces only, and "
             "every colon is followed by a blank",
@@ -104,7 +104,7 @@ MANAGER = "Visualization Manager:\n"
             "Background\\ ColorB=0\nFixed\\ Frame=/map\nGrid.Alpha=0.5\n",
             "f:1: error[config-is-vcg]: this is a config of RViz before 1.9 (.vcg, "
             "lines of 'name=value'), which today's RViz cannot read either; set the "
-            "displays up anew and save an .rviz file",
+            "displays up again and save an .rviz file",
         ),
         (
             "services:\n  web: x\n",
@@ -134,7 +134,7 @@ def test_a_file_nested_beyond_reason_is_refused():
 def test_aliases_that_would_fill_the_memory_are_refused():
     lines = ["Panels: &b0 [1, 2, 3, 4, 5, 6, 7, 8, 9]"]
     lines += [f"b{i}: &b{i} [{', '.join([f'*b{i - 1}'] * 9)}]" for i in range(1, 9)]
-    with pytest.raises(ConfigError, match="stand for more than can be held"):
+    with pytest.raises(ConfigError, match="expand to more than can be held"):
         Document("\n".join(lines))
 
 

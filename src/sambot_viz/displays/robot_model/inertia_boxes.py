@@ -35,7 +35,7 @@ class InertiaBox:
 
 
 def ball_diameter(mass: float) -> float:
-    """The diameter of a ball of lead [m]; 0 for a mass that is none.
+    """The diameter of a ball of lead [m]; 0 for a mass of 0 or less.
 
     Args:
         mass: [kg].
@@ -52,8 +52,8 @@ def inertia_box(inertial: Inertial) -> InertiaBox | None:
         inertial: mass [kg], pose of the centre of mass, inertia [kg m²].
 
     Returns:
-        None for moments that no body has: a mass of 0, a tensor that is not positive
-        definite, or one moment greater than the other two together.
+        None for moments that a body cannot have: a mass of 0, a tensor that is not
+        positive definite, or one moment greater than the other two together.
     """
     i = inertial
     tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [0, i.iyz, i.izz]])

@@ -130,7 +130,7 @@ class RobotMarks:
         path = self._context.nodes.path(frame)
         if path is None or not self._context.nodes.connected(frame):
             return False
-        # Several joints hang on one link, so the joint's child tells them apart.
+        # A link may have several joints; the child makes their names differ.
         node = f"{path}/{self._key}{what}"
         if isinstance(thing, Joint):
             child = self._context.nodes.path(self._frame_of(thing.child)) or name

@@ -40,7 +40,7 @@ class RobotModelDisplay(Display):
     properties = ROBOT_MODEL_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """See `Display`."""
+        """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._entries: RobotEntries | None = None
         self._source = RobotSource(context, config, self._file_read)

@@ -50,7 +50,7 @@ def lines_glb(
     Args:
         segments: (N, 2, 3) float32, start and end of each line [m].
         color: 0 to 255.
-        alpha: 0 to 1; from 0.9998 on the lines are opaque and write depth.
+        alpha: 0 to 1; from `OPAQUE_FROM` on the lines are opaque and write depth.
 
     Returns:
         The bytes for `viser.SceneApi.add_glb`.

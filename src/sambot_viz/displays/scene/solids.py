@@ -39,7 +39,7 @@ def linear(channel: int) -> float:
 
 
 def opacity_of(alpha: float) -> float | None:
-    """An alpha as viser's opacity: None (no blending) from 0.9998 on, as RViz."""
+    """An alpha as viser's opacity: None (no blending) from `OPAQUE_FROM` on."""
     return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
 
 
@@ -113,7 +113,7 @@ def add_axes(
 
     Args:
         scene: where to draw.
-        name: node name; the axes stand at its parent's frame.
+        name: node name; the axes are drawn at the frame of its parent.
         length: [m].
         diameter: what RViz calls "radius" is the diameter of the cylinders [m].
     """

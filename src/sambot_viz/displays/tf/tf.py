@@ -148,7 +148,7 @@ class TfDisplay(Display):
     )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """See `Display`."""
+        """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._entries = FrameEntries(config)
         self._marks: dict[str, _FrameMarks] = {}

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.rviz.properties.base import Property, Support
 from sambot_viz.rviz.properties.numbers import (
     BoolProperty,
     FloatProperty,
     IntProperty,
     read_bool,
 )
+from sambot_viz.rviz.properties.property import Property, Support
 from sambot_viz.rviz.properties.texts import (
     FILTER_SIZE,
     FIXED_FRAME,
@@ -55,7 +55,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class KeptProperty(Property):
-    """A key that RViz writes, or wrote, and that changes nothing here.
+    """A key that RViz writes, or wrote, and that has no effect here.
 
     It is never set, and a new item does not get it; `note` says what RViz does with it.
     """
@@ -66,7 +66,7 @@ class KeptProperty(Property):
 
     @property
     def has_value(self) -> bool:
-        """Its value is not used."""
+        """Whether its value is used: it is not."""
         return False
 
 
@@ -76,10 +76,10 @@ class GroupProperty(Property):
 
     @property
     def has_value(self) -> bool:
-        """It has none."""
+        """Whether it has a value: a container has none."""
         return False
 
     def write(self, value: Any) -> str:
-        """There is nothing to write."""
+        """The empty text: a container has no value."""
         del value
         return ""

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Any, SupportsFloat, cast
 
-from sambot_viz.rviz.properties.base import Property, PropertyError, Report
 from sambot_viz.rviz.properties.number_text import (
     INT_LIMIT,
     float32,
@@ -15,6 +14,7 @@ from sambot_viz.rviz.properties.number_text import (
     parse_german,
     parse_int,
 )
+from sambot_viz.rviz.properties.property import Property, PropertyError, Report
 from sambot_viz.rviz.yaml.nodes import Scalar
 
 _FALSE = frozenset({"", "0", "false"})
@@ -33,14 +33,14 @@ class BoolProperty(Property):
     default: bool = False
 
     def coerce(self, value: object) -> bool:
-        """See `Property.coerce`."""
-        # numpy's booleans are no bool, but they look like one.
+        """Take a bool, also one of numpy's."""
+        # numpy's booleans are not of type bool, but are written like them.
         if isinstance(value, bool) or str(value) in ("True", "False"):
             return bool(value)
         raise PropertyError(self.name, value, self._expected)
 
     def write(self, value: Any) -> str:
-        """See `Property.write`."""
+        """The text "true" or "false"."""
         return "true" if value else "false"
 
     def _parse(self, node: Scalar, report: Report) -> bool:
@@ -125,7 +125,7 @@ class IntProperty(_NumberProperty):
     maximum: int | None = None
 
     def coerce(self, value: object) -> int:
-        """See `Property.coerce`."""
+        """Take a whole number of 32 bits, clamped to the limits."""
         number = finite_number(value)
         if number is not None and number.is_integer() and abs(number) < INT_LIMIT:
             return int(self._clamped(int(number)))
@@ -156,7 +156,7 @@ class IntProperty(_NumberProperty):
 class FloatProperty(_NumberProperty):
     """A finite number, clamped to its limits.
 
-    Infinite ones are clamped too; where there is no limit the default holds, because
+    Infinite ones are clamped too; without a limit the default is used, because
     nothing can be drawn with them.
     """
 
@@ -165,22 +165,22 @@ class FloatProperty(_NumberProperty):
     maximum: float | None = None
 
     def coerce(self, value: object) -> float:
-        """See `Property.coerce`."""
+        """Take a finite number, clamped to the limits."""
         number = finite_number(value)
         if number is not None:
             return float(self._clamped(number))
         raise PropertyError(self.name, value, self._expected)
 
     def write(self, value: Any) -> str:
-        """See `Property.write`."""
+        """The number as RViz saves it."""
         return float_text(value)
 
     def show(self, value: Any) -> str:
-        """See `Property.show`."""
+        """The number with six digits."""
         return f"{value:.6g}"
 
     def agrees(self, first: Any, second: Any) -> bool:
-        """See `Property.agrees`; RViz keeps 32 bits."""
+        """Whether two numbers are the same in 32 bits, which is what RViz keeps."""
         return float32(first) == float32(second)
 
     def _parse(self, node: Scalar, report: Report) -> float | None:
@@ -210,6 +210,6 @@ def finite_number(value: object) -> float | None:
     try:
         number = float(cast(SupportsFloat, value))
     except (TypeError, ValueError, OverflowError):
-        # Arrays look like numbers and are not numbers.
+        # Arrays have the methods of numbers, too.
         return None
     return number if math.isfinite(float32(number)) else None

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sambot_viz.rviz.properties.base import Property, PropertyError, Report
 from sambot_viz.rviz.properties.numbers import IntProperty
 from sambot_viz.rviz.properties.pattern import Pattern, compile_pattern
+from sambot_viz.rviz.properties.property import Property, PropertyError, Report
 from sambot_viz.rviz.yaml.nodes import Scalar
 
 FIXED_FRAME = "<Fixed Frame>"
@@ -22,7 +22,7 @@ class StringProperty(Property):
     default: str = ""
 
     def coerce(self, value: object) -> str:
-        """See `Property.coerce`."""
+        """Take a text; see `checked_text` for what is refused."""
         return checked_text(self.name, value)
 
     @property
@@ -85,7 +85,7 @@ class EnumProperty(Property):
         return self.options[0]
 
     def coerce(self, value: object) -> str:
-        """See `Property.coerce`."""
+        """Take one of the options, and refuse everything else."""
         if isinstance(value, str) and value in self.options:
             return str(value)
         raise PropertyError(self.name, value, self._expected)
@@ -124,7 +124,7 @@ class TfFrameProperty(Property):
         return self.default == FIXED_FRAME
 
     def coerce(self, value: object) -> str:
-        """See `Property.coerce`."""
+        """Take the name of a frame, without the "/" of ROS 1."""
         return checked_text(self.name, value).removeprefix("/")
 
     def _parse(self, node: Scalar, report: Report) -> str:

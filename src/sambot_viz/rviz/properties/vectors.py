@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
-from sambot_viz.rviz.properties.base import Property, PropertyError, Report, silent
 from sambot_viz.rviz.properties.color import Rgb, color_text, parse_color
 from sambot_viz.rviz.properties.number_text import (
     float32,
@@ -16,6 +15,7 @@ from sambot_viz.rviz.properties.number_text import (
     parse_german,
 )
 from sambot_viz.rviz.properties.numbers import finite_number
+from sambot_viz.rviz.properties.property import Property, PropertyError, Report, silent
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
 
 
@@ -26,7 +26,7 @@ class ColorProperty(Property):
     default: Rgb = (0, 0, 0)
 
     def coerce(self, value: object) -> Rgb:
-        """See `Property.coerce`; a text such as "1; 2; 3" or "white" will do."""
+        """Take three numbers, or a text such as "1; 2; 3" or "white"."""
         parsed = parse_color(value) if isinstance(value, str) else None
         if parsed is not None:
             return parsed
@@ -37,7 +37,7 @@ class ColorProperty(Property):
         return (r, g, b)
 
     def write(self, value: Any) -> str:
-        """See `Property.write`."""
+        """The text "r; g; b"."""
         return color_text(value)
 
     def _parse(self, node: Scalar, report: Report) -> Rgb | None:
@@ -57,7 +57,7 @@ class VectorProperty(Property):
     keys: tuple[str, ...] = ("X", "Y", "Z")
 
     def read(self, node: Node | None, report: Report = silent) -> Any:
-        """See `Property.read`; all components must be there."""
+        """Read the components, which must all be there."""
         if node is None or (isinstance(node, Scalar) and node.null):
             return None
         texts = [_component(node, key) for key in self.keys]
@@ -73,7 +73,7 @@ class VectorProperty(Property):
         return None
 
     def coerce(self, value: object) -> tuple[float, ...]:
-        """See `Property.coerce`; a text such as "1; 2; 3" will do."""
+        """Take a finite number for each key, or a text such as "1; 2; 3"."""
         if isinstance(value, str):
             texts = value.split(";")
             value = [parse_float(text) for text in texts]
@@ -87,13 +87,13 @@ class VectorProperty(Property):
         return "; ".join(f"{part:.6g}" for part in value)
 
     def components(self, value: Any) -> dict[str, str]:
-        """See `Property.components`."""
+        """Each key with the text of its number."""
         return {
             key: float_text(part) for key, part in zip(self.keys, value, strict=True)
         }
 
     def agrees(self, first: Any, second: Any) -> bool:
-        """See `Property.agrees`."""
+        """Whether two vectors are the same in 32 bits, which is what RViz keeps."""
         return [float32(part) for part in first] == [float32(part) for part in second]
 
     @property

@@ -34,7 +34,7 @@ class Document:
             file: its path as the user wrote it.
 
         Raises:
-            ConfigError: it is no YAML, or YAML of something else.
+            ConfigError: it is not YAML, or is YAML of something else.
         """
         self.file = file
         self.problems: list[Problem] = []
@@ -103,8 +103,8 @@ class Document:
         """The text of the file as it would be saved.
 
         Returns:
-            The text that was read, with only the changes in it. Should that not read
-            back as what is meant, all of it is written anew, as RViz does.
+            The text that was read, with only the changes in it. If that does not read
+            back as what is meant, all of it is written again, as RViz does.
         """
         if not self.root.changed and self.root.span is not None:
             return self._bom + self._text

@@ -1,4 +1,4 @@
-"""From YAML's complaint to the cause and its mend, and files that are no .rviz."""
+"""Why a text is not YAML, and how to fix it; files that are not .rviz files."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def other_format(text: str, file: str | None) -> Problem | None:
             "config-is-vcg",
             "this is a config of RViz before 1.9 (.vcg, lines of 'name=value'), which "
             "today's RViz cannot read either",
-            "set the displays up anew and save an .rviz file",
+            "set the displays up again and save an .rviz file",
             file,
             1,
         )
@@ -59,7 +59,7 @@ def other_format(text: str, file: str | None) -> Problem | None:
 def explain_yaml(
     text: str, error: yaml.YAMLError | ParseFault, file: str | None
 ) -> Problem:
-    """The cause of a YAML error, with its line and a mend.
+    """The cause of a YAML error, with its line and a fix.
 
     Args:
         text: the file.
@@ -112,7 +112,7 @@ class _Slip:
             before = text[: position if isinstance(position, int) else 0]
             line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
         if line > len(self.lines):
-            # The end of the file is no line of it.
+            # The end of the file is behind its last line.
             return len(self.lines), None
         return line, column
 
@@ -151,7 +151,7 @@ class _Slip:
             )
         if "could not find expected ':'" in self.said:
             return self._no_colon(self.line)
-        return self._at_place(f"this is no YAML: {self.said}", _GENERAL)
+        return self._at_place(f"this is not YAML: {self.said}", _GENERAL)
 
     def _at_place(self, message: str, hint: str) -> _Cause:
         return _Cause(self.line, self.column, message, hint)
@@ -179,7 +179,7 @@ class _Slip:
         return _Cause(
             line,
             None,
-            "this line is no 'key: value'",
+            "this line is not 'key: value'",
             "write a colon and a blank behind the key",
         )
 

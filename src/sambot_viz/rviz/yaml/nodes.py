@@ -2,7 +2,7 @@
 
 RViz knows no numbers and no booleans in a file, only text; null is "nothing given".
 Every node read from a file remembers its place in the text,
-so that a save changes just what was changed.
+so that saving changes only what was changed.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Plain: TypeAlias = Union[str, "dict[str, Plain]", "list[Plain]", None]
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Where something stands in the text of the file.
+    """The place of something in the text of the file.
 
     Attributes:
         start: index of its first character.
@@ -42,7 +42,7 @@ class Scalar:
         quote: how it was written: "" plain, "'", '"', "|" or ">".
         span: its place in the file; None when it was made here.
         original: `text` as the file has it.
-        alias: it stands for an anchor elsewhere (``*name``).
+        alias: it repeats an anchor elsewhere (``*name``).
     """
 
     text: str
@@ -58,7 +58,7 @@ class Scalar:
         return self.text != self.original
 
     def assign(self, text: str) -> None:
-        """Say something else; nothing is noted when it says that already."""
+        """Change the text; the same text is not a change."""
         if self.null:
             self.null, self.original = False, None
         self.text = text
@@ -66,7 +66,7 @@ class Scalar:
 
 @dataclass(frozen=True, slots=True)
 class YamlText:
-    """Where an entry of a map or list stood in the file.
+    """The place of an entry of a map or list in the file.
 
     Attributes:
         lead: index after the previous entry; comments and indentation follow.
@@ -76,7 +76,7 @@ class YamlText:
         tail: index after the value.
         end: index after the comment behind the value and its line break.
         column: how far the entry was indented.
-        inline: it stood behind a dash, without an indentation of its own.
+        inline: it was behind a dash, without an indentation of its own.
     """
 
     lead: int
@@ -97,7 +97,7 @@ class Entry:
         key: the key, however it was quoted.
         value: the value it has now.
         given: the value it had in the file.
-        source: its place there; None for what stands in braces, brackets or in a
+        source: its place there; None for what is in braces, brackets or in a
             way that cannot be edited in place.
         quote: how the key was quoted.
     """
@@ -119,7 +119,7 @@ class Collection:
         original: the entries it had in the file.
         flow: it is written in braces or brackets.
         opaque: it is written in a way that cannot be edited in place.
-        alias: it stands for an anchor elsewhere (``*name``).
+        alias: it repeats an anchor elsewhere (``*name``).
     """
 
     entries: list[Entry] = field(default_factory=list["Entry"])
@@ -196,7 +196,7 @@ class Map(Collection):
             self.put(key, Scalar(text))
 
     def remove(self, key: str) -> None:
-        """Take a key out, however often it stands there."""
+        """Remove a key, also when it is given several times."""
         self.entries[:] = [e for e in self.entries if e.key != key]
 
 

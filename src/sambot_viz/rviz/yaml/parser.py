@@ -26,16 +26,16 @@ _NULLS = frozenset({"", "~", "null", "Null", "NULL"})
 _TO_LINE_END = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n|\Z)")
 _GAP = re.compile(r"(?:[ \t\r\n]+|#[^\r\n]*)*")
 _ANCHORS = re.compile(r"(?:[ \t]*[&!][^\s]*)+[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n)")
-"""The anchor and the tag of a whole map or list stand on a line above it."""
+"""The anchor and the tag of a whole map or list are on a line above it."""
 
 DEEPEST = 200
-"""Maps in maps beyond this depth are an attack or an accident, no display tree."""
+"""Maps nested more deeply are refused: they cannot be a tree of displays."""
 MOST_COPIES = 100_000
-"""Nodes that aliases may stand for, so that a page of aliases cannot fill memory."""
+"""Nodes that aliases may expand to, so that a page of aliases cannot fill memory."""
 
 
 class ParseFault(Exception):
-    """Something YAML allows and we refuse.
+    """Something that YAML allows and that is refused here.
 
     Attributes:
         reason: what it is.
@@ -55,10 +55,10 @@ def parse(text: str) -> Node | None:
         text: the file, decoded, with its own line breaks.
 
     Returns:
-        Its root; None when the stream holds no document.
+        Its root; None when the stream has no document.
 
     Raises:
-        yaml.YAMLError: the text is no YAML.
+        yaml.YAMLError: the text is not YAML.
         ParseFault: too deep, an unknown alias, or one that holds itself.
     """
     reader = _Reader(text)
@@ -97,11 +97,11 @@ class _Reader:
         target = self.anchors.get(event.anchor)
         if target is None:
             known = event.anchor in self.anchors
-            why = "stands inside what it names" if known else "names no anchor above it"
+            why = "is inside what it names" if known else "names no anchor above it"
             raise _fault(event, f"the alias *{event.anchor} {why}")
         self.copies += _size(target)
         if self.copies > MOST_COPIES:
-            raise _fault(event, "the aliases stand for more than can be held")
+            raise _fault(event, "the aliases expand to more than can be held")
         node = _as_original(copied(target))
         node.span = _span(event)
         node.alias = True
@@ -164,7 +164,7 @@ class _Reader:
             parent.opaque = True
             return None
         if key is not None and (start != _known(key).start or key.changed):
-            # A question mark stands before the key, or it is an alias.
+            # A question mark is before the key, or the key is an alias.
             parent.opaque = True
             return None
         line = max(self.text.rfind(end, 0, start) for end in "\r\n") + 1
@@ -217,7 +217,7 @@ def _size(node: Node) -> int:
 
 
 def _as_original(node: Node) -> Node:
-    """Note the present state as the file's, for what an alias stands for."""
+    """Make the present state of what an alias repeats the state in the file."""
     if isinstance(node, Scalar):
         node.original = node.text
         return node

@@ -23,7 +23,7 @@ def scalar_text(node: Scalar, flow: bool = False) -> str:
 
     Args:
         node: what to write; a text that was quoted stays quoted.
-        flow: it stands in braces or brackets, where commas mean something.
+        flow: it is in braces or brackets, where commas mean something.
 
     Returns:
         Text that reads back as the same scalar.

@@ -1,4 +1,4 @@
-"""Nodes → YAML text: what is unchanged stays as it stands in the file.
+"""Nodes → YAML text: what is unchanged stays as it is in the file.
 
 Comments, the order of keys, quotes and blank lines survive, because only the changed
 pieces of the old text are replaced. What is new is written as RViz writes it:
@@ -25,20 +25,21 @@ class Writer:
     """Writes the nodes of one file.
 
     Args:
-        text: the file's text, which the nodes' places mean; "" writes all anew.
+        text: the file's text, which the places of the nodes refer to; with "" all of
+            it is written as RViz does.
         newline: how lines end in this file.
     """
 
     def __init__(self, text: str = "", newline: str = "\n"):
         self._text = text
         self._newline = newline
-        self._anew = text == ""
+        self._whole = text == ""
         self._changed: dict[int, bool] = {}
 
     def document(self, root: Node) -> str:
         """The whole file."""
         self._note_changes(root)
-        if self._anew or root.span is None or not self._can_patch(root):
+        if self._whole or root.span is None or not self._can_patch(root):
             return self._fresh_root(root)
         before, after = self._text[: root.span.start], self._text[root.span.end :]
         return before + self._patched(root) + after
@@ -52,14 +53,14 @@ class Writer:
         return changed
 
     def _fresh_root(self, root: Node) -> str:
-        head = "" if root.span is None or self._anew else self._text[: root.span.start]
+        head = "" if root.span is None or self._whole else self._text[: root.span.start]
         if isinstance(root, Collection) and root.entries:
             return head + self._entries(root.entries, 0)
         return head + (scalar_text(root) if isinstance(root, Scalar) else "{}")
 
     def _can_patch(self, node: Node) -> bool:
         """Whether the old text of a node can be kept, with changes in it."""
-        if self._anew or node.span is None:
+        if self._whole or node.span is None:
             return False
         if not self._changed[id(node)]:
             return True
@@ -111,7 +112,7 @@ class Writer:
         return "".join(parts)
 
     def _entry(self, entry: Entry, column: int, first: bool) -> str:
-        source = None if self._anew else entry.source
+        source = None if self._whole else entry.source
         if source is None:
             indent = "" if first else " " * column
             head = "-" if entry.key is None else f"{quoted(entry.key, entry.quote)}:"
@@ -135,7 +136,7 @@ class Writer:
         return lead.lstrip(" \t\r\n") if first else lead
 
     def _comment(self, source: YamlText) -> str:
-        """The comment behind an old value that stood on the line of its key."""
+        """The comment behind an old value that was on the line of its key."""
         if any(c in self._text[source.head : source.tail] for c in "\r\n"):
             return ""
         return self._text[source.tail : source.end].rstrip("\r\n")

@@ -15,8 +15,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.rviz.yaml.nodes import List, Map, Node, Scalar
 
 Support: TypeAlias = Literal["full", "approximate", "none", "kept"]
-"""How far we show what a property says; "kept" has no effect in RViz for ROS 2 either.
-"""
+"""How far a property is shown; "kept" has no effect in RViz for ROS 2 either."""
 
 Report: TypeAlias = Callable[[Node, str, str], None]
 """Takes a node, what is doubtful about it, and what to write instead."""
@@ -38,7 +37,7 @@ class PropertyError(UsageError):
 
 
 def silent(node: Node, message: str, hint: str) -> None:
-    """A report that goes nowhere."""
+    """Drop a report."""
     del node, message, hint
 
 
@@ -60,10 +59,10 @@ class Property:
         acts_up_to: greater values are kept, and act as this one.
         options: what can be chosen.
         read_only: shown, but never read from a file, set or saved.
-        support: how far we show what it says.
+        support: how far it is shown.
         note: a remark on that, for the compatibility table.
         ros1_default: the default in a file of ROS 1, when that is another one.
-        ros1_only: it stands in files of ROS 1 only.
+        ros1_only: only files of ROS 1 have it.
         aliases: other keys under which older files have it.
         open_keys: keys below it that are not declared belong to the robot (links,
             frames) and are not unknown keys.
@@ -104,7 +103,7 @@ class Property:
         """Read the property's own value by RViz's rules.
 
         Args:
-            node: what stands under its name in the file: a scalar, or a map whose
+            node: what the file has under its name: a scalar, or a map whose
                 "Value" is the value; None when there is nothing.
             report: called with everything doubtful.
 
@@ -135,7 +134,7 @@ class Property:
             The value the property takes: of its own type, finite, within its limits.
 
         Raises:
-            PropertyError: it cannot be meant.
+            PropertyError: it is of another type, or not one of the options.
         """
         raise PropertyError(self.name, value, self._expected)
 
@@ -158,7 +157,7 @@ class Property:
         return None
 
     def agrees(self, first: Any, second: Any) -> bool:
-        """Whether RViz keeps two values apart."""
+        """Whether two values are the same for RViz."""
         return bool(first == second)
 
     def _parse(self, node: Scalar, report: Report) -> Any:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from sambot_viz.rviz.class_name import is_ros1
+from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declarations import Declarations
-from sambot_viz.rviz.declared import ConfigFindings
 from sambot_viz.rviz.yaml.document import Document
 from sambot_viz.rviz.yaml.nodes import Map, items_of
 
@@ -33,7 +33,7 @@ class VisualizationManager:
         self.ros1 = any(is_ros1(name) for name in self._class_ids())
 
     def _class_ids(self) -> list[str]:
-        """The classes of displays and tools, as far as they stand at the top."""
+        """The classes of the tools and of the displays outside of groups."""
         listed = [self._manager.get("Displays"), self._manager.get("Tools")]
         found = [node for nodes in listed for _, node in items_of(nodes)]
         return [node.text("Class") or "" for node in found]
