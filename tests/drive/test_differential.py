@@ -102,6 +102,15 @@ def test_the_trail_has_a_point_every_few_centimetres_and_an_end() -> None:
     assert drive.pose == PlanarPose()
 
 
+def test_a_full_trail_becomes_shorter_so_that_new_points_are_drawn() -> None:
+    drive = DifferentialDrive(SAM_BOT, trail_step=0.1, trail_length=10)
+    lengths: list[int] = []
+    for _ in range(100):
+        drive.step(0.5, 0.0, 0.25)
+        lengths.append(len(drive.trail))
+    assert set(lengths[20:]) == {9, 10}
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_a_step_that_is_no_number_moves_nothing(bad: float) -> None:
     drive = DifferentialDrive(SAM_BOT)

@@ -80,7 +80,7 @@ def test_a_root_that_hangs_elsewhere_is_not_taken_away_from_there(
     client.set_value(client.uuid_of("Linear [m/s]"), 0.5)
     client.wait_until(
         lambda: any(
-            "hangs on &#x27;map&#x27; already" in str(m.fields.get("updates", ""))
+            "is attached to &#x27;map&#x27; already" in str(m.fields.get("updates", ""))
             for m in client.messages
         )
     )

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from urllib.parse import urlsplit
 
 import pytest
-from inside import node_of, viser_server
+from inside import node_of, session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import JointError, Visualizer
@@ -153,3 +153,16 @@ def test_a_turning_wheel_sends_its_pose_alone_and_nothing_when_it_stands(
     client.wait_until(lambda: client.value_of(LEFT) == pytest.approx(last))
     client.settle(viser_server(viz))
     assert any(client.quiet(0.5) for _ in range(4))
+
+
+def test_the_trail_is_drawn_without_panels(
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    def trails(client: ProtocolClient) -> list[str]:
+        names = (str(message.fields.get("name")) for message in client.messages)
+        return [name for name in names if name.endswith("/~drive0")]
+
+    with Visualizer(port=0, panels=False) as viz:
+        client = protocol(viz.viser.get_port())
+        session_of(viz).motion.drive.set_velocity(0.5, 0.0)
+        client.wait_until(lambda: bool(trails(client)))

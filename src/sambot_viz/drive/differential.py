@@ -184,4 +184,6 @@ class DifferentialDrive:
         here, (x, y) = self._middle, self._trail[-1]
         if math.hypot(here.x - x, here.y - y) >= self.trail_step:
             self._trail.append((here.x, here.y))
-            del self._trail[: -self.trail_length]
+            if len(self._trail) > self.trail_length:
+                # Many at once: what is drawn of the others is drawn again after it.
+                del self._trail[: max(1, self.trail_length // 5)]

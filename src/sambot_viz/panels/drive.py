@@ -1,4 +1,4 @@
-"""The Drive panel: velocities, a stick, keys, the pose in odom and the trail.
+"""The Drive panel: velocities, buttons to hold, keys, and the pose in odom.
 
 Keys are those of a number pad, because viser's camera has WASD, QE and the arrows:
 8 and 2 change the linear velocity, 4 and 6 the angular one, 5 stops.
@@ -11,10 +11,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 
-import numpy as np
 import viser
 
-from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
 from sambot_viz.errors import FrameError
 from sambot_viz.panels.widgets import (
     Input,
@@ -35,17 +33,12 @@ MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
 KEY_LINEAR, KEY_ANGULAR = 0.1, 0.25
 """What one press of a key adds [m/s] and [rad/s]."""
 SHOW_PERIOD = 0.2
-TRAIL_COLOR = (255, 170, 0)
-TRAIL_PIECE = 200
-"""Points of one node of the trail: only the newest node is sent again."""
-TRAIL_HEIGHT = 0.004
-"""So much above the floor, lest the grid hides it [m]."""
 
 Vw = tuple[float, float]
 
 
 class DrivePanel:
-    """See the module.
+    """Drives the robot of a session with sliders, buttons and keys.
 
     Args:
         session: whose robot is driven.
@@ -57,8 +50,6 @@ class DrivePanel:
         self._drive = session.motion.drive
         self._gui = session.audience.gui
         self._commands: list[viser.CommandHandle] = []
-        self._pieces: list[viser.LineSegmentsHandle] = []
-        self._drawn = 1
         self._show = Throttle(session.worker, SHOW_PERIOD, self._show_state)
         with container:
             self._content = self._gui.add_folder(None)
@@ -72,12 +63,11 @@ class DrivePanel:
         self._show_state()
 
     def close(self) -> None:
-        """Follow the session no longer, and take out keys and trail."""
+        """Stop listening to the session and remove the keys."""
         self._session.listeners.remove(self._hear)
         self._show.close()
         for command in self._commands:
             command.remove()
-        self._forget_trail()
 
     def _hear(self, event: Event) -> None:
         if event in ("joints", "frames", "robot"):
@@ -111,7 +101,7 @@ class DrivePanel:
         return linear, angular
 
     def _add_stick(self) -> None:
-        """Buttons to hold, for a hand on a tablet."""
+        """Add buttons that drive while they are held, for tablets."""
         gui = self._gui
         for label, direction in (
             ("▲ forwards", (0.5, 0.0)),
@@ -130,7 +120,7 @@ class DrivePanel:
         )
         on_click(self._session, reset, self._reset)
         self._in_odom = self._gui.add_button(
-            f"Fixed frame {ODOM}", hint="Let the robot move and the grid stand still."
+            f"Fixed frame {ODOM}", hint="The robot moves, the grid stays where it is."
         )
         on_click(self._session, self._in_odom, self._fix_odom)
 
@@ -155,7 +145,7 @@ class DrivePanel:
         self._commands.append(command)
 
     def _set(self, velocity: Vw, seconds: float = math.inf) -> None:
-        """Drive; where the robot hangs on another frame it stays and says so."""
+        """Drive; a robot that is attached to another frame is refused with a note."""
         try:
             self._drive.set_velocity(*velocity, seconds)
         except FrameError as error:
@@ -190,7 +180,7 @@ class DrivePanel:
         self._session.set_global("Fixed Frame", ODOM)
 
     def _show_state(self) -> None:
-        """Bring numbers and trail in line; what is the same is not sent."""
+        """Update the numbers; what is the same is not sent."""
         with self._session.lock:
             drive = self._drive
             if drive.wheels is None:
@@ -204,8 +194,6 @@ class DrivePanel:
             fixed = self._session.context.fixed_frame == ODOM
             if self._in_odom.disabled != fixed:
                 self._in_odom.disabled = fixed
-            with self._session.audience.atomic():
-                self._draw_trail()
             self._session.audience.flush()
 
     def _state_html(self) -> str:
@@ -224,41 +212,6 @@ class DrivePanel:
         if self._session.context.fixed_frame != ODOM:
             lines.append(f"with the fixed frame {ODOM} it moves on the grid")
         return f'<p class="sambot-note">{"<br>".join(lines)}</p>'
-
-    def _draw_trail(self) -> None:
-        points = self._drive.trail
-        if any_gone(self._pieces) or len(points) < self._drawn:
-            self._forget_trail()
-        nodes, scene = self._session.context.nodes, self._session.audience.scene
-        if ODOM not in self._session.tree or len(points) == self._drawn:
-            return
-        above = nodes.path(ODOM)
-        if above is None:
-            return
-        first = (self._drawn - 1) // TRAIL_PIECE
-        for number in range(first, (len(points) - 2) // TRAIL_PIECE + 1):
-            start = number * TRAIL_PIECE
-            piece = np.array(points[start : start + TRAIL_PIECE + 1], np.float32)
-            flat = np.column_stack(
-                [piece, np.full(len(piece), TRAIL_HEIGHT, np.float32)]
-            )
-            segments = np.stack([flat[:-1], flat[1:]], axis=1)
-            if number < len(self._pieces):
-                self._pieces[number].points = segments
-            else:
-                node = scene.add_line_segments(
-                    f"{above}/~drive{number}",
-                    segments,
-                    colors=TRAIL_COLOR,
-                    thickness=0.012,
-                )
-                self._pieces.append(node)
-        self._drawn = len(points)
-
-    def _forget_trail(self) -> None:
-        remove_all(self._pieces)
-        self._pieces.clear()
-        self._drawn = 1
 
 
 def _within(most: float, value: object) -> float:

@@ -11,7 +11,6 @@ from functools import partial
 
 import viser
 
-from sambot_viz.panels.joint_arrow import JointArrow
 from sambot_viz.panels.joint_notes import as_text, factor_of, notes_html, unit_of
 from sambot_viz.panels.pose_folder import PoseFolder
 from sambot_viz.panels.widgets import (
@@ -25,6 +24,7 @@ from sambot_viz.panels.widgets import (
 )
 from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Event, Session
+from sambot_viz.session.joint_arrow import JointArrow
 from sambot_viz.session.motion import HOLD
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import text

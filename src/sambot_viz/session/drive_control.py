@@ -1,7 +1,7 @@
 """A robot with two driven wheels, moved in the frame odom.
 
 It is the odometry of a differential drive without a simulator: the velocities turn the
-wheels and move odom → root along exact arcs (see `joints.drive`).
+wheels and move odom → root along exact arcs (see `drive.differential`).
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from sambot_viz.displays.scene.path_line import PathLine
 from sambot_viz.drive.differential import DifferentialDrive, PlanarPose, WheelPair
 from sambot_viz.drive.wheels import find_wheel_pair
 from sambot_viz.errors import FrameError, JointError, Problem
@@ -18,12 +19,15 @@ from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.robot.model import Robot
+from sambot_viz.session.throttle import Throttle
 
 if TYPE_CHECKING:
-    from sambot_viz.session import Session
+    from sambot_viz.session import Event, Session
 
 ODOM = "odom"
-"""The frame that the robot moves in; it stands on the floor below the start."""
+"""The frame that the robot moves in; its origin is on the floor below the start."""
+TRAIL_PERIOD = 0.2
+"""The trail is drawn at most this often [s]."""
 
 
 class DriveControl:
@@ -31,7 +35,7 @@ class DriveControl:
 
     Args:
         session: whose robot it is.
-        start: begins to take steps (see `Motion.start`).
+        start: starts the steps (see `Motion.start`).
 
     Attributes:
         v: linear velocity [m/s], forwards positive.
@@ -49,6 +53,9 @@ class DriveControl:
         self._root = ""
         self._height = 0.0
         self.why_not = "no robot is shown yet"
+        self._line = PathLine(session.audience.scene)
+        self._drawing = Throttle(session.worker, TRAIL_PERIOD, self._draw_trail)
+        session.listeners.append(self._hear)
 
     @property
     def wheels(self) -> WheelPair | None:
@@ -57,7 +64,7 @@ class DriveControl:
 
     @property
     def pose(self) -> PlanarPose:
-        """Where the root link stands, T_odom_root."""
+        """The pose of the root link, T_odom_root."""
         return self._drive.pose if self._drive else PlanarPose()
 
     @property
@@ -100,7 +107,7 @@ class DriveControl:
             self._drive, self._root = DifferentialDrive(wheels), root
 
     def set_velocity(self, v: float, w: float, seconds: float = math.inf) -> None:
-        """Drive at a velocity, until it is told otherwise or the time is up.
+        """Drive at a velocity, until the next call or the time is up.
 
         Args:
             v: linear velocity [m/s], forwards positive.
@@ -109,7 +116,7 @@ class DriveControl:
 
         Raises:
             JointError: no wheels, or a number that is not finite.
-            FrameError: the root link cannot hang below odom.
+            FrameError: the root link cannot be attached to odom.
         """
         with self._session.lock:
             if self._drive is None:
@@ -122,7 +129,7 @@ class DriveControl:
         self._start()
 
     def stop(self) -> None:
-        """Stand still."""
+        """Stop driving."""
         self.v = self.w = 0.0
 
     def reset(self) -> None:
@@ -133,6 +140,11 @@ class DriveControl:
                 self._drive.reset()
                 if self._root in self._session.added:
                     self._session.move({}, {self._root: self._matrix()})
+        self._drawing.request()
+
+    def close(self) -> None:
+        """Draw no trail any more."""
+        self._drawing.close()
 
     def advance(self, dt: float) -> tuple[dict[str, float], dict[str, Matrix]]:
         """Drive on for a time [s].
@@ -144,7 +156,7 @@ class DriveControl:
         if self._drive is None or state is None or not self.moving:
             return {}, {}
         if self._root not in self._session.added:
-            # Somebody has taken the frame odom away.
+            # The frame odom was removed.
             self.stop()
             return {}, {}
         step = self._drive.step(self.v, self.w, min(dt, self._left))
@@ -158,21 +170,34 @@ class DriveControl:
         return turned, {self._root: self._matrix()}
 
     def enter_odom(self) -> None:
-        """Hang the root link below odom, unless it hangs there already.
+        """Attach the root link to odom, unless it is attached there already.
 
         Raises:
-            FrameError: it hangs on something else.
+            FrameError: it is attached to another frame.
         """
         session = self._session
         parent = session.tree.parent(self._root)
         if parent not in (None, ODOM):
             raise FrameError(
-                f"'{self._root}' hangs on '{parent}' already; remove that transform "
-                f"to drive in '{ODOM}'"
+                f"'{self._root}' is attached to '{parent}' already; remove that "
+                f"transform to drive in '{ODOM}'"
             )
         if parent is None:
             T = Transform.trusted(self._matrix())
             session.add_frame(ODOM, self._root, T, static=False)
+
+    def _hear(self, event: Event) -> None:
+        if event in ("joints", "frames", "robot"):
+            self._drawing.request()
+
+    def _draw_trail(self) -> None:
+        session = self._session
+        with session.lock:
+            with session.audience.atomic():
+                above = session.context.nodes.path(ODOM)
+                drawn = self._line.draw(above, self.trail or ((0.0, 0.0),))
+            if drawn:
+                session.audience.flush()
 
     def _find(self, robot: Robot) -> WheelPair:
         options = self._session.options

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from sambot_viz.session import Session
 
 HOLD = 0.3
-"""A held button counts as let go so long after its last message [s]; viser sends ten
-in a second."""
+"""A held button counts as released this long after its last message [s]; viser sends
+ten per second."""
 LONGEST_STEP = 0.25
 """A busy machine makes the motion slower than real time, not jump [s]."""
 
@@ -54,7 +54,7 @@ class Motion:
         return bool(self._turning) or self.drive.moving
 
     def turn(self, joint: str, rate: float, seconds: float = math.inf) -> None:
-        """Let a joint turn at a rate, until it is told otherwise or the time is up.
+        """Turn a joint at a rate, until the next call or the time is up.
 
         Args:
             joint: a free joint; one with limits stops there.
@@ -79,7 +79,7 @@ class Motion:
         return joint in self._turning
 
     def stop(self) -> None:
-        """Let everything stand still."""
+        """Stop all motion."""
         with self._session.lock:
             self._turning.clear()
             self.drive.stop()
@@ -105,7 +105,7 @@ class Motion:
             session.move({**positions, **driven}, frames)
 
     def start(self) -> None:
-        """Begin to take steps, if something moves and none are taken yet."""
+        """Start the steps, if something moves and they do not run yet."""
         with self._session.lock:
             if self._ticking or self._closed or not self.moving:
                 return
@@ -114,8 +114,9 @@ class Motion:
         self._wait()
 
     def close(self) -> None:
-        """Move nothing any more."""
+        """Stop the steps for good."""
         self._closed = True
+        self.drive.close()
 
     def _wait(self) -> None:
         self._session.worker.post_later(self._session.period, self._step)
