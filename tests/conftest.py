@@ -16,7 +16,7 @@ NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkou
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Write in one line how many tests were skipped for want of the collection."""
+    """Write in one line how many tests were skipped without the collection."""
     skipped = terminalreporter.stats.get("skipped", [])
     count = sum(NEEDS_SHARED in str(report.longrepr) for report in skipped)
     if count:

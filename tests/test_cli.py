@@ -121,7 +121,7 @@ def test_the_students_file_ends_with_the_line_the_cause_and_the_fix(
         assert "Traceback" not in said
 
 
-def test_check_is_silent_on_errors_for_a_good_model(
+def test_check_reports_no_error_for_a_good_model(
     repository: Path, capsys: Capture
 ) -> None:
     assert main(["check", str(repository / "assets" / "sam_bot.urdf.xacro")]) == 0
@@ -144,7 +144,7 @@ def test_expand_prints_the_urdf(repository: Path, capsys: Capture) -> None:
     assert '<robot name="sam_bot">' in out and "xacro:" not in out
 
 
-def test_xacro_arguments_stand_anywhere(tmp_path: Path, capsys: Capture) -> None:
+def test_xacro_arguments_may_be_anywhere(tmp_path: Path, capsys: Capture) -> None:
     model = tmp_path / "r.xacro"
     model.write_text(
         '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'

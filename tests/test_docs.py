@@ -41,7 +41,7 @@ def test_a_command_line_of_the_readme_is_accepted(line: str) -> None:
     parser_of(command).parse_args([word for word in words if ":=" not in word])
 
 
-def test_every_option_is_explained_to_python_users() -> None:
+def test_every_option_is_documented_for_python_users() -> None:
     doc = Visualizer.__doc__ or ""
     for option in declared():
         assert f"    {option.name}: " in doc

@@ -64,7 +64,7 @@ def test_each_file_is_read_once(arm: Path, repository: Path, tmp_path: Path) -> 
     assert inputs.document().file == str(config)
 
 
-def test_who_gives_up_waiting_gets_a_keyboard_interrupt(arm: Path) -> None:
+def test_giving_up_ends_the_wait_with_a_keyboard_interrupt(arm: Path) -> None:
     inputs = Inputs(Options(load_robot(arm)))
     assert isinstance(inputs.robot(), Robot)
     waiting = Inputs(Options(arm))

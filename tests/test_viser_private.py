@@ -51,7 +51,7 @@ def test_a_node_that_went_with_its_parent_is_known_to_be_removed(
     assert viser_private.is_removed(child)
 
 
-def test_what_stands_on_a_tab_can_be_changed(server: viser.ViserServer) -> None:
+def test_widgets_on_a_tab_can_be_changed(server: viser.ViserServer) -> None:
     panel = server.gui.add_panel()
     tab = panel.add_tab("before")
     viser_private.set_tab_label(tab, "after")

@@ -16,7 +16,7 @@ from sambot_viz.session import Session
 
 Connect = Callable[..., ProtocolClient]
 EACH = 13
-"""One of so many real robots is shown here; all of them are loaded elsewhere."""
+"""Every 13th real robot is shown here; all of them are loaded elsewhere."""
 
 LIMIT = '<limit lower="{0}" upper="{1}" effort="1" velocity="1"/>'
 NUMBERS = ("1e308", "-1e308", "4e38", "1e-320", "0", "-1")
@@ -138,4 +138,4 @@ def test_real_robots_are_shown_whole(
         except RobotError as error:
             found[path] = [str(error)]
     assert len(found) > 5
-    assert {path: told for path, told in found.items() if told} == {}
+    assert {path: what for path, what in found.items() if what} == {}

@@ -46,7 +46,7 @@ class Flag:
             of the Python interface only.
         group: which commands take it.
         word: its name as an argument of display.launch.py, for ``NAME:=VALUE``.
-        metavar: what stands for its value in the help.
+        metavar: the placeholder for its value in the help.
         default: the command line's default where it is not the keyword argument's.
         choices: the only values there are.
         type: makes the value from one word; None keeps the text.

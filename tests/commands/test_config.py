@@ -25,7 +25,7 @@ def mixed(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_table_says_what_is_shown_and_what_is_only_kept(
+def test_a_table_lists_what_is_shown_and_what_is_only_kept(
     mixed: Path, capsys: Capture
 ) -> None:
     assert main(["config", str(mixed)]) == 0
@@ -35,7 +35,7 @@ def test_a_table_says_what_is_shown_and_what_is_only_kept(
     assert "2 displays, 1 of them not supported" in out
 
 
-def test_the_same_comes_as_json(mixed: Path, capsys: Capture) -> None:
+def test_the_report_can_be_json(mixed: Path, capsys: Capture) -> None:
     assert main(["config", str(mixed), "--format", "json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [display["level"] for display in found["displays"]] == [
@@ -45,12 +45,14 @@ def test_the_same_comes_as_json(mixed: Path, capsys: Capture) -> None:
     assert found["file"] == str(mixed)
 
 
-def test_settings_of_links_are_no_unknown_keys(capsys: Capture) -> None:
+def test_settings_of_links_are_not_unknown_keys(capsys: Capture) -> None:
     assert main(["config", str(config_path()), "--format", "json"]) == 0
     assert json.loads(capsys.readouterr().out)["counts"]["unknown key"] == 0
 
 
-def test_what_is_no_config_is_said(tmp_path: Path, capsys: Capture) -> None:
+def test_a_file_that_is_not_a_config_is_reported(
+    tmp_path: Path, capsys: Capture
+) -> None:
     assert main(["config", str(tmp_path / "none.rviz")]) == 2
     assert "there is no such file" in capsys.readouterr().err
     broken = tmp_path / "broken.rviz"

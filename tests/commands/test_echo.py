@@ -42,12 +42,12 @@ def test_the_laser_of_the_tutorials_first_page_prints_as_tf2_echo_prints_it(
     assert capsys.readouterr().out == FIRST_PAGE
 
 
-def test_source_and_target_stand_as_in_tf2_echo(capsys: Capture) -> None:
+def test_source_and_target_are_in_the_order_of_tf2_echo(capsys: Capture) -> None:
     assert main(["echo", "base_laser", "base_link", "--static-transform", LASER]) == 0
     assert "Translation: [-0.100, 0.000, -0.200]" in capsys.readouterr().out
 
 
-def test_options_may_stand_between_the_frames_and_turn_the_wheel(
+def test_options_may_be_between_the_frames_and_turn_the_wheel(
     repository: Path, capsys: Capture
 ) -> None:
     model = str(repository / "assets" / "sam_bot.urdf.xacro")
@@ -59,7 +59,7 @@ def test_options_may_stand_between_the_frames_and_turn_the_wheel(
     assert set(found) == {"translation", "rotation_xyzw", "rpy", "matrix"}
 
 
-def test_a_recorded_joint_state_counts_and_foreign_joints_are_ignored(
+def test_a_recorded_joint_state_is_used_and_unknown_joints_are_ignored(
     tmp_path: Path, capsys: Capture
 ) -> None:
     file = tmp_path / "state.yaml"
@@ -89,7 +89,7 @@ def test_an_unknown_frame_ends_with_1_tf2s_text_and_the_nearest_name(
     assert f"did you mean '{near}'?" in err
 
 
-def test_frames_of_separate_trees_end_with_1_and_say_what_is_missing(
+def test_frames_of_separate_trees_end_with_1_and_what_is_missing(
     capsys: Capture,
 ) -> None:
     added = ["--static-transform", "0 0 0 0 0 0 map odom"]

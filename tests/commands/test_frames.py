@@ -13,7 +13,7 @@ from sambot_viz.cli import main
 Capture = pytest.CaptureFixture[str]
 
 
-def test_the_ending_of_the_file_says_the_format(tmp_path: Path) -> None:
+def test_the_ending_of_the_file_decides_the_format(tmp_path: Path) -> None:
     for ending in ("svg", "dot", "json"):
         assert main(["frames", "-o", str(tmp_path / f"tree.{ending}")]) == 0
     picture = (tmp_path / "tree.svg").read_text("utf-8")

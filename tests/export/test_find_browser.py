@@ -30,7 +30,7 @@ def test_the_first_known_command_on_path_is_taken(tmp_path: Path) -> None:
 
 
 @posix
-def test_the_environment_variable_goes_before_path(tmp_path: Path) -> None:
+def test_the_environment_variable_takes_precedence_over_path(tmp_path: Path) -> None:
     program(tmp_path, "chromium")
     mine = program(tmp_path, "my browser")
     by_path = {"PATH": str(tmp_path), "SAMBOT_VIZ_BROWSER": str(mine)}
@@ -52,7 +52,7 @@ def test_a_wrong_environment_variable_is_an_error_not_another_browser(
     )
 
 
-def test_without_any_browser_there_is_none(
+def test_without_a_browser_none_is_found(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys, "platform", "linux")

@@ -43,7 +43,7 @@ def test_a_wheel_uses_the_folders_inside_the_package(
     assert bundled.assets_folder() == (package / "share" / "assets").resolve()
 
 
-def test_a_missing_folder_is_said_clearly(
+def test_a_missing_folder_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(bundled, "__file__", str(tmp_path / "a" / "b" / "x.py"))

@@ -55,5 +55,5 @@ def test_what_is_imported_is_declared_and_the_other_way_round(
     assert wanted == imported(repository)
 
 
-def test_every_declared_package_says_why(repository: Path) -> None:
+def test_every_declared_package_has_a_reason(repository: Path) -> None:
     assert [name for name, why in declared(repository).items() if not why] == []

@@ -1,7 +1,7 @@
 """Try an installed sambot-viz as its user would; run by tests/run, not by pytest.
 
 It runs with the Python of an environment into which only the wheel was installed, and
-from a folder that knows nothing of the source code.
+from a folder without the source code.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def find_what_is_bundled() -> None:
 
 
 def ask_for_version() -> None:
-    """The command says the version that the wheel has."""
+    """The command prints the version that the wheel has."""
     said = run("--version")
     expect(metadata.version("sambot-viz") in said, f"--version says {said!r}")
 

@@ -13,7 +13,7 @@ What it offers:
     client.mark(), .since(m)   a place in that list, and what came after it
     client.types(since=m)      how many of each type, as a Counter
     client.uuid_of(label)      the widget with this label; .widgets for all of them
-    client.value_of(label)     the widget's value as the server last told it
+    client.value_of(label)     the widget's value as the server last sent it
     client.node(name)          the last message that created this scene node
     client.set_value(uuid, v)  what a browser sends when a widget was moved
     client.send(type, **f)     any other message
@@ -90,7 +90,7 @@ class Received:
 
 
 class ProtocolClient:
-    """One connection that records; see the module's text for what it offers."""
+    """One connection that records; the module's docstring lists what it offers."""
 
     def __init__(self, port: int, host: str = "127.0.0.1", *, camera: bool = True):
         """Connect, wait for the end of the replay, and report a camera pose.
@@ -218,7 +218,7 @@ class ProtocolClient:
             return not self._changed.wait_for(lambda: self._frames > before, seconds)
 
     def settle(self, server: viser.ViserServer, timeout: float = 10.0) -> None:
-        """Wait until everything caused so far has arrived (see the module's text)."""
+        """Wait until everything caused so far has arrived (see above)."""
         _build_fence(server)
         self.wait_until(lambda: self._fence_request is not None, timeout)
         self._fence_count += 1

@@ -146,7 +146,7 @@ def _default_in_words(flag: Flag, default: object) -> str:
 
 
 def _as_flag(flag: Flag, value: str) -> list[str]:
-    """An argument of display.launch.py, such as ``gui:=false``, as flags of ours."""
+    """An argument of display.launch.py, such as ``gui:=false``, as our own flags."""
     name = flag.names[-1]
     if not flag.switch:
         return [f"{name}={value}"]

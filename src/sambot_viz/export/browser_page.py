@@ -19,7 +19,7 @@ new Promise((resolve, reject) => {
       trouble = String(error);
     }
     if (performance.now() > end) { resolve(trouble); return; }
-    // A page that is not drawn gets no animation frames, so a timer looks as well.
+    // A page that is not drawn gets no animation frames, so there is a timer too.
     let looked = false;
     const again = () => { if (!looked) { looked = true; look(); } };
     requestAnimationFrame(again);
@@ -69,7 +69,7 @@ class BrowserPage:
     def begin(self) -> None:
         """Ask the browser for the page's events and settings."""
         self.call("Page.enable")
-        # viser's page reconnects only while it has the focus, and so does each of ours.
+        # viser's page reconnects only while it has the focus.
         self.call("Emulation.setFocusEmulationEnabled", {"enabled": True})
 
     def on_event(self, method: str, fields: Fields) -> None:

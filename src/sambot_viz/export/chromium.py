@@ -1,8 +1,8 @@
 """A Chromium or Chrome of this machine, started as a child and ended with its tree.
 
 Nothing here downloads a browser. The child gets a fresh profile, draws with software
-OpenGL so that pictures are the same on every machine, and can reach no name but those
-of this machine.
+OpenGL so that pictures are the same on every machine, and can reach only the names of
+this machine.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The DevTools protocol: one websocket to a browser, calls with answers, and events.
 
-Only what a snapshot and a browser test need; everything about one page is in
+It has only what a snapshot and a browser test need; everything about one page is in
 `browser_page`. A thread reads the socket, so that events are recorded while
 no call waits for an answer.
 """

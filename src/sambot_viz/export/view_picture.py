@@ -50,7 +50,7 @@ def snapshot(
         (height, width, 3) uint8, RGB.
 
     Raises:
-        ServerError: the page did not come to show everything in time.
+        ServerError: the page did not show everything in time.
     """
     end = time.monotonic() + LONGEST_WAIT
     page = chromium.open(f"{server.url}/?fixedDpr=1", width=width, height=height)
@@ -62,16 +62,16 @@ def snapshot(
             _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())
         )
         before: Picture | None = None
-        standing: tuple[float, ...] | None = None
+        placed: tuple[float, ...] | None = None
         while time.monotonic() < end:
-            # viser draws a picture's background where the page's own camera is, and
-            # nothing beyond 1000 m: the page itself must stand there. A page that was
-            # just opened may report its first camera after another one was set.
-            if standing is None or not np.allclose(
-                _place(client), standing, rtol=1e-4, atol=1e-3
+            # viser draws a picture's background at the page's own camera, and nothing
+            # beyond 1000 m from it, so the page's camera must be moved too. A page that
+            # was just opened may report its first camera after another one was set.
+            if placed is None or not np.allclose(
+                _place(client), placed, rtol=1e-4, atol=1e-3
             ):
                 BrowserCamera(client).point(camera, ortho_fov=None)
-                standing, before = _place(client), None
+                placed, before = _place(client), None
             with viser_private.larger_messages(client, 8 * width * height + 2**16):
                 image = client.get_render(
                     height,
@@ -81,7 +81,7 @@ def snapshot(
                 )
             picture: Picture = image[..., :3].astype(np.uint8)
             # Meshes and names appear some frames after their messages; two equal
-            # pictures in a row say that nothing more is coming.
+            # pictures in a row mean that nothing more is coming.
             if before is not None and np.array_equal(picture, before):
                 return picture
             before = picture
