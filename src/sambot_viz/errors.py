@@ -9,6 +9,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     ├── NamedFileError              a file that a mesh names and that cannot be used
     │   └── LfsPointerError         a git-LFS pointer in place of the file itself
     ├── TextureError                an image that cannot be used
+    ├── PictureError                a browser did not send the picture it was asked for
     ├── FrameError                  a transform that cannot be looked up or set
     │   ├── LookupRefused           no transform between two frames (.tf2_text)
     │   ├── TransformRefused        a transform that tf2 would not take
