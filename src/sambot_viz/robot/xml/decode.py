@@ -10,9 +10,9 @@ import codecs
 import re
 
 _DECLARED_ENCODING = re.compile(
-    rb"""\s*<\?xml\b[^>]*?\bencoding\s*=\s*["']([A-Za-z0-9._-]+)["']"""
+    rb"""\s{0,1000}<\?xml\b[^>]{0,1000}?\bencoding\s*=\s*["']([A-Za-z0-9._-]+)["']"""
 )
-_DECLARATION = re.compile(r"\A<\?xml\b([^<>]*?)\?>")
+_DECLARATION = re.compile(r"\A<\?xml\b([^<>]{0,1000}?)\?>")
 _GOOD_VERSION = re.compile(r"""\s+version\s*=\s*["']1\.[0-9]+["']""")
 
 
@@ -20,8 +20,8 @@ class XmlFault(Exception):
     """The text is not well-formed XML.
 
     Attributes:
-        message: expat's own words, such as "junk after document element".
-        code: expat's error number (`xml.parsers.expat.errors`), 0 for our own.
+        message: expat's message, such as "junk after document element".
+        code: expat's error number (`xml.parsers.expat.errors`), 0 for other causes.
         line: line where expat stopped, from 1.
         column: column where expat stopped, from 1.
         text: the whole text that was read.
