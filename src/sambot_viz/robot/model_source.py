@@ -157,7 +157,7 @@ def first_xacro(document: Element) -> Element | None:
 
     These are xacro's own elements and attributes, and a substitution where URDF needs
     a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
-    would fail there needlessly.
+    could fail there although ROS does not use the value.
     """
     for element in document.iter():
         if _is_own(element):

@@ -1,1 +1,1 @@
-"""From package:// URLs and file names to files on this machine, without ROS."""
+"""Resolve package:// URLs and file names to files on this machine, without ROS."""

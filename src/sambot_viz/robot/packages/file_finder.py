@@ -1,4 +1,4 @@
-"""Finding the mesh and texture files that a model names, and reporting the others."""
+"""Find the mesh and texture files that a model names, and report missing ones."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from sambot_viz.robot.xml.element import Element
 _DOUBTS = {
     "letter-case": (
         "file-letter-case",
-        "the file here is called {name}, with other capital letters; on Linux ROS does "
-        "not find it",
+        "the file here is called {name}, which differs in capital letters; on Linux "
+        "ROS does not find it",
         "write the name with the same capital and small letters as the file",
     ),
     "other-machine": (
@@ -174,7 +174,7 @@ class FileFinder:
                 hint = "download it and name it by package:// or a relative path"
         subject = _subject(cause, affected.names)
         was = "was" if len(affected.names) == 1 else "were"
-        stand_in = "; a stand-in is drawn" if cause.kind == "mesh" else ""
+        stand_in = "; a placeholder is drawn" if cause.kind == "mesh" else ""
         text = f"{subject} {was} not found: {reason}{stand_in}"
         self._warn(cause.code, text, hint, affected)
 

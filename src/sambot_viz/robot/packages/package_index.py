@@ -1,4 +1,4 @@
-"""Finding ROS packages without ROS.
+"""Find ROS packages without ROS.
 
 Only the standard library is used here: the xacro child reads this module too and
 must start fast.

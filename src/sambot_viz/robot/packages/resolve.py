@@ -1,4 +1,4 @@
-"""From a file name as models write it to a file on this machine.
+"""Resolve the file names in models to files on this machine.
 
 The package's name counts first; the end of the path is only the last resort, because
 two packages may have files of the same name. Only the standard library is used here:

@@ -37,7 +37,7 @@ class UrdfFindings(Findings):
         at: Element,
         attribute: str | None = None,
     ) -> None:
-        """An error that ROS does not see, or that costs only a part of the robot."""
+        """An error that ROS does not report, or that affects only part of the robot."""
         self._add("error", code, message, hint, at, attribute)
 
     def warn(
@@ -48,7 +48,7 @@ class UrdfFindings(Findings):
         at: Element,
         attribute: str | None = None,
     ) -> None:
-        """Something doubtful that is drawn all the same."""
+        """A doubtful part of the model, which is drawn anyway."""
         self._add("warning", code, message, hint, at, attribute)
 
     def _add(

@@ -1,7 +1,4 @@
-"""Joints as urdfdom reads them; one wrong joint rejects the model.
-
-What is refused here is what urdfdom 3 and 5 refuse.
-"""
+"""Read joints as urdfdom 3 and 5 do: one invalid joint rejects the model."""
 
 from __future__ import annotations
 
@@ -22,12 +19,12 @@ _REFUSED = "ROS refuses the model"
 
 
 def read_joint(element: Element, findings: UrdfFindings) -> Joint | None:
-    """Read one <joint>; everything wrong in it is reported.
+    """Read one <joint> and report every error in it.
 
     Returns:
-        The joint, or None when it has no name, no known type or no ends. What else
-        is wrong is reported, and the joint goes on with the default for it, so that
-        the checks of the tree still see it.
+        The joint, or None when it has no name, no known type or no ends. Other
+        invalid parts are reported and replaced by their defaults, so that the tree
+        is still checked.
     """
     name = element.get("name")
     if name is None:

@@ -84,7 +84,7 @@ class LimitReader:
         missing = [n for n in ("lower", "upper") if element.get(n) is None]
         if missing:
             names = " and no ".join(missing)
-            # A joint that can neither push nor move is meant to stand still.
+            # A joint with no effort and no velocity is meant not to move.
             meant = limit.effort == 0.0 and limit.velocity == 0.0
             grave = len(missing) == 2 and not meant
             report = self._findings.error if grave else self._findings.warn

@@ -1,105 +1,64 @@
-"""Whether links and joints make one tree, and what ROS would make of it.
+"""Build the tree of links and joints as ROS would, and report what is wrong with it.
 
-What urdfdom refuses rejects the model; what it accepts although it is wrong is kept
-as ROS would keep it, and reported.
+An error that urdfdom refuses rejects the model. An error that urdfdom accepts is
+reported, and the tree is built as ROS builds it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.xml.element import Element
+from sambot_viz.robot.urdf.rings import find_rings, report_rings
+from sambot_viz.robot.urdf.robot_parts import RobotParts, is_fragment
 
 DEEPEST = 350
-"""Measured with Chromium: 350 joints in a row are drawn, 500 are not."""
+"""Longest chain drawn: Chromium draws 350 joints in a row, but not 500."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """The part that hangs together: the root, and what is reached from it."""
+    """The connected tree: the root link, and the links and joints reached from it."""
 
     root: str
     links: dict[str, Link]
     joints: dict[str, Joint]
 
 
-@dataclass(slots=True)
-class RobotParts:
-    """Links and joints as read, with the elements they came from.
-
-    Attributes:
-        links: name → link, in document order.
-        joints: name → joint, in document order.
-        link_elements: name → element.
-        joint_elements: name → element.
-        robot: the <robot> element.
-        excused: links that are loose only because their joint could not be read.
-        nameless: links without a name, which a joint may have meant.
-        doubled: link names that are used twice, so that a joint may mean either.
-    """
-
-    links: dict[str, Link]
-    joints: dict[str, Joint]
-    link_elements: dict[str, Element]
-    joint_elements: dict[str, Element]
-    robot: Element
-    excused: set[str] = field(default_factory=set[str])
-    nameless: int = 0
-    doubled: set[str] = field(default_factory=set[str])
-
-
 def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
-    """Check the structure and give what ROS would show.
+    """Check the structure and return the tree that ROS would show.
 
-    A piece of a robot (an include file) gets the links that are not in it, empty and
-    with a warning; ROS refuses it alone.
+    ROS refuses a file that is only part of a robot (an include file). Here its missing
+    links are added, empty and with a warning.
 
     Returns:
         The tree, or None when there is none.
     """
     fragment = is_fragment(parts)
     if fragment:
-        _add_missing_links(parts, findings)
-    _check_ends(parts, findings)
+        parts = _with_missing_links(parts, findings)
+    parts = _check_ends(parts, findings)
     _check_self_joints(parts, findings)
     holder = _parent_joints(parts, findings)
-    rings = _rings(parts, holder)
+    rings = find_rings(parts, holder)
     roots = [name for name in parts.links if name not in holder]
     if not roots:
-        _report_rings(parts, findings, rings, None)
+        report_rings(parts, findings, rings, None)
         return None
     if len(roots) > 1:
         _report_roots(parts, findings, roots, fragment)
     root = _largest(parts, roots)
-    _report_rings(parts, findings, rings, root)
+    report_rings(parts, findings, rings, root)
     tree = _reached(parts, holder, root)
     _report_depth(parts, findings, tree)
     return tree
 
 
-def is_fragment(parts: RobotParts) -> bool:
-    """Whether this is a piece of a robot, written for another file to include.
-
-    Such a file has one undefined parent link that would make everything one tree, or
-    it has no name and joints between links that are elsewhere.
-    """
-    children = {joint.child for joint in parts.joints.values()}
-    parents = {joint.parent for joint in parts.joints.values()}
-    missing = (parents | children) - parts.links.keys()
-    if not missing or parts.excused or parts.nameless:
-        return False
-    if parts.robot.get("name") is None:
-        return True
-    loose = parts.links.keys() - children
-    return len(missing) == 1 and not loose and children <= parts.links.keys()
-
-
-def _add_missing_links(parts: RobotParts, findings: UrdfFindings) -> None:
+def _with_missing_links(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
     added: dict[str, Link] = {}
     for joint in parts.joints.values():
         for end, link in (("parent", joint.parent), ("child", joint.child)):
@@ -107,20 +66,20 @@ def _add_missing_links(parts: RobotParts, findings: UrdfFindings) -> None:
                 continue
             added[link] = Link(link)
             element = parts.joint_elements[joint.name]
-            what = "hangs on" if end == "parent" else "holds"
             findings.warn(
                 f"joint-{end}-elsewhere",
-                f"joint {joint.name} {what} the link {link}, which is not in this "
-                "file: it is a piece of a robot, drawn here on an empty link; ROS "
-                "refuses it alone",
+                f"joint {joint.name} has the {end} link {link}, which is not in this "
+                "file: the file is part of a robot, drawn here with an empty link; "
+                "ROS refuses the file on its own",
                 f'open the file that includes this one, or add <link name="{link}"/>',
                 element.find(end) or element,
                 "link",
             )
-    parts.links = {**added, **parts.links}
+    return replace(parts, links={**added, **parts.links})
 
 
-def _check_ends(parts: RobotParts, findings: UrdfFindings) -> None:
+def _check_ends(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
+    """Report parent and child links that do not exist; excuses links that need one."""
     unknown = [
         (joint, tag, link)
         for joint in parts.joints.values()
@@ -142,7 +101,8 @@ def _check_ends(parts: RobotParts, findings: UrdfFindings) -> None:
             "link",
         )
     if any(tag == "child" for _, tag, _ in unknown):
-        parts.excused.update(parts.links)
+        return replace(parts, excused=parts.excused | parts.links.keys())
+    return parts
 
 
 def _check_self_joints(parts: RobotParts, findings: UrdfFindings) -> None:
@@ -151,15 +111,15 @@ def _check_self_joints(parts: RobotParts, findings: UrdfFindings) -> None:
             element = parts.joint_elements[name]
             findings.error(
                 "joint-to-itself",
-                f"joint {name} connects {joint.child} to itself, so the link hangs "
-                "on nothing; ROS says nothing and does not show it",
-                "the child must be another link than the parent",
+                f"joint {name} connects {joint.child} to itself, so the link is "
+                "not connected to anything; ROS drops it without a message",
+                "name two different links as parent and child",
                 element.find("child") or element,
             )
 
 
 def _parent_joints(parts: RobotParts, findings: UrdfFindings) -> dict[str, Joint]:
-    """Link → the joint that holds it: of several the last in alphabetical order."""
+    """Link → the joint whose child it is; of several, the last by alphabet."""
     holders: dict[str, list[Joint]] = {}
     for joint in parts.joints.values():
         if joint.child in parts.links:
@@ -167,7 +127,7 @@ def _parent_joints(parts: RobotParts, findings: UrdfFindings) -> dict[str, Joint
     chosen: dict[str, Joint] = {}
     for link, joints in holders.items():
         chosen[link] = max(joints, key=lambda joint: joint.name)
-        if len(joints) > 1 and link not in parts.doubled:
+        if len(joints) > 1 and link not in parts.duplicates:
             _report_two_parents(parts, findings, link, joints, chosen[link].name)
     return chosen
 
@@ -181,63 +141,12 @@ def _report_two_parents(
     element = parts.joint_elements[joints[-1].name]
     findings.error(
         "link-two-parents",
-        f"link {link} is the child of more than one joint: {listed}; ROS keeps only "
-        f"{kept} silently",
+        f"link {link} is the child of more than one joint: {listed}; ROS uses only "
+        f"{kept}, without a message",
         "a link can be the child of one joint only: delete or correct the other",
         element.find("child") or element,
         "link",
     )
-
-
-def _rings(parts: RobotParts, holder: Mapping[str, Joint]) -> list[list[Joint]]:
-    """The rings among the links, each as its joints from one link round to itself."""
-    rings: list[list[Joint]] = []
-    done: set[str] = set()
-    for start in parts.links:
-        path: list[str] = []
-        link = start
-        while link in holder and link not in done:
-            done.add(link)
-            path.append(link)
-            link = holder[link].parent
-        if link in path:
-            ring = path[path.index(link) :]
-            if len(ring) > 1:
-                rings.append([holder[name] for name in reversed(ring)])
-    return rings
-
-
-def _report_rings(
-    parts: RobotParts,
-    findings: UrdfFindings,
-    rings: Iterable[list[Joint]],
-    root: str | None,
-) -> None:
-    for ring in rings:
-        order = list(parts.joints)
-        last = max(ring, key=lambda joint: order.index(joint.name))
-        start = ring.index(last) + 1
-        turned = ring[start:] + ring[:start]
-        names = " → ".join([turned[0].parent, *(joint.child for joint in turned)])
-        element = parts.joint_elements[last.name]
-        at = element.find("child") or element
-        hint = f"delete the joint {last.name}, or another one of the ring"
-        if root is None:
-            findings.reject(
-                "joint-ring",
-                f"the joints form a ring: {names}; there is no root link and ROS "
-                "refuses the model",
-                hint,
-                at,
-            )
-        else:
-            findings.error(
-                "joint-ring",
-                f"the joints form a ring: {names}; it is not connected to the root "
-                f"{root}, and ROS loses these links silently",
-                hint,
-                at,
-            )
 
 
 def _report_roots(
@@ -258,13 +167,13 @@ def _report_roots(
 
 
 def _largest(parts: RobotParts, roots: list[str]) -> str:
-    """The root with the most links below it: that is the robot, the rest is loose."""
+    """The root with the most links below it; the other roots are unconnected parts."""
     children = _children(parts.joints.values())
     return max(roots, key=lambda root: len(_below(root, children)))
 
 
 def _children(joints: Iterable[Joint]) -> dict[str, list[str]]:
-    """Link → the links that hang on it."""
+    """Link → its child links."""
     children: dict[str, list[str]] = {}
     for joint in joints:
         children.setdefault(joint.parent, []).append(joint.child)
@@ -272,7 +181,7 @@ def _children(joints: Iterable[Joint]) -> dict[str, list[str]]:
 
 
 def _below(root: str, children: Mapping[str, list[str]]) -> set[str]:
-    """A link and all that hang below it."""
+    """A link and all links below it."""
     reached: set[str] = set()
     stack = [root]
     while stack:
@@ -284,7 +193,7 @@ def _below(root: str, children: Mapping[str, list[str]]) -> set[str]:
 
 
 def _report_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None:
-    """Warn of a chain that a browser cannot draw: it stacks a call per link."""
+    """Warn of a chain that is too long for a browser, which nests one call per link."""
     children = _children(tree.joints.values())
     level, depth = [tree.root], 0
     while level and depth <= DEEPEST:
@@ -293,10 +202,10 @@ def _report_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None
     if level:
         findings.warn(
             "chain-too-long",
-            f"more than {DEEPEST} links hang one below the other (the first so deep is "
+            f"a chain of joints has more than {DEEPEST} links (the first one beyond is "
             f"{level[0]}): a browser cannot draw so long a chain, and the view stays "
             "empty",
-            "hang links on one that is nearer to the root",
+            "connect links to one that is nearer to the root",
             parts.link_elements.get(level[0], parts.robot),
         )
 

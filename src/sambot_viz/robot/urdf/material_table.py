@@ -34,7 +34,7 @@ class _Known:
 
 
 class MaterialTable:
-    """The materials known so far, in urdfdom's order.
+    """Resolves material names as urdfdom does, in the order of the file.
 
     Global materials are known everywhere; an inline one is known from its visual on;
     the first definition of a name wins for the whole robot.
@@ -101,7 +101,7 @@ class MaterialTable:
             return
         self._findings.warn(
             "material-redefined",
-            f"material '{name}' is defined here in another way than on line "
+            f"material '{name}' is defined here differently than on line "
             f"{known.element.place.line}; ROS uses the first definition everywhere",
             "give one of the two another name",
             element,
@@ -149,7 +149,7 @@ class MaterialTable:
             self._findings.warn(
                 "color-count",
                 f"rgba=\"{text}\" of material '{name}' has {count} numbers, four are "
-                "needed; ROS shows black silently",
+                "needed; ROS shows black without a message",
                 f'write rgba="{_four(text)}"',
                 color,
                 "rgba",

@@ -1,4 +1,4 @@
-"""Mimic joints that joint_state_publisher cannot follow."""
+"""Check mimic joints that joint_state_publisher cannot compute."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sambot_viz.robot.xml.element import Element
 def check_mimics(
     joints: Mapping[str, Joint], elements: Mapping[str, Element], findings: UrdfFindings
 ) -> None:
-    """Report unknown, immovable and circular mimic joints; ROS's parser sees none."""
+    """Report unknown, immovable and circular mimic joints, which urdfdom accepts."""
     reported: set[str] = set()
     for name, joint in joints.items():
         if joint.mimic is None or name in reported:
@@ -36,7 +36,7 @@ def check_mimics(
                 "mimic-joint-immovable",
                 f"joint {name} mimics {leader.name}, which is {leader.type} and has "
                 "no position; joint_state_publisher would crash",
-                "let it mimic a revolute, continuous or prismatic joint",
+                "mimic a revolute, continuous or prismatic joint",
                 element,
                 "joint",
             )
@@ -61,7 +61,7 @@ def _report_ring(
     findings.error(
         "mimic-ring",
         f"{what}; joint_state_publisher would stop",
-        "one of them must be free: delete its <mimic>",
+        "delete the <mimic> of one of them",
         element,
         "joint",
     )

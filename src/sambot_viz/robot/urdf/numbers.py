@@ -13,7 +13,7 @@ class BadNumber(ValueError):
     """Text that urdfdom does not take for a number.
 
     Attributes:
-        reason: what is wrong, to stand behind the attribute's text.
+        reason: what is wrong, worded to follow the attribute's text.
         hint: what to write.
     """
 
@@ -81,11 +81,11 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
         return "is empty", "write a number"
     if "$" in part:
         return (
-            f"still holds the expression {part}, which xacro has not replaced",
+            f"still contains the expression {part}, which xacro has not replaced",
             "declare xmlns:xacro on <robot>, or write the number",
         )
     if part.lower().lstrip("+-") in ("nan", "inf", "infinity"):
-        return f"holds {part}, which is not a finite number", "write a finite number"
+        return f"contains {part}, which is not a finite number", "write a finite number"
     if re.fullmatch(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?[A-Za-z°]+", part):
         return (
             f"has a unit in {part}; URDF knows only metres and radians",
@@ -94,10 +94,10 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
     if re.search(r"pi|[*/()]|\d[+-]\d", part):
         shown = whole.replace(part, f"${{{part}}}")
         return (
-            f"holds {part}, which is not a number: plain URDF cannot calculate",
+            f"contains {part}, which is not a number: plain URDF cannot calculate",
             f'write the number{_value_of(part)}, or use xacro: "{shown}"',
         )
-    return f"holds {part}, which is not a number", "write a number such as 0.1"
+    return f"contains {part}, which is not a number", "write a number such as 0.1"
 
 
 def _value_of(part: str) -> str:

@@ -1,22 +1,25 @@
 """Read the elements of a URDF into links and joints, as urdfdom does.
 
-Three levels of failure: a wrong joint, name or tree rejects
-the model; a wrong shape costs the rest of its link; a wrong material costs its
-colour. Everything is read to the end, so that everything wrong is reported at once.
+An invalid joint, name or tree rejects the model; an invalid shape drops the remaining
+shapes of its link; an invalid material drops its colour. Reading always continues to
+the end, so that all errors are reported together.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Link
 from sambot_viz.robot.urdf.findings import UrdfFindings, tag_text
+from sambot_viz.robot.urdf.frame_names import check_leading_slash, check_twins
 from sambot_viz.robot.urdf.joints import read_joint
-from sambot_viz.robot.urdf.link_tree import RobotParts, build_tree, is_fragment
+from sambot_viz.robot.urdf.link_tree import build_tree
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
 from sambot_viz.robot.urdf.material_table import FindTexture, MaterialTable
 from sambot_viz.robot.urdf.mimic_rules import check_mimics
+from sambot_viz.robot.urdf.robot_parts import RobotParts, is_fragment
 from sambot_viz.robot.xml.element import Element
 
 _OTHER_ROOTS = {
@@ -33,7 +36,7 @@ _OTHER_ROOTS = {
 
 @dataclass(frozen=True, slots=True)
 class UrdfRobot:
-    """What a URDF document says: name, root link, links and joints of its tree."""
+    """The content of a URDF document: name, root link, links and joints of its tree."""
 
     name: str
     root: str
@@ -68,10 +71,19 @@ def read_urdf(
     for element in robot.find_all("material"):
         materials.add_global(element)
     reader = LinkReader(findings, materials, find_mesh)
-    parts = RobotParts({}, {}, {}, {}, robot)
-    _read_links(parts, reader, findings)
-    _check_slashes(parts, findings)
-    _read_joints(parts, findings)
+    links = _read_links(robot, reader, findings)
+    check_twins(links.elements, findings)
+    joints, joint_elements, excused = _read_joints(robot, links.links, findings)
+    parts = RobotParts(
+        robot,
+        links.links,
+        links.elements,
+        joints,
+        joint_elements,
+        excused,
+        links.nameless,
+        frozenset(links.duplicates),
+    )
     if not parts.links and not parts.nameless and not is_fragment(parts):
         _report_no_links(robot, findings)
         return None
@@ -90,13 +102,13 @@ def _robot_element(document: Element, findings: UrdfFindings) -> Element | None:
     if inner is not None:
         findings.warn(
             "robot-not-root",
-            f"<robot> is inside <{document.tag}>; joint_state_publisher takes it "
-            "so, but robot_state_publisher and RViz want <robot> as the root",
+            f"<robot> is inside <{document.tag}>; joint_state_publisher accepts "
+            "this, but robot_state_publisher and RViz need <robot> as the root",
             f"delete <{document.tag}> and </{document.tag}>",
             inner,
         )
         return inner
-    kind = _OTHER_ROOTS.get(document.tag, "no robot description")
+    kind = _OTHER_ROOTS.get(document.tag, "not a robot description")
     more = (
         "export URDF, or convert the file first"
         if document.tag in _OTHER_ROOTS
@@ -138,7 +150,7 @@ def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> st
         findings.warn(
             "robot-without-name",
             "<robot> has no name, so this is probably a file for xacro:include; it "
-            "is drawn here, but ROS refuses it alone",
+            "is drawn here, but ROS refuses it on its own",
             f"open the file that includes it, or {hint}",
             robot,
         )
@@ -152,14 +164,25 @@ def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> st
     return "robot"
 
 
-def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -> None:
-    for element in parts.robot.find_all("link"):
+@dataclass(slots=True)
+class _Links:
+    """The <link> elements read so far; see `RobotParts`."""
+
+    links: dict[str, Link] = field(default_factory=dict[str, Link])
+    elements: dict[str, Element] = field(default_factory=dict[str, Element])
+    nameless: int = 0
+    duplicates: set[str] = field(default_factory=set[str])
+
+
+def _read_links(robot: Element, reader: LinkReader, findings: UrdfFindings) -> _Links:
+    read = _Links()
+    for element in robot.find_all("link"):
         name = element.get("name")
         if not name:
-            parts.nameless += 1
-            _report_nameless(parts.robot, element, findings)
+            read.nameless += 1
+            _report_nameless(robot, element, findings)
             continue
-        first = parts.link_elements.get(name)
+        first = read.elements.get(name)
         if first is not None:
             findings.reject(
                 "link-duplicate",
@@ -168,40 +191,12 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -
                 "give one of the two another name",
                 element,
             )
-            parts.doubled.add(name)
+            read.duplicates.add(name)
             continue
-        if name.startswith("//") or name == "/":
-            findings.reject(
-                "link-name-slashes",
-                f"the link name {name} is not a frame for tf2 even without its first "
-                "slash, so nothing can be there",
-                'write a name without slashes, such as name="arm_link"',
-                element,
-            )
-        elif name.startswith("/"):
-            findings.warn(
-                "link-name-slash",
-                f"the link name {name} begins with a slash, which tf2 does not "
-                "allow: the frame can never be looked up",
-                f'write name="{name.lstrip("/")}", here and in the joints',
-                element,
-            )
-        parts.link_elements[name] = element
-        parts.links[name] = reader.read(element, name)
-
-
-def _check_slashes(parts: RobotParts, findings: UrdfFindings) -> None:
-    """Reject links that are one frame for tf2, which strips one slash ."""
-    for name, element in parts.link_elements.items():
-        twin = parts.link_elements.get(name[1:]) if name.startswith("/") else None
-        if twin is not None:
-            findings.reject(
-                "link-name-twin",
-                f"the links {name} and {name[1:]} (line {twin.place.line}) are the "
-                "same frame for tf2, which strips the slash",
-                "give one of the two another name",
-                element,
-            )
+        check_leading_slash(name, element, findings)
+        read.elements[name] = element
+        read.links[name] = reader.read(element, name)
+    return read
 
 
 def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
@@ -222,10 +217,16 @@ def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -
     )
 
 
-def _read_joints(parts: RobotParts, findings: UrdfFindings) -> None:
-    for element in parts.robot.find_all("joint"):
+def _read_joints(
+    robot: Element, links: Mapping[str, Link], findings: UrdfFindings
+) -> tuple[dict[str, Joint], dict[str, Element], frozenset[str]]:
+    """The joints, their elements, and the links whose joint was rejected."""
+    joints: dict[str, Joint] = {}
+    elements: dict[str, Element] = {}
+    excused: set[str] = set()
+    for element in robot.find_all("joint"):
         joint = read_joint(element, findings)
-        first = parts.joint_elements.get(element.get("name") or "")
+        first = elements.get(element.get("name") or "")
         if joint is not None and first is not None:
             findings.reject(
                 "joint-duplicate",
@@ -235,17 +236,14 @@ def _read_joints(parts: RobotParts, findings: UrdfFindings) -> None:
                 element,
             )
         if joint is None or first is not None:
-            _excuse(parts, element)
+            # A link without this joint is not reported as unconnected.
+            child = element.find("child")
+            link = child.get("link") if child is not None else None
+            excused.update([link] if link else links)
             continue
-        parts.joints[joint.name] = joint
-        parts.joint_elements[joint.name] = element
-
-
-def _excuse(parts: RobotParts, joint: Element) -> None:
-    """Do not report links as unconnected when their joint was rejected."""
-    child = joint.find("child")
-    link = child.get("link") if child is not None else None
-    parts.excused.update([link] if link else parts.links)
+        joints[joint.name] = joint
+        elements[joint.name] = element
+    return joints, elements, frozenset(excused)
 
 
 def _report_no_links(robot: Element, findings: UrdfFindings) -> None:
@@ -256,16 +254,16 @@ def _report_no_links(robot: Element, findings: UrdfFindings) -> None:
     if inside is not None and group is not None and group.tag not in _NOT_GROUPS:
         findings.reject(
             "links-not-direct",
-            f"the links stand inside {tag_text(group)}; links and joints must be "
-            "directly inside <robot>, so ROS sees none",
+            f"the links are inside {tag_text(group)}; links and joints must be "
+            "directly inside <robot>, so ROS finds none",
             f"delete <{group.tag}> and </{group.tag}>",
             group,
         )
         return
     findings.reject(
         "robot-without-links",
-        "the robot has no links; a file that holds only macros or properties is "
-        "included by another one",
+        "the robot has no links; a file with only macros or properties is meant to be "
+        "included by another file",
         'open the file that includes it, or add <link name="base_link"/>',
         robot,
     )

@@ -10,7 +10,7 @@ from sambot_viz.robot.xml.decode import XmlFault
 
 @dataclass(frozen=True, slots=True)
 class Definition:
-    """A macro, property or argument that xacro had met before it failed.
+    """A macro, property or argument that was defined before xacro failed.
 
     Attributes:
         kind: "macro", "property" or "arg".
@@ -38,13 +38,13 @@ class XacroCall:
 
 @dataclass(frozen=True, slots=True)
 class XacroFailure:
-    """The cause of a failed expansion, as far as xacro and the child know it.
+    """The cause of a failed expansion, as xacro and the child process report it.
 
     Attributes:
         kind: class name of the underlying exception ("NameError", "SyntaxError",
             "ZeroDivisionError", "XacroException", "ArgException" for an argument
             without a value, "PackageNotFoundError", "FileNotFoundError",
-            "RecursionError", "MemoryError", …), or one of ours: "Timeout",
+            "RecursionError", "MemoryError", …), or a kind of this package: "Timeout",
             "OutputLimit", "Refused" (the untrusted mode forbids it), "NotXml" (the
             output cannot be written as XML), "Crash".
         text: the underlying exception's own text, without location lines.
@@ -76,7 +76,7 @@ class XacroFailure:
 
 
 class ExpansionError(Exception):
-    """xacro gave up; `failure` says why."""
+    """The expansion failed; `failure` has the cause."""
 
     def __init__(self, failure: XacroFailure) -> None:
         super().__init__(failure.text)

@@ -20,7 +20,7 @@ class Element:
         text: the character data directly inside, without comments.
         parent: the enclosing element, None for the root.
         attribute_lines: line of an attribute, where it differs from the tag's line.
-        odd_blanks: attributes whose value holds a tab or a line break in the file;
+        odd_blanks: attributes whose value contains a tab or a line break in the file;
             XML turns these into blanks, urdfdom does not.
         call: place of the outermost macro call it came through, or None.
     """

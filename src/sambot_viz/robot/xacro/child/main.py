@@ -17,7 +17,7 @@ from typing import Any
 
 
 def limit_resources(megabytes: int, seconds: int) -> None:
-    """Bound this process where the platform can; the parent has its own clock."""
+    """Limit memory and CPU time where the platform can; the parent has a timeout."""
     try:
         import resource
     except ImportError:
@@ -40,7 +40,7 @@ def make_packages(root: str, *names: str) -> None:
 
     Args:
         root: the folder of the package `sambot_viz`.
-        names: dotted names of packages, each after the one that holds it.
+        names: dotted names of packages, each after the one that contains it.
     """
     for name in names:
         module = types.ModuleType(name)
@@ -60,7 +60,7 @@ def keep_result_channel() -> int:
 def end_with_parent() -> None:
     """Let this process and what it starts be killed when the parent process dies.
 
-    The parent holds the other end of standard input. On Linux the kernel sends the
+    The parent has the other end of standard input. On Linux the kernel sends the
     signal when that end closes, so that it works even inside a long call of C code; a
     thread that waits for the end does it elsewhere.
     """

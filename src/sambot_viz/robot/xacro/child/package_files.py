@@ -25,7 +25,7 @@ class PackageNotFoundError(KeyError):
 
 
 class XacroFiles:
-    """Stands in for ament_index_python, and finds files that xacro does not find."""
+    """Replaces ament_index_python, and finds files that xacro does not find."""
 
     def __init__(
         self,
@@ -76,10 +76,10 @@ class XacroFiles:
         return self._elsewhere(Path(path), xacro.filestack) or path
 
     def _elsewhere(self, path: Path, stack: list[str | None]) -> str | None:
-        """The file in a source tree that is laid out unlike its installed package.
+        """The file in a source tree that is laid out unlike the installed package.
 
-        A file that is being included already is not an answer: it would include itself
-        for ever.
+        A file that is being included is not returned, because it would include itself
+        without end.
         """
         cased = other_letter_case(path)
         if cased is not None:

@@ -1,8 +1,8 @@
-"""Inside the child: minidom nodes that know where they were written.
+"""Inside the child: minidom nodes with the place where they were written.
 
-xacro works on a minidom tree and forgets all positions. Here every element carries
-the place it was parsed at; the mark survives cloning, so an expanded element still
-knows the file and line that the user wrote, and the macro calls it came through.
+xacro works on a minidom tree without positions. Here every element has
+the place where it was parsed. Clones keep it, so an expanded element still has the file
+and line that the user wrote, and the macro calls it came through.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def parse_placed(text: str, file: str) -> Any:
 
 
 class PlaceKeeper:
-    """Lets places survive minidom's cloning.
+    """Copies places when minidom clones a node.
 
     Attributes:
         calls: the macro calls being expanded, outermost first.
@@ -70,7 +70,7 @@ class PlaceKeeper:
         _minidom._clone_node = self._clone
 
     def _clone(self, node: Any, deep: Any, document: Any) -> Any:
-        """Clone as minidom does; the body of a macro takes the calls of now."""
+        """Clone as minidom does; the body of a macro gets the current calls."""
         is_body = getattr(node, "tagName", "") == "xacro:macro"
         outermost = self._of_clone is None and is_body
         if outermost:

@@ -29,11 +29,11 @@ _LARGEST_BITS = 4096
 
 
 class Refused(Exception):
-    """The model asks for something that the untrusted mode does not do."""
+    """The model uses something that the untrusted mode does not allow."""
 
 
 class Guard:
-    """Replaces xacro's evaluator and watches its paths.
+    """Replaces xacro's evaluator and checks its paths.
 
     Attributes:
         roots: the package folders that were found so far.

@@ -1,7 +1,7 @@
 """Explain why xacro failed: the line, the cause and the fix.
 
-xacro reports what it could not evaluate, never where. The child process adds the
-element; the source files give the rest. Most explanations are rows of a table.
+xacro reports what it could not evaluate, but not where. The child process adds the
+element, and the source files give the place. Most explanations are rows of a table.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
         r'Undefined block "([^"]*)"',
         "xacro-block",
-        "insert_block asks for the block {0}, which is not there{x.trail}",
+        "insert_block uses the block {0}, which does not exist{x.trail}",
         "add *{0} to the params of the macro",
         r"<xacro:insert_block[^>]*name\s*=\s*[\"']%s",
     ),
@@ -98,7 +98,7 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
         r"circular variable definition: ((\S+) -> [^\n]*)",
         "xacro-circular-property",
-        "these properties need each other: {0}",
+        "these properties refer to each other: {0}",
         "give one of them a plain value",
         r"<xacro:property\b[^>]*name\s*=\s*[\"']%2s[\"']",
     ),
@@ -127,7 +127,7 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         r"Unknown substitution command \[(find-pkg-share ([^\]]*))\]",
         "xacro-substitution",
         "xacro does not know $({0})",
-        "write $(find {1}): xacro's word is find",
+        "write $(find {1})",
         r"\$\(%s",
     ),
     (
@@ -141,14 +141,14 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         r"invalid expression: (.*\$\{.*)",
         "xacro-expression-syntax",
         "the expression {0} is not closed{x.trail}",
-        "add }}; an expression may hold no }} before its end",
+        "add }}; an expression cannot contain }} before its end",
         "%s",
     ),
     (
         r"invalid expression: (.+)",
         "xacro-expression-syntax",
         "the expression {0} is not closed{x.trail}",
-        "add ); an expression may hold no ) before its end",
+        "add ); an expression cannot contain ) before its end",
         "%s",
     ),
     (
@@ -169,15 +169,15 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
         r"^RecursionError in (.+?): ",
         "xacro-recursion",
-        "expanding never ends: the macro {0} calls itself without an end",
-        "stop it with a condition: <xacro:if value=…> around the inner call",
+        "the expansion never ends: the macro {0} calls itself",
+        "put <xacro:if value=…> around the inner call",
         _ELEMENT,
     ),
     (
         r"^RecursionError",
         "xacro-recursion",
-        "expanding never ends: the files include each other without an end",
-        "stop it with a condition: <xacro:if value=…> around the inner include",
+        "the expansion never ends: the files include each other",
+        "put <xacro:if value=…> around the inner include",
         _ELEMENT,
     ),
     (
@@ -248,7 +248,7 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         "",
         "xacro-failed",
         "xacro cannot expand this: {x.text}{x.in_expression}{x.trail}",
-        "see the element on this line and the macros and files named above",
+        "look at the element on this line, and at the macros and files named here",
         _EXPRESSION,
     ),
 )
@@ -269,7 +269,7 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
         At least one problem of severity "error" with a place in a file of the user.
     """
     failed = FailedExpansion.of(failure, main_file)
-    reported = _reported(failure)
+    reported = failed.report
     for pattern, explain in _NAMES:
         match = re.search(pattern, reported)
         if match:
@@ -282,13 +282,6 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
             hint = hint.format(*match.groups(), x=facts)
             return [failed.error(code, message, hint, facts.at)]
     raise AssertionError("the last row fits everything")
-
-
-def _reported(failure: XacroFailure) -> str:
-    if failure.missing_package is not None:
-        return f"missing package {failure.missing_package.name}"
-    inside = f" in {failure.macros[0][0]}" if failure.macros else ""
-    return f"{failure.kind}{inside}: {failure.text}"
 
 
 def _place(failed: FailedExpansion, match: re.Match[str], where: str) -> Place:

@@ -1,4 +1,4 @@
-"""Facts about a failed expansion that the sentences of the table can name."""
+"""Facts about a failed expansion, for the messages in the table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion, li
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Each property is a piece of a sentence; pieces that may be absent are "" then.
+    """Each property is part of a sentence, or "" when there is nothing to add.
 
     Attributes:
         failed: the expansion.
@@ -31,7 +31,7 @@ class Facts:
 
     @property
     def text(self) -> str:
-        """The words of xacro in one line, or the kind of error when there are none."""
+        """Xacro's message on one line, or the kind of error when it is empty."""
         said = re.sub(r"\s*\(<expression>, line \d+\)", "", self.failed.failure.text)
         return " ".join(said.split()) or self.failed.failure.kind
 

@@ -31,6 +31,15 @@ class FailedExpansion:
         return cls(failure, main_file, SourceSet.of(files))
 
     @property
+    def report(self) -> str:
+        """Xacro's report in one line for matching: "kind in macro: text"."""
+        failure = self.failure
+        if failure.missing_package is not None:
+            return f"missing package {failure.missing_package.name}"
+        inside = f" in {failure.macros[0][0]}" if failure.macros else ""
+        return f"{failure.kind}{inside}: {failure.text}"
+
+    @property
     def place(self) -> Place:
         """The element that xacro was working on, as far as the child knows it."""
         file = self.failure.file or self.main_file

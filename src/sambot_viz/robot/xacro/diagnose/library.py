@@ -19,10 +19,10 @@ _LARGEST = 1_000_000
 def report_library(
     problems: Iterable[Problem], document: Element, path: Path | None
 ) -> list[Problem]:
-    """Say of a robot without links what the file is, and which file includes it.
+    """Explain a robot without links: what the file is, and which file includes it.
 
     Args:
-        problems: what was found; only "robot-without-links" is made clearer.
+        problems: what was found; only "robot-without-links" changes.
         document: the root element as written, before xacro.
         path: the file, or None for a text.
     """
@@ -33,13 +33,13 @@ def report_library(
         if problem.code != "robot-without-links":
             clear.append(problem)
         elif cause is not None:
-            clear.append(_for_want_of_prefix(cause))
+            clear.append(_prefix_missing(cause))
         else:
             clear.append(_clearer(problem, document, path))
     return [problem for problem in clear if problem is not cause]
 
 
-def _for_want_of_prefix(cause: Problem) -> Problem:
+def _prefix_missing(cause: Problem) -> Problem:
     message = f"{cause.message}, so the robot has no links"
     return dataclasses.replace(cause, severity="error", message=message)
 

@@ -1,4 +1,4 @@
-"""xacro's words without their prefix, which xacro passes through in silence."""
+"""Report xacro elements without their prefix, which xacro copies to its output."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xml.element import Element
 
 _PARTS = ("include", "macro")
-"""Without these, a part of the robot is missing; a left-over property is harmless."""
+"""Without these a part of the robot is missing; other elements are harmless."""
 
 
 def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
-    """The warning for one such element.
+    """The warning for one element.
 
     Args:
         tag: its name.
@@ -23,8 +23,8 @@ def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
     return Problem(
         "warning",
         "xacro-prefix-missing",
-        f"<{tag}> looks like {what} without its prefix: xacro passes it through and "
-        "nothing comes of it",
+        f"<{tag}> looks like {what} without its prefix: xacro copies it to the "
+        "URDF, where ROS ignores it",
         f"write <xacro:{tag}>",
         place.file,
         place.line,
@@ -33,7 +33,7 @@ def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
 
 
 def missing_prefixes(document: Element) -> list[Problem]:
-    """The same for a document that xacro is not run on, for want of a prefix."""
+    """The warnings for a document without any prefix, on which xacro is not run."""
     return [
         missing_prefix(child.tag, False, child.place)
         for child in document.children
@@ -45,7 +45,7 @@ def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
     """The warning for a .urdf file that uses ``xacro:`` without declaring it.
 
     xacro refuses such a file, but the nodes of ROS read a .urdf file without xacro, and
-    they pass over elements they do not know.
+    they ignore elements they do not know.
 
     Returns:
         None when the prefix is declared or not used, or when the file is meant for
@@ -67,8 +67,8 @@ def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
         "warning",
         "xacro-prefix-undeclared",
         f"the prefix xacro: of <{first.tag}> is not declared, so this .urdf file is "
-        "not a xacro file: ROS passes over these elements, and what they stand for is "
-        "missing",
+        "not a xacro file: ROS ignores these elements, and what they would create "
+        "is missing",
         f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
         f"{document.place.line}, and call the file .urdf.xacro",
         place.file,

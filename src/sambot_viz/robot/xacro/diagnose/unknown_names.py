@@ -20,8 +20,8 @@ _BUILT_IN = (
 )
 _ELSEWHERE = {
     "abs": "write python.abs(…): xacro keeps it under python",
-    "np": "numpy is not there; sin, cos, sqrt, pi are, without a prefix",
-    "numpy": "numpy is not there; sin, cos, sqrt, pi are, without a prefix",
+    "np": "xacro has no numpy; write sin, cos, sqrt and pi without a prefix",
+    "numpy": "xacro has no numpy; write sin, cos, sqrt and pi without a prefix",
     "PI": "write pi",
     "Pi": "write pi",
     "M_PI": "write pi",
@@ -155,7 +155,7 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
         )
     return failed.error(
         "xacro-unknown-macro",
-        f"there is no macro {name}{failed.trail(at)}",
+        f"the macro {name} does not exist{failed.trail(at)}",
         _near_macro(failed, name, macros, at),
         at,
     )
@@ -174,8 +174,8 @@ def _near_macro(
     if not places:
         return (
             f"no macro is defined in the files that were read: include the file with "
-            f'<xacro:macro name="{name}"> before the call; perhaps this file is a part '
-            "that another one includes"
+            f'<xacro:macro name="{name}"> before the call; this file may be a part '
+            "that another file includes"
         )
     known = did_you_mean(name, places)
     return f"include the file that defines it before the call; {known}"

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.diagnose.lexer import (
-    MOST_ERRORS,
-    LexicalErrorKind,
-    Token,
-)
+from sambot_viz.robot.xml.diagnose.lexer import MOST_ERRORS
 from sambot_viz.robot.xml.diagnose.lexical import lexical_problem
 from sambot_viz.robot.xml.diagnose.prolog import other_file_problem, prolog_problems
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 from sambot_viz.robot.xml.diagnose.structure import structure_problems
+from sambot_viz.robot.xml.diagnose.tokens import LexicalErrorKind, Token
 
 _MOST = 12
-"""More findings than this come from one cause; the rest would hide it."""
+"""Most problems reported: further ones usually follow from the first."""
 
 _LARGEST = 1_000_000
 """In a longer text [characters] only the place that expat names is reported."""
@@ -25,7 +22,7 @@ _KNOWN_PREFIXES = {"xacro": "http://www.ros.org/wiki/xacro"}
 _MISLEADING: frozenset[LexicalErrorKind] = frozenset(
     {"quote-not-closed", "comment-not-closed", "comment-nested", "tag-not-ended"}
 )
-"""After one of these nothing is reported: where the text goes on is a guess."""
+"""After one of these nothing else is reported, because the text after it is a guess."""
 
 
 def explain_xml(text: str, file: str, fault: XmlFault) -> list[Problem]:
@@ -94,7 +91,7 @@ _FROM_EXPAT = (
         "nested too deeply",
         "xml-not-well-formed",
         "the tags are nested more deeply than in any robot",
-        "look for a tag that is opened again and again and never closed",
+        "look for a tag that is opened repeatedly and never closed",
     ),
     (
         "too many elements",
@@ -103,7 +100,7 @@ _FROM_EXPAT = (
         "open the URDF or xacro file itself",
     ),
 )
-"""What expat or the parser reports clearly enough: beginning, code, message, hint."""
+"""Messages of expat and the parser: how they begin, then code, message and hint."""
 
 _UNKNOWN = (
     "",
@@ -123,11 +120,11 @@ def _lexical_problems(source: SourceText, file: str) -> list[Problem]:
 
 
 def _prefix_problems(source: SourceText, file: str) -> list[Problem]:
-    """Prefixes that are used but declared nowhere."""
+    """Report prefixes that are used but not declared."""
     opened = [tag for tag in source.tags if not tag.closes]
     robots = [tag.closes for tag in source.tags if tag.name == "robot"]
     if not opened or (robots and all(robots)):
-        # Without its root the declarations are lost too; that is reported already.
+        # Declarations are lost with the root tag, which is reported elsewhere.
         return []
     known = {"xml", "xmlns"} | {
         a.name[6:] for t in opened for a in t.attributes if a.name.startswith("xmlns:")

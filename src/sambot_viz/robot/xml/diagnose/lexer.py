@@ -1,9 +1,9 @@
 """A tolerant reader of XML text: tokens with offsets, and lexical errors.
 
-expat stops at the first error and names the symptom. This reader notes the error,
-guesses what was meant and goes on, so that `explain_xml` can name the cause and
-`explain_xacro` can find lines in source files. Whether a text is XML is decided by
-expat alone.
+expat stops at the first error and names the symptom. This reader records the error,
+guesses what was meant and continues, so that `explain_xml` can name the cause and
+`explain_xacro` can find lines in source files. Only expat decides whether a text is
+XML.
 """
 
 from __future__ import annotations
@@ -11,29 +11,14 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Literal
 
-TokenKind = Literal[
-    "open", "close", "empty", "text", "comment", "instruction", "doctype", "cdata"
-]
-LexicalErrorKind = Literal[
-    "ampersand",
-    "attribute-twice",
-    "attribute-without-value",
-    "attributes-run-together",
-    "comment-double-hyphen",
-    "comment-malformed",
-    "comment-nested",
-    "comment-not-closed",
-    "entity-undefined",
-    "less-than",
-    "quote-in-value",
-    "quote-not-closed",
-    "quotes-curly",
-    "quotes-missing",
-    "tag-malformed",
-    "tag-not-ended",
-]
+from sambot_viz.robot.xml.diagnose.tokens import (
+    Attribute,
+    LexicalError,
+    LexicalErrorKind,
+    Token,
+    TokenKind,
+)
 
 NAME = r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?"
 CURLY = "“”„‟″‘’‚‛′«»"
@@ -69,65 +54,10 @@ def _ends_oddly(value: str) -> bool:
     return _cut_expression(value) or bool(_NEXT_ATTRIBUTE.search(value))
 
 
-@dataclass(frozen=True, slots=True)
-class Attribute:
-    """An attribute as written; `offset` is where its name begins."""
-
-    name: str
-    value: str
-    offset: int
-
-
-@dataclass(frozen=True, slots=True)
-class Token:
-    """A piece of the text from `start` to `end` (exclusive).
-
-    Attributes:
-        kind: "open" and "empty" are <a> and <a/>, "close" is </a>.
-        start: offset of the first character.
-        end: offset after the last character.
-        name: element name; empty for everything that is not a tag.
-        attributes: those that could be read, each name once, in document order.
-    """
-
-    kind: TokenKind
-    start: int
-    end: int
-    name: str = ""
-    attributes: tuple[Attribute, ...] = ()
-
-    @property
-    def closes(self) -> bool:
-        """Whether this is a closing tag."""
-        return self.kind == "close"
-
-    @property
-    def shown(self) -> str:
-        """The tag in a message: </a>, <a>, or <a name="…"> when it has a name."""
-        if self.closes:
-            return f"</{self.name}>"
-        name = self.get("name")
-        return f'<{self.name} name="{name}">' if name else f"<{self.name}>"
-
-    def get(self, name: str) -> str | None:
-        """The value of an attribute as written, or None."""
-        return next((a.value for a in self.attributes if a.name == name), None)
-
-
-@dataclass(frozen=True, slots=True)
-class LexicalError:
-    """Something that is not XML: its offset, and the piece of text it is about."""
-
-    kind: LexicalErrorKind
-    offset: int
-    text: str = ""
-    tag: str = ""
-
-
 def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
     """The tokens of a text and its errors, both in document order.
 
-    Reading ends after `MOST_ERRORS` errors: such a text is not XML at all.
+    Reading ends after `MOST_ERRORS` errors, because such a text is not XML at all.
     """
     reader = _Tokenizer(text)
     reader.run()

@@ -1,4 +1,4 @@
-"""The sentences for lexical errors of XML: one row for each."""
+"""Messages for lexical errors of XML, in a table."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import re
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.lexer import CURLY, LexicalError
+from sambot_viz.robot.xml.diagnose.lexer import CURLY
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.robot.xml.diagnose.tokens import LexicalError
 
 _ROWS: tuple[tuple[str, str, str, str], ...] = (
     ("xml-ampersand", "", "a bare & is not allowed in XML", "write &amp; instead of &"),
@@ -20,7 +21,7 @@ _ROWS: tuple[tuple[str, str, str, str], ...] = (
     (
         "xml-attribute-without-value",
         "",
-        "in <{x.tag}> the word {x.text} has no value",
+        "in <{x.tag}> the attribute {x.text} has no value",
         'write {x.text}="…", or delete it',
     ),
     (
@@ -65,7 +66,7 @@ _ROWS: tuple[tuple[str, str, str, str], ...] = (
     (
         "xml-entity-undefined",
         "",
-        "&{x.text}; is not known in XML",
+        "&{x.text}; is not defined in XML",
         "XML knows only &amp; &lt; &gt; &quot; &apos;: write the character itself",
     ),
     (
@@ -102,15 +103,15 @@ _ROWS: tuple[tuple[str, str, str, str], ...] = (
     (
         "xml-tag-malformed",
         r"<\s*[/\\]",
-        "{x.text} is not a tag: the name follows < or </ at once, and a closing tag "
-        "contains nothing else",
+        "{x.text} is not a tag: the name must follow < or </ directly, and a closing "
+        "tag contains nothing else",
         "write </{x.tag}>",
     ),
     (
         "xml-tag-malformed",
         "<",
-        "{x.text} is not a tag: the name follows < or </ at once, and a closing tag "
-        "contains nothing else",
+        "{x.text} is not a tag: the name must follow < or </ directly, and a closing "
+        "tag contains nothing else",
         "write <{x.tag} …>",
     ),
     (
@@ -124,7 +125,7 @@ _ROWS: tuple[tuple[str, str, str, str], ...] = (
         "",
         "in <{x.tag}> there is the character {x.text} where an attribute or > is "
         "expected",
-        "delete it, or look for a quote that is missing or too many before it",
+        "delete it, or look for a missing or extra quote before it",
     ),
     (
         "xml-tag-not-ended",

@@ -84,7 +84,7 @@ _OTHER_FILES: tuple[tuple[str, str, str, str], ...] = (
     (
         "[^<]*$",
         "model-not-xml",
-        "this is not XML: there is no tag in it",
+        "this is not XML: it contains no tags",
         "give a URDF or xacro file: it begins with <robot name=…>",
     ),
 )
@@ -92,7 +92,7 @@ _OTHER_FILES: tuple[tuple[str, str, str, str], ...] = (
 
 
 def other_file_problem(text: str, file: str) -> Problem | None:
-    """The only problem of a file that is not XML at all, or None."""
+    """Report a file of another kind, such as a mesh or JSON; None for XML."""
     start = text.lstrip("\ufeff \t\r\n")
     for pattern, code, message, hint in _OTHER_FILES:
         if re.match(pattern, start):
@@ -132,7 +132,7 @@ def _characters(source: SourceText, file: str) -> list[Problem]:
                 file,
                 "xml-encoding",
                 foreign.start(),
-                "there are bytes here that are not UTF-8: the file was saved in "
+                "these bytes are not UTF-8: the file was saved in "
                 "another encoding (such as CP949, Shift-JIS or Latin-1)",
                 "save it as UTF-8, or name the encoding in the first line: "
                 '<?xml version="1.0" encoding="…"?>',
@@ -146,7 +146,7 @@ def _characters(source: SourceText, file: str) -> list[Problem]:
                 file,
                 "xml-control-character",
                 control.start(),
-                f"there is an invisible control character (U+{code:04X}) here",
+                f"this is an invisible control character (U+{code:04X})",
                 "delete it",
             )
         )
@@ -170,8 +170,8 @@ def _declaration(source: SourceText, file: str) -> list[Problem]:
                 file,
                 "xml-declaration-wrong",
                 found.start(),
-                f"the declaration {found[0].splitlines()[0][:60]} is not in order: it "
-                'needs version="1.0", then perhaps an encoding',
+                f"the declaration {found[0].splitlines()[0][:60]} is not valid: it "
+                'needs version="1.0" and can name an encoding',
                 f"write {_WRITE}",
             )
         )

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.robot.xml.diagnose.tokens import Token
 
 
 def after_root(
     source: SourceText, file: str, root: Token, root_end: Token
 ) -> Problem | None:
-    """The problem of the content after the root element, or None.
+    """Report content after the root element, or return None.
 
     Args:
         source: the text.
         file: its name, for the place.
         root: the tag that opens the root.
-        root_end: the tag that ends it; `root` itself when that closes at once.
+        root_end: the tag that ends it; `root` itself for <robot …/>.
     """
     rest = [tag for tag in source.tags if tag.start >= root_end.end]
     if not rest:
@@ -29,8 +29,8 @@ def after_root(
             "xml-two-robots",
             token.start,
             f"a second <{root.name}> begins on line {line} after the first was closed "
-            f"on line {end}: a file holds one",
-            f"move its content into the first <{root.name}>, or into a file of its own",
+            f"on line {end}: a file has only one",
+            f"move its content into the first <{root.name}>, or into another file",
         )
     if token.closes and len(rest) == 1:
         return source.error(
@@ -38,7 +38,7 @@ def after_root(
             "xml-closing-tag-surplus",
             token.start,
             f"</{token.name}> on line {line} closes nothing: </{root.name}> on line "
-            f"{end} has ended the file's one root element",
+            f"{end} has already closed the root element",
             f"delete </{token.name}> on line {line}",
         )
     return _closed_early(source, file, root, root_end, rest)
@@ -52,7 +52,7 @@ def _closed_early(
     begins = f"the content that starts with {rest[0].shown} on line {line}"
     message = f"line {end} closes </{name}> too early, before {begins}"
     if root_end.kind == "empty":
-        message = f"<{name} …/> on line {end} is closed at once by its slash, before "
+        message = f"<{name} …/> on line {end} is closed by its slash, before "
         message += begins
         hint = f"write > instead of /> on line {end} and </{name}> as the last line"
     elif last.closes and last.name == name:

@@ -1,4 +1,4 @@
-"""A source text: from offsets to lines and columns, and its tokens."""
+"""Lines, columns and tokens of a source text."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.lexer import LexicalError, Token, tokenize
+from sambot_viz.robot.xml.diagnose.lexer import tokenize
+from sambot_viz.robot.xml.diagnose.tokens import LexicalError, Token
 
 
 @dataclass(frozen=True)
 class SourceText:
-    """A text that knows its lines and, when asked, its tokens."""
+    """A text with its lines, and its tokens on demand."""
 
     text: str
 
@@ -47,7 +48,7 @@ class SourceText:
         return Problem("error", code, message, hint, file, line, column)
 
     def starts_line(self, offset: int) -> bool:
-        """Whether only blanks are before an offset in its line."""
+        """Whether only blanks precede an offset in its line."""
         while offset and self.text[offset - 1] in " \t":
             offset -= 1
         return offset == 0 or self.text[offset - 1] == "\n"
@@ -78,7 +79,7 @@ class SourceText:
 
     @cached_property
     def tags(self) -> list[Token]:
-        """The tags alone: open, close and empty tokens."""
+        """Only the tags: open, close and empty tokens."""
         return [t for t in self.tokens if t.name]
 
     def first(self, *names: str) -> Token | None:

@@ -1,8 +1,8 @@
-"""Why the tags of a text do not form one tree.
+"""Find why the tags of a text do not form one tree.
 
-Where a closing tag does not fit the stack of open tags, the tag that was forgotten,
-crossed or misspelt is named together with the place to fix. expat names only the place
-where it noticed.
+When a closing tag does not match the open tags, the tag that was forgotten, crossed or
+misspelt is reported with the place to fix. expat reports only the place where it
+stopped.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ import difflib
 from dataclasses import dataclass, field
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.root_end import after_root
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.robot.xml.diagnose.structure_messages import StructureMessages
+from sambot_viz.robot.xml.diagnose.tokens import Token
 
 _LEAVES = frozenset(
     "axis box calibration capsule child color cylinder dynamics inertia limit mass "
@@ -22,12 +23,12 @@ _LEAVES = frozenset(
 """Elements that have attributes only: they are written <origin …/>."""
 
 _TOP_LEVEL = frozenset({"link", "joint", "transmission", "gazebo", "ros2_control"})
-"""Elements that are never inside one of these:"""
+"""Elements of <robot>, never inside one of `_HOLDS_NO_LINKS`."""
 
 _HOLDS_NO_LINKS = frozenset({"link", "visual", "collision", "inertial", "geometry"})
 
 _MOST = 12
-"""More findings than this come from one cause."""
+"""Most problems reported: further ones usually follow from the first."""
 
 
 @dataclass
@@ -37,7 +38,7 @@ class _Open:
 
 
 def structure_problems(source: SourceText, file: str) -> list[Problem]:
-    """What keeps the tags from forming one tree, in document order.
+    """Find what prevents the tags from forming one tree, in document order.
 
     Args:
         source: the text.
@@ -46,7 +47,7 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
     Returns:
         At most one problem per error; empty when the tags are in order.
     """
-    walk = _Walk(source, file)
+    walk = _Walk(source, file, StructureMessages(source, file))
     walk.run()
     return walk.problems
 
@@ -55,6 +56,7 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
 class _Walk:
     source: SourceText
     file: str
+    messages: StructureMessages
     problems: list[Problem] = field(default_factory=list["Problem"])
     stack: list[_Open] = field(default_factory=list["_Open"])
     root: Token | None = None
@@ -64,7 +66,7 @@ class _Walk:
         tags = self.source.tags
         if tags and tags[-1].closes and tags[-1].name == "robot":
             if not any(t.name == "robot" and not t.closes for t in tags):
-                self._robot_missing(tags)
+                self.problems.append(self.messages.robot_missing(tags))
                 return
         for index, token in enumerate(tags):
             if self.root_end is not None:
@@ -110,6 +112,9 @@ class _Walk:
 
     def _pop(self, token: Token) -> None:
         self.stack.pop()
+        self._note_root_end(token)
+
+    def _note_root_end(self, token: Token) -> None:
         if not self.stack:
             self.root_end = token
 
@@ -118,33 +123,15 @@ class _Walk:
         top = self.stack[-1].token
         names = [entry.token.name for entry in self.stack]
         if token.name.lower() == top.name.lower():
-            self._wrong_case(top, token)
+            self.problems.append(self.messages.wrong_case(top, token))
             self._pop(token)
         elif token.name in names:
             self._not_closed(index, names)
         elif difflib.SequenceMatcher(None, token.name, top.name).ratio() >= 0.7:
-            self._add(
-                "xml-closing-tag-misspelt",
-                token.start,
-                f"<{top.name}> opened on line {self._line(top)} is closed by "
-                f"</{token.name}> on line {self._line(token)}",
-                f"write </{top.name}>",
-            )
+            self.problems.append(self.messages.misspelt(top, token))
             self._pop(token)
         else:
             self._surplus(token)
-
-    def _wrong_case(self, opened: Token, closed: Token) -> None:
-        wrong = closed if opened.name.islower() else opened
-        right = opened.name if opened.name.islower() else opened.name.lower()
-        self._add(
-            "xml-tag-case",
-            wrong.start,
-            f"<{opened.name}> on line {self._line(opened)} is closed by "
-            f"</{closed.name}> on line {self._line(closed)}: XML distinguishes "
-            "capital letters from small ones",
-            f"write <{right}> and </{right}>",
-        )
 
     def _not_closed(self, index: int, names: list[str]) -> None:
         """The closing tag belongs further down: the tags above it were not closed."""
@@ -156,28 +143,15 @@ class _Walk:
         top = unclosed[-1].token
         if len(unclosed) == 1 and following and following.closes:
             if following.name == top.name and names.count(top.name) == 1:
-                self._crossed(top, token, following)
-                # Go on as if the pair were in the right order.
+                self.problems.append(self.messages.crossed(top, token, following))
+                # Continue as if the pair were in the right order.
                 del self.stack[depth]
-                if not self.stack:
-                    self.root_end = token
+                self._note_root_end(token)
                 return
         for entry in unclosed[:_MOST]:
             self._unclosed(entry, token)
         del self.stack[depth:]
-        if not self.stack:
-            self.root_end = token
-
-    def _crossed(self, inner: Token, closed: Token, following: Token) -> None:
-        self._add(
-            "xml-tags-crossed",
-            closed.start,
-            f"</{closed.name}> on line {self._line(closed)} comes before "
-            f"</{inner.name}>, though <{inner.name}> (line {self._line(inner)}) was "
-            "opened last",
-            f"close <{inner.name}> first: exchange the closing tags on lines "
-            f"{self._line(closed)} and {self._line(following)}",
-        )
+        self._note_root_end(token)
 
     def _unclosed(self, entry: _Open, closed: Token | None) -> None:
         opened = entry.token
@@ -237,7 +211,7 @@ class _Walk:
         if orphan is not None and not (
             closed_at_once and twin is self._sibling_before(orphan)
         ):
-            self._opening_missing(token, orphan)
+            self.problems.append(self.messages.opening_missing(token, orphan))
             return
         if twin is not None and closed_at_once:
             message = (
@@ -275,25 +249,6 @@ class _Walk:
         index = children.index(child)
         return children[index - 1] if index else None
 
-    def _opening_missing(self, closed: Token, orphan: Token) -> None:
-        line = self._line(orphan)
-        self._add(
-            "xml-opening-tag-missing",
-            orphan.start,
-            f"</{closed.name}> on line {self._line(closed)} closes a <{closed.name}> "
-            f"that was never opened; what belongs inside begins on line {line}",
-            f"write <{closed.name} …> before line {line}, or delete </{closed.name}>",
-        )
-
-    def _robot_missing(self, tags: list[Token]) -> None:
-        self._add(
-            "xml-opening-tag-missing",
-            tags[0].start,
-            f"</robot> on line {self._line(tags[-1])} closes a <robot> that was never "
-            "opened",
-            f'write <robot name="…"> before line {self._line(tags[0])}',
-        )
-
     def _end_of_file(self) -> None:
         """The text ends with tags open: one was forgotten, or the file is cut off."""
         forgotten = [e for e in self.stack[1:] if self._place_to_close(e, None)]
@@ -312,5 +267,5 @@ class _Walk:
             f"<{root.name}> opened on line {self._line(root)} is never closed: the "
             f"file ends on line {self.source.line(at)}{inner}",
             f"add {ends} at the end"
-            + ("; perhaps the file was cut off" if names[1:] else ""),
+            + ("; the file may be cut off" if names[1:] else ""),
         )
