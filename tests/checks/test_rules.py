@@ -257,7 +257,7 @@ def test_text_that_yaml_reads_as_text_stops_no_launch(
         "<xacro:m n=\"${'a: b'[0]}\"/>",
     ],
 )
-def test_what_xacro_takes_away_stops_no_launch(launched: Checked, body: str) -> None:
+def test_text_that_xacro_removes_stops_no_launch(launched: Checked, body: str) -> None:
     assert launched(MACRO + body, BARE, "urdf/r.xacro") == []
 
 
@@ -398,7 +398,7 @@ def test_errors_come_first_then_warnings_then_notes(checked: Checked) -> None:
     ]
 
 
-def test_a_model_that_is_not_there_is_a_problem_and_not_an_exception(
+def test_a_missing_model_is_a_problem_and_not_an_exception(
     tmp_path: Path,
 ) -> None:
     (problem,) = check(tmp_path / "nothing.urdf")
@@ -406,7 +406,7 @@ def test_a_model_that_is_not_there_is_a_problem_and_not_an_exception(
     assert problem.severity == "error"
 
 
-def test_a_property_that_an_old_xacro_left_over_is_harmless(checked: Checked) -> None:
+def test_a_property_left_by_an_old_xacro_is_harmless(checked: Checked) -> None:
     body = '<property name="left_over" value="1"/>\n<link name="a"/>'
 
     assert checked(body) == []

@@ -12,7 +12,7 @@ from problem_page import PAGE, problem_page
 from problem_samples import Sample, all_samples
 
 import sambot_viz
-from sambot_viz.robot.xml.diagnose.lexer import LexicalErrorKind
+from sambot_viz.robot.xml.diagnose.tokens import LexicalErrorKind
 
 
 @pytest.mark.parametrize("sample", all_samples(), ids=lambda sample: sample.code)
@@ -56,7 +56,7 @@ def test_a_new_code_without_a_sample_would_be_noticed(tmp_path: Path) -> None:
     assert code_patterns([module]) == {r"new\-code", r"[a-z-]+\-new", r"an\-old\-row"}
 
 
-def test_what_ros_accepts_is_never_called_an_error() -> None:
+def test_a_model_that_ros_accepts_is_never_an_error() -> None:
     accepted = [sample for sample in all_samples() if sample.why]
     assert len(accepted) > 12
     assert {sample.problem.severity for sample in accepted} == {"warning", "info"}

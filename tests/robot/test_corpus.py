@@ -33,14 +33,14 @@ def ending(folder: Path, entry: Mapping[str, Any]) -> str:
         robot = load_robot(folder / entry["path"], xacro_args=arguments)
     except RobotError as error:
         if not expected.startswith("render"):
-            told = all(p.file and p.hint for p in error.problems)
-            return "" if told else f"an error without a place or a mend: {error}"
+            reported = all(p.file and p.hint for p in error.problems)
+            return "" if reported else f"an error without a place or a fix: {error}"
         return f"refused: {error}"
-    faults = [str(p) for p in robot.problems if p.severity == "error"]
+    errors = [str(p) for p in robot.problems if p.severity == "error"]
     if expected.startswith("clear"):
         return "drawn"
-    if expected == "render" and faults:
-        return f"drawn with errors: {faults}"
+    if expected == "render" and errors:
+        return f"drawn with errors: {errors}"
     return ""
 
 

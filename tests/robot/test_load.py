@@ -35,7 +35,7 @@ def test_the_early_closing_tag_is_named_with_its_fix(shared: Path):
     assert "move </robot> from line 4" in found[0].hint
 
 
-def test_every_urdf_fault_of_the_collection_is_reported_on_its_line(shared: Path):
+def test_every_urdf_error_of_the_collection_is_reported_on_its_line(shared: Path):
     import yaml
 
     folder = shared / "data" / "bad-models"
@@ -57,7 +57,7 @@ def test_every_urdf_fault_of_the_collection_is_reported_on_its_line(shared: Path
     assert missed == []
 
 
-def test_the_right_models_of_the_collection_have_no_fault(shared: Path):
+def test_the_right_models_of_the_collection_have_no_errors(shared: Path):
     folder = shared / "data" / "bad-models"
     for name in ("_good.urdf", "_good.urdf.xacro"):
         assert load_robot(folder / name).problems == ()
@@ -120,7 +120,7 @@ def test_a_file_that_is_not_a_model_is_one_clear_error(content: bytes, tmp_path:
     assert found[0].hint
 
 
-def test_a_file_that_is_not_there_is_reported_with_its_neighbours(tmp_path: Path):
+def test_a_missing_file_is_reported_with_similar_names(tmp_path: Path):
     (tmp_path / "sam_bot.urdf").write_text("<robot/>")
     problem = errors(tmp_path / "sambot.urdf")[0]
     assert problem.code == "model-not-found"
@@ -135,7 +135,7 @@ def test_a_folder_is_reported_with_the_models_in_it(tmp_path: Path):
     assert "a.urdf" in problem.hint
 
 
-def test_a_robot_goes_on_to_yourdfpy_whatever_its_encoding(tmp_path: Path):
+def test_a_robot_of_any_encoding_is_converted_to_yourdfpy(tmp_path: Path):
     text = '<?xml version="1.0" encoding="euc-kr"?><robot name="로봇"><link name="a"/>'
     model = tmp_path / "m.urdf"
     model.write_bytes(f"{text}</robot>".encode("euc-kr"))
@@ -157,12 +157,12 @@ def test_a_urdf_that_does_not_declare_xacro_is_read_as_ros_reads_it(tmp_path: Pa
     model.write_text(PIECE)
     robot = load_robot(model)
     assert (robot.root, list(robot.links)) == ("mount", ["mount", "camera", "lens"])
-    told = {(p.severity, p.code, p.line) for p in robot.problems}
-    assert ("warning", "xacro-prefix-undeclared", 2) in told
-    assert ("warning", "robot-without-name", 1) in told
-    assert ("warning", "joint-child-elsewhere", 4) in told
-    assert ("warning", "root-not-unique", 1) in told
-    assert {severity for severity, _, _ in told} == {"warning"}
+    reported = {(p.severity, p.code, p.line) for p in robot.problems}
+    assert ("warning", "xacro-prefix-undeclared", 2) in reported
+    assert ("warning", "robot-without-name", 1) in reported
+    assert ("warning", "joint-child-elsewhere", 4) in reported
+    assert ("warning", "root-not-unique", 1) in reported
+    assert {severity for severity, _, _ in reported} == {"warning"}
 
 
 def test_a_xacro_file_that_does_not_declare_xacro_is_an_error(tmp_path: Path):
@@ -213,16 +213,16 @@ def test_arguments_only_in_file_names_are_missing_files_as_for_ros(tmp_path: Pat
     )
     robot = load_robot(model)
     assert len(robot.links["a"].visuals) == 2
-    told = {p.code: (p.severity, p.line) for p in robot.problems}
-    assert told["xacro-argument-missing"] == ("warning", 3)
-    assert "mesh-not-found" in told
+    reported = {p.code: (p.severity, p.line) for p in robot.problems}
+    assert reported["xacro-argument-missing"] == ("warning", 3)
+    assert "mesh-not-found" in reported
     (tmp_path / "body.stl").write_text("solid")
     given = load_robot(model, xacro_args={"folder": str(tmp_path)})
     assert [p.code for p in given.problems] == ["xacro-in-urdf"]
 
 
 @pytest.mark.parametrize("name", ["sam_bot.urdf.xacro", "mbot.urdf.xacro"])
-def test_a_robot_comes_back_from_yourdfpy(name: str, repository: Path):
+def test_a_robot_is_read_from_yourdfpy(name: str, repository: Path):
     robot = load_robot(repository / "assets" / name)
     back = Robot.from_yourdfpy(robot.to_yourdfpy())
     assert (back.name, back.root, list(back.links)) == (

@@ -55,7 +55,7 @@ def test_a_robot_knows_when_a_mesh_or_a_texture_is_missing(
     assert something_missing(load_robot(model))
 
 
-def test_the_files_of_an_untrusted_model_carry_the_folders_they_may_be_in(
+def test_the_files_of_an_untrusted_model_have_their_allowed_folders(
     model: Path,
 ) -> None:
     robot = load_robot(model, trusted=False)

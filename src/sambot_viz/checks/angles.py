@@ -23,7 +23,7 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
     """Limits of a revolute joint that only make sense in degrees.
 
     Below 15 rad (2.4 turns) a round number is more likely a generous limit, and above
-    720 it stands for "no limit".
+    720 it usually means "no limit".
     """
     for joint in subject.robot.joints.values():
         limit = joint.limit
@@ -48,7 +48,7 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
 
 
 def rpy_in_degrees(subject: Subject) -> Iterator[Problem]:
-    """An rpy with more than a full turn, in round numbers."""
+    """Report an rpy of more than a full turn in round numbers."""
     for joint in subject.robot.joints.values():
         yield from _rpy(joint.origin, joint.place)
     for link in subject.robot.links.values():

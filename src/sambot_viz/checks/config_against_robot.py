@@ -1,4 +1,4 @@
-"""Settings of an RViz config that keep a robot out of the picture.
+"""Find settings of an RViz config that prevent the robot from being shown.
 
 Such a config is valid, and RViz reports nothing or too little: a fixed frame that is
 not published, a robot description that RViz will miss.
@@ -22,7 +22,7 @@ _DESCRIPTION = "robot_description"
 
 
 def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
-    """Find what of a config will not work with this robot.
+    """Find settings of a config that do not fit this robot.
 
     Args:
         robot: the robot to be shown.
@@ -124,7 +124,7 @@ def _text(node: Node | None) -> str:
 
 
 def _place(file: str | None, node: Node | None) -> Place | str | None:
-    """Where a value is written; the file alone when it is not in the file."""
+    """Where a value is written; only the file when it is a default."""
     span = None if node is None else node.span
     if file is None or span is None:
         return file

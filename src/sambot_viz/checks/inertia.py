@@ -47,7 +47,7 @@ def missing_inertia(subject: Subject) -> Iterator[Problem]:
         "inertia-missing",
         f"{'the link' if one else 'the links'} {listed(link.name for link in bare)} "
         f"{'has a collision shape' if one else 'have collision shapes'} but no "
-        "<inertial>: a simulator leaves out what has no mass",
+        "<inertial>: a simulator ignores links without mass",
         'add <inertial> with <mass value="…"/> and <inertia …/>',
     )
 
@@ -63,7 +63,7 @@ def impossible_inertia(subject: Subject) -> Iterator[Problem]:
                 link.inertial.place or link.place,
                 "warning",
                 "inertia-impossible",
-                f"link {link.name}: {reason}; a simulator refuses it or shakes",
+                f"link {link.name}: {reason}; a simulator refuses or shakes it",
                 "take mass and inertia from the shape: a box of size x y z has "
                 "ixx = m (y² + z²) / 12",
             )

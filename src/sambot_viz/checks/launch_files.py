@@ -1,4 +1,4 @@
-"""Mistakes in a package's launch files and setup.py, which no model shows.
+"""Check the launch files and setup.py of a package.
 
 The files are read as Python text and never run.
 """
@@ -21,7 +21,7 @@ _TRUE = frozenset({"true", "1"})
 
 
 def check_package(folder: Path | str, robot: Robot | None = None) -> list[Problem]:
-    """Check what of a package's launch files and setup.py will not work in ROS.
+    """Find what will not work in a package's launch files and setup.py.
 
     Args:
         folder: the package, with its package.xml.
@@ -37,7 +37,7 @@ def check_package(folder: Path | str, robot: Robot | None = None) -> list[Proble
 def check_launch_file(
     path: Path | str, package: str | None = None, robot: Robot | None = None
 ) -> list[Problem]:
-    """Check what of a Python launch file will not work.
+    """Find what will not work in a Python launch file.
 
     Args:
         path: the launch file.
@@ -71,7 +71,7 @@ def check_setup_py(path: Path | str) -> list[Problem]:
                 "setup-py-name",
                 f"setup.py calls the package {named[0]}, package.xml calls it "
                 f"{package}: colcon and ros2 launch will not find it",
-                f"make both the same: write {package} here",
+                f"write {package} here",
                 str(path),
                 named[1],
             )

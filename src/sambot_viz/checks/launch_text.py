@@ -33,16 +33,16 @@ def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
         return
     model = Path(subject.files[0])
     launch = next(_bare_launch_files(model.absolute().parent), None)
-    words = None if launch is None else _words_that_stop_yaml(subject.robot.urdf)
-    if launch is None or words is None:
+    text = None if launch is None else _text_that_stops_yaml(subject.robot.urdf)
+    if launch is None or text is None:
         return
     yield Problem.at(
-        _place(subject.files, words) or str(model),
+        _place(subject.files, text) or str(model),
         "warning",
         "launch-text-as-yaml",
         f"the model is fine, but {launch[0].name} line {launch[1]} passes its text to "
         'robot_state_publisher as YAML, where a ": ", a " #" or a tab at the start of '
-        f"a line is an error: “{words[:60]}”; nothing starts",
+        f"a line is an error: “{text[:60]}”; nothing starts",
         "in the launch file write ParameterValue(Command([…]), value_type=str)",
     )
 
@@ -87,8 +87,8 @@ def _is_command(node: ast.expr) -> bool:
     return isinstance(node, ast.Call) and call_name(node.func) == "Command"
 
 
-def _words_that_stop_yaml(urdf: str) -> str | None:
-    """The words at which YAML fails, without tags; None when it reads a plain text."""
+def _text_that_stops_yaml(urdf: str) -> str | None:
+    """The text at which YAML fails, without tags; None when YAML reads plain text."""
     # xacro writes its own line breaks and indentation between tags.
     urdf = _BETWEEN_TAGS.sub(">\n<", urdf)
     trap = _TRAP.search(urdf)
@@ -113,7 +113,7 @@ def _is_text_in_yaml(text: str) -> bool:
 
 
 def _place(files: tuple[str, ...], words: str) -> Place | None:
-    """Where the words are in the files that the user wrote."""
+    """The place of a text in the files that the user wrote."""
     if len(words) < _SHORTEST_WORDS:
         return None
     for file in files:

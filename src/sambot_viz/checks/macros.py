@@ -18,7 +18,7 @@ _EXPRESSION = re.compile(r"\$\{[^}]*\}")
 def unused_macros(subject: Subject) -> Iterator[Problem]:
     """Xacro drops a macro that is never called, with its links and joints.
 
-    Only the main file is judged: a library may hold more macros than a model needs.
+    Only the main file is checked: a library may have more macros than a model needs.
     """
     documents = [d for d in map(_document, subject.files) if d is not None]
     if not documents:
@@ -32,8 +32,8 @@ def unused_macros(subject: Subject) -> Iterator[Problem]:
                 macro.place,
                 "warning",
                 "unused-macro",
-                f"the macro {name} is defined but never called, so nothing of it is "
-                "in the robot",
+                f"the macro {name} is defined but never called, so its links and "
+                "joints are missing",
                 f"call it with <xacro:{name} …/>, or delete it",
             )
 
@@ -56,7 +56,7 @@ def _called(document: Element, macros: list[str]) -> Iterator[str]:
     for element in document.iter():
         prefix, _, name = element.tag.rpartition(":")
         if element.tag == "xacro:call":
-            # The name may hold expressions, which can become any text.
+            # The name may contain expressions, which can become any text.
             parts = map(re.escape, _EXPRESSION.split(element.get("macro") or ""))
             pattern = re.compile(".*".join(parts))
             yield from (macro for macro in macros if pattern.fullmatch(macro))

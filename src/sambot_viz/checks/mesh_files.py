@@ -73,7 +73,7 @@ def meshes_of(robot: Robot) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
 
 
 def unusable_meshes(subject: Subject) -> Iterator[Problem]:
-    """What reading the mesh files says; files with the same problem in one finding."""
+    """Problems of the mesh files; files with the same problem are one finding."""
     users: dict[Path, tuple[Link, Shape]] = {}
     for link, shape, _, path in meshes_of(subject.robot):
         users.setdefault(path, (link, shape))
@@ -104,7 +104,7 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
 
 
 def _severity(problem: Problem) -> Severity:
-    """Of a problem with a mesh as one with the model."""
+    """The severity that a problem of a mesh has for the model."""
     if problem.code == "mesh-lfs-pointer":
         # The model is fine; the clone lacks its large files.
         return "warning"

@@ -1,4 +1,4 @@
-"""Names that are easily mixed up or hard to type."""
+"""Find names that are easily confused or hard to type."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a rule may look at, and words that several rules use.
+"""The input of a rule, and text helpers that several rules use.
 
-A rule is a function in a file of its own (or in a small family) and one line in
-`registry.py`. It only reads: the robot, its mesh files, and the text it came from.
+A rule is a function, and one line in `registry.py`. It only reads the robot, its mesh
+files, and the text it came from.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ def test_two_causes_are_two_problems(tmp_path: Path) -> None:
     assert [problem.line for problem in found] == [2, 3]
     assert found[0].message.startswith("the mesh package://arm/a.stl was not found: ")
     assert found[1].message.startswith("2 meshes (b.stl, c.stl) were not found: ")
-    assert all(p.message.endswith("; a stand-in is drawn") for p in found)
+    assert all(p.message.endswith("; a placeholder is drawn") for p in found)
 
 
 def test_files_found_by_the_end_of_their_path_are_one_problem(tmp_path: Path) -> None:

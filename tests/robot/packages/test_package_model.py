@@ -40,7 +40,7 @@ def test_a_model_is_found_wherever_packages_have_it(tmp_path: Path, place: str) 
     assert model_in(folder).endswith("r.urdf.xacro")
 
 
-def test_a_file_with_macros_alone_is_not_the_model(tmp_path: Path) -> None:
+def test_a_file_with_only_macros_is_not_the_model(tmp_path: Path) -> None:
     files = {"urdf/common.xacro": MACRO, "robots/r.urdf.xacro": LINKS}
     assert model_in(package(tmp_path, **files)) == "robots/r.urdf.xacro"
 

@@ -47,7 +47,7 @@ def test_the_models_own_package_is_found_by_walking_up(workspace: Path):
     assert index(workspace).find("robot_description").path == own
 
 
-def test_a_missing_package_names_where_it_was_searched_and_what_is_there(
+def test_a_missing_package_is_reported_with_the_searched_and_known_ones(
     workspace: Path,
 ):
     lookup = index(workspace).find("gripper")
@@ -57,7 +57,7 @@ def test_a_missing_package_names_where_it_was_searched_and_what_is_there(
     assert {"arm_description", "robot_description"} <= set(lookup.known)
 
 
-def test_a_folder_with_colcon_ignore_is_passed_over(workspace: Path):
+def test_a_folder_with_colcon_ignore_is_skipped(workspace: Path):
     write(workspace / "arm-main" / "COLCON_IGNORE")
     assert index(workspace).find("arm_description").path is None
 
@@ -88,7 +88,7 @@ def test_ros_path_variables_are_searched(tmp_path: Path):
     assert found.find("new_description").path == new
 
 
-def test_a_folder_named_like_the_package_will_do_last(tmp_path: Path):
+def test_a_folder_named_like_the_package_is_the_last_choice(tmp_path: Path):
     folder = tmp_path / "share" / "wheel_description" / "urdf"
     folder.mkdir(parents=True)
     packages = PackageIndex(folder, environment={})
@@ -115,7 +115,7 @@ def test_mesh_names_of_every_kind_are_resolved(workspace: Path):
     assert files.resolve("near.stl").path == near
 
 
-def test_doubtful_finds_are_marked(workspace: Path):
+def test_doubtful_results_are_marked(workspace: Path):
     mesh = write(workspace / "arm-main" / "description" / "meshes" / "Arm.stl")
     files = FileResolver(index(workspace), workspace / "robot_description" / "urdf")
     package = "package://arm_description"

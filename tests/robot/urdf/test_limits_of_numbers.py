@@ -1,4 +1,4 @@
-"""Absurd numbers and names: each ends as a robot that can be shown, or as a Problem."""
+"""Extreme numbers and names give a robot that can be shown, or a Problem."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def two_links(inside: str = "", joint: str = "", kind: str = "fixed") -> str:
     )
 
 
-def test_a_size_beyond_all_measure_is_brought_into_range_with_a_warning() -> None:
+def test_an_extreme_size_is_clamped_with_a_warning() -> None:
     visual = '<visual><geometry><box size="1 1e308 -1e39"/></geometry></visual>'
     robot = load_robot(two_links(visual))
     box = robot.links["b"].visuals[0].geometry
@@ -75,7 +75,7 @@ def test_a_chain_of_mimic_joints_with_huge_factors_stays_finite() -> None:
 
 
 @pytest.mark.parametrize("name", ["/", "//b"])
-def test_a_link_that_can_be_no_frame_rejects_the_model(name: str) -> None:
+def test_a_link_name_that_cannot_be_a_frame_rejects_the_model(name: str) -> None:
     with pytest.raises(RobotError) as caught:
         load_robot(two_links().replace('"b"', f'"{name}"'))
     assert caught.value.problems[0].code == "link-name-slashes"

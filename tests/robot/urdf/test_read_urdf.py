@@ -1,4 +1,4 @@
-"""The case tables of spec/ros-nodes.md §6.7: what ROS does, and what we tell."""
+"""URDF is read as ROS reads it, and each mistake is reported."""
 
 import pytest
 
@@ -65,7 +65,7 @@ def test_a_robot_is_read_with_its_defaults():
          'name="r"', "material-duplicate"),
     ],
 )  # fmt: skip
-def test_what_ros_refuses_of_a_robot_is_one_error(inside: str, head: str, code: str):
+def test_a_robot_that_ros_refuses_has_one_error(inside: str, head: str, code: str):
     assert codes(refused(inside, head)) == [code]
 
 
@@ -104,7 +104,7 @@ def test_a_wrong_joint_rejects_the_model(text: str, code: str):
     assert code in codes(refused(text))
 
 
-def test_all_faults_are_told_at_once_each_on_its_line():
+def test_all_errors_are_reported_together_each_on_its_line():
     found = refused(
         '<link name="a"/>\n<link name="b"/>\n'
         '<joint name="j" type="hinge">\n<parent link="a"/><child link="b"/></joint>\n'
@@ -145,7 +145,9 @@ def test_all_faults_are_told_at_once_each_on_its_line():
         (visual("<mesh filename='no.stl'/>"), "mesh-not-found", "warning"),
     ],
 )  # fmt: skip
-def test_what_ros_accepts_is_drawn_and_told(text: str, code: str, severity: str):
+def test_a_mistake_that_ros_accepts_is_drawn_and_reported(
+    text: str, code: str, severity: str
+):
     problems = load(text).problems
     assert [(p.code, p.severity) for p in problems] == [(code, severity)]
     assert all(p.hint for p in problems)
@@ -189,7 +191,7 @@ def test_a_wrong_shape_is_left_out_and_the_robot_stays(
     assert [(p.code, p.severity) for p in robot.problems] == [(code, severity)]
 
 
-def test_a_broken_visual_costs_the_rest_of_its_link_and_nothing_else():
+def test_a_broken_visual_drops_only_the_rest_of_its_link():
     broken = "<visual><geometry><box/></geometry></visual>"
     robot = load(
         f'<link name="a"><visual>{BOX}</visual>{broken}<visual>{BOX}</visual>'
@@ -208,7 +210,7 @@ def test_a_capsule_is_drawn_although_ros_does_not_know_it():
     assert robot.links["a"].visuals[0].geometry == Capsule(0.5, 2)
 
 
-def test_unknown_elements_and_a_namespace_are_accepted_silently():
+def test_unknown_elements_and_a_namespace_are_accepted_without_a_warning():
     robot = load(
         link("<sensor/>") + "<gazebo/><transmission/><ros2_control/><foo/>",
         'name="r" xmlns="http://www.ros.org"',
@@ -216,7 +218,7 @@ def test_unknown_elements_and_a_namespace_are_accepted_silently():
     assert robot.problems == ()
 
 
-def test_a_broken_axis_on_a_fixed_joint_is_not_looked_at():
+def test_a_broken_axis_on_a_fixed_joint_is_ignored():
     assert load(joint('<axis xyz="x"/>', 'type="fixed"')).problems == ()
 
 
@@ -271,11 +273,11 @@ def test_a_joint_to_itself_leaves_its_link_out():
     assert codes(robot.problems) == ["joint-to-itself"]
 
 
-def test_a_lone_ring_of_one_link_is_refused_without_hanging():
+def test_a_ring_of_one_link_is_refused_without_an_endless_loop():
     assert codes(refused(links("a") + edge("j", "a", "a"))) == ["joint-to-itself"]
 
 
-def test_the_cause_is_told_not_what_follows_from_it():
+def test_the_cause_is_reported_without_its_consequences():
     text = links("abc") + edge("j", "a", "b")
     typo = edge("k", "b", "cc")
     unread = edge("k", "b", "c").replace("fixed", "hinge")
@@ -283,7 +285,7 @@ def test_the_cause_is_told_not_what_follows_from_it():
     assert codes(refused(text + unread)) == ["joint-type-unknown"]
 
 
-def test_a_piece_of_a_robot_hangs_on_an_empty_link():
+def test_part_of_a_robot_is_drawn_with_an_empty_parent_link():
     robot = load(links("b") + edge("j", "base", "b"))
     assert (robot.root, list(robot.links)) == ("base", ["base", "b"])
     assert codes(robot.problems) == ["joint-parent-elsewhere"]
@@ -311,13 +313,13 @@ def colours(robot: Robot, name: str = "a") -> list[object]:
     return [m.rgba if m is not None else None for m in materials]
 
 
-def test_a_global_material_beats_an_inline_one_wherever_it_stands():
+def test_a_global_material_overrides_an_inline_one_in_any_order():
     robot = shown(material("m", RED), after=material("m", GREEN))
     assert colours(robot) == [(0, 1, 0, 1)]
     assert codes(robot.problems) == ["material-redefined"]
 
 
-def test_an_inline_material_is_known_from_there_on():
+def test_an_inline_material_is_known_after_its_definition():
     robot = shown(
         material("m"),
         material("m", RED),
@@ -351,7 +353,7 @@ def test_an_empty_name_colours_this_visual_only():
         ('<color rgb="1 0 0"/>', "color-without-rgba", None),
     ],
 )
-def test_a_wrong_colour_is_what_ros_makes_of_it(color: str, code: str, rgba: object):
+def test_a_wrong_colour_is_read_as_ros_reads_it(color: str, code: str, rgba: object):
     robot = shown(material("m", color))
     assert colours(robot) == [rgba]
     assert codes(robot.problems) == [code]
@@ -363,7 +365,7 @@ def test_a_global_material_without_colour_is_black():
     assert codes(robot.problems) == ["material-without-colour"]
 
 
-def test_a_texture_alone_has_no_colour():
+def test_a_material_with_only_a_texture_has_no_colour():
     robot = shown(material("m", '<texture filename="t.png"/>'))
     found = robot.links["a"].visuals[0].material
     assert found == Material("m", None, "t.png")

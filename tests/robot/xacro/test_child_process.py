@@ -132,7 +132,7 @@ def test_the_child_ends_when_its_parent_is_killed(text: str, tmp_path: Path) -> 
 
 
 def is_running(process: int) -> bool:
-    """Whether it exists and is no zombie that waits for a parent to collect it."""
+    """Whether it exists and is not a zombie."""
     try:
         stat = Path(f"/proc/{process}/stat").read_text()
     except OSError:

@@ -47,7 +47,7 @@ def test_the_text_is_what_the_xacro_command_prints(tmp_path: Path):
     assert expand(model) == printed.decode("utf-8")
 
 
-def test_every_element_keeps_the_file_and_line_it_was_written_on(tmp_path: Path):
+def test_every_element_keeps_its_file_and_line(tmp_path: Path):
     write(tmp_path / "parts" / "wheel.xacro", MACRO)
     model = write(
         tmp_path / "m.xacro",
@@ -69,7 +69,7 @@ def test_every_element_keeps_the_file_and_line_it_was_written_on(tmp_path: Path)
     assert robot.files == (model, Path(part))
 
 
-def test_a_fault_in_a_macro_names_its_body_and_its_call(tmp_path: Path):
+def test_an_error_in_a_macro_names_its_body_and_its_call(tmp_path: Path):
     model = write(
         tmp_path / "m.xacro",
         MACRO + '<xacro:macro name="axle" params="y">\n'
@@ -136,7 +136,7 @@ def test_packages_are_found_without_ros(tmp_path: Path):
     assert load_robot(by_uri).root == "from_part"
 
 
-def test_a_source_tree_may_be_laid_out_unlike_the_installed_package(tmp_path: Path):
+def test_a_source_tree_may_have_another_layout_than_the_package(tmp_path: Path):
     (tmp_path / "package.xml").write_text("<name>demo</name>")
     write(tmp_path / "description" / "ros2_control" / "x.xacro", '<link name="a"/>')
     find = '<xacro:include filename="$(find demo)/ros2_control/x.xacro"/>'
@@ -144,7 +144,7 @@ def test_a_source_tree_may_be_laid_out_unlike_the_installed_package(tmp_path: Pa
     assert load_robot(model).root == "a"
 
 
-def test_a_file_never_stands_in_for_a_missing_one_while_it_is_included(tmp_path: Path):
+def test_a_file_that_is_being_included_never_replaces_a_missing_one(tmp_path: Path):
     (tmp_path / "package.xml").write_text("<name>demo</name>")
     find = '<xacro:include filename="$(find demo)/urdf/m.xacro"/>'
     model = write(tmp_path / "src" / "urdf" / "m.xacro", find)
@@ -250,7 +250,7 @@ def test_an_argument_of_the_root_tag_has_to_be_given(tmp_path: Path):
     assert load_robot(model, xacro_args={"name": "ur"}).name == "ur"
 
 
-def test_expressions_that_make_no_xml_are_an_error(tmp_path: Path):
+def test_expressions_that_give_invalid_xml_are_an_error(tmp_path: Path):
     for inside in (
         '\n<link name="a"/><xacro:element xacro:name="${\'x y\'}"/>',
         "\n<link name=\"a${'\\x01'}\"/>",
@@ -282,7 +282,7 @@ def test_an_expansion_that_takes_too_long_is_ended():
     assert "longer than 0.5 s" in error.failure.text
 
 
-def test_an_expansion_that_wants_too_much_memory_is_ended():
+def test_an_expansion_that_needs_too_much_memory_is_ended():
     error = expansion("<link name=\"${'a' * 10**11}\"/>", Limits())
     assert error.failure.kind == "MemoryError"
 
@@ -292,7 +292,7 @@ def test_an_expansion_with_too_much_output_is_ended():
     assert error.failure.kind == "OutputLimit"
 
 
-def test_a_macro_that_calls_itself_for_ever_is_an_error():
+def test_a_macro_that_calls_itself_without_end_is_an_error():
     again = '<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>'
     error = expansion(again, Limits())
     assert error.failure.kind == "RecursionError"

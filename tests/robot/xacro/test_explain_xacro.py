@@ -18,7 +18,7 @@ HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 
 @pytest.fixture
 def explain(tmp_path: Path) -> Explain:
-    """Explains a made-up failure in a file with these lines behind <robot …>."""
+    """Explains a made-up failure in a file with these lines after <robot …>."""
 
     def run(body: str, text: str, kind: str = "XacroException", **facts: object):
         file = tmp_path / "r.xacro"
@@ -69,7 +69,7 @@ def test_the_macro_call_is_named_beside_the_macro_body(
     assert problem.message == "x is not defined (in macro m, called on line 5)"
 
 
-def test_the_expression_is_found_where_a_lazy_property_holds_it(
+def test_the_expression_is_found_in_a_lazy_property(
     explain: Explain,
 ) -> None:
     problem = explain(
@@ -102,7 +102,7 @@ def test_an_expression_in_a_comment_is_not_taken_for_the_failed_one(
         ("", "zzz", 'add <xacro:property name="zzz" value="…"/> before it'),
     ],
 )
-def test_a_name_that_is_something_else_is_told_so(
+def test_a_name_of_another_kind_is_explained(
     explain: Explain, body: str, name: str, hint: str
 ) -> None:
     problem = explain(f'{body}<link name="${{{name}}}"/>', *undefined(name))
@@ -122,7 +122,7 @@ def test_a_property_inside_a_macro_is_not_known_outside(explain: Explain) -> Non
     assert 'scope="parent"' in problem.hint
 
 
-def test_a_definition_without_prefix_is_pointed_at_itself(explain: Explain) -> None:
+def test_a_definition_without_prefix_is_the_reported_place(explain: Explain) -> None:
     problem = explain(
         '<macro name="m"/>\n<xacro:m/>', "unknown macro name: xacro:m", line=3
     )
@@ -131,7 +131,7 @@ def test_a_definition_without_prefix_is_pointed_at_itself(explain: Explain) -> N
     assert problem.line == 2
 
 
-def test_a_misspelt_own_word_of_xacro_is_recognised(explain: Explain) -> None:
+def test_a_misspelt_xacro_element_is_recognised(explain: Explain) -> None:
     problem = explain(
         '<xacro:proprty name="x" value="1"/>', "unknown macro name: xacro:proprty"
     )
@@ -149,7 +149,7 @@ def test_a_file_beside_the_model_that_has_the_macro_is_named(
     assert "wheels.xacro defines it on line 1" in problem.message
 
 
-def test_a_macro_that_only_the_child_saw_is_offered(explain: Explain) -> None:
+def test_a_macro_known_only_to_the_child_is_suggested(explain: Explain) -> None:
     problem = explain(
         "<xacro:wheeel/>",
         "unknown macro name: xacro:wheeel",
@@ -175,7 +175,7 @@ def test_an_unknown_parameter_gets_the_nearest_one(
     assert problem.hint.startswith("did you mean 'side'?")
 
 
-def test_the_missing_argument_is_pointed_at_where_it_is_asked_for(
+def test_a_missing_argument_is_reported_where_it_is_used(
     explain: Explain,
 ) -> None:
     problem = explain(
@@ -191,7 +191,7 @@ def test_the_missing_argument_is_pointed_at_where_it_is_asked_for(
     assert "base:=…" in problem.hint
 
 
-def test_a_missing_package_lists_where_we_looked_and_what_was_there(
+def test_a_missing_package_lists_the_searched_folders_and_a_similar_name(
     explain: Explain, tmp_path: Path
 ) -> None:
     problem = explain(
@@ -208,7 +208,7 @@ def test_a_missing_package_lists_where_we_looked_and_what_was_there(
     assert problem.hint.endswith("did you mean 'sam_bot'?")
 
 
-def test_a_misspelt_include_gets_the_file_that_lies_there(
+def test_a_misspelt_include_suggests_a_similar_file(
     explain: Explain, tmp_path: Path
 ) -> None:
     (tmp_path / "wheels.xacro").write_text("<robot/>")
@@ -234,13 +234,13 @@ def test_a_misspelt_include_gets_the_file_that_lies_there(
         ("Crash", "xacro-failed"),
     ],
 )
-def test_limits_and_crashes_are_told_in_their_own_words(
+def test_limits_and_crashes_have_their_own_messages(
     explain: Explain, kind: str, code: str
 ) -> None:
     assert explain("", "it ended", kind=kind).code == code
 
 
-def test_a_failure_in_a_file_that_is_gone_is_explained_all_the_same() -> None:
+def test_a_failure_in_a_deleted_file_is_explained() -> None:
     failure = XacroFailure("NameError", "name 'x' is not defined", "gone.xacro", 3)
 
     (problem,) = explain_xacro(failure, "gone.xacro")

@@ -1,4 +1,4 @@
-"""The attempts of spec/ros-nodes.md §5.5, in the untrusted mode."""
+"""Expressions and paths that the untrusted mode refuses."""
 
 from pathlib import Path
 
@@ -53,7 +53,7 @@ def test_an_expression_cannot_reach_python(expression: str):
     assert "error" in refusal(f'<link name="${{{quoted}}}"/>')
 
 
-def test_what_a_model_needs_still_works():
+def test_ordinary_expressions_still_work():
     text = (
         '<xacro:property name="r" value="0.5"/>'
         '<xacro:property name="names" value="${dict(left=1, right=[2, 3])}"/>'
@@ -72,7 +72,7 @@ def test_a_yaml_file_beside_the_model_is_read_with_dots(tmp_path: Path):
     assert load(text, tmp_path) == "left_3.14"
 
 
-def test_the_other_evaluator_is_closed_too():
+def test_the_evaluator_of_eval_substitutions_is_restricted_too():
     close = '<xacro:property name="close" value=")"/>'
     text = f"{close}<link name=\"$(eval open('/etc/hostname'${{close}})\"/>"
     assert "error" in refusal(text)

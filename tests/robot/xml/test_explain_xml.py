@@ -43,7 +43,7 @@ CASES = [
     ("hello\n<robot/>", "xml-text-before-root", 1, "hello"),
     ("\n\n<?xml version='1.0'?>\n<robot/>", "xml-declaration-not-first", 3, "empty"),
     (" <?xml version='1.0'?>\n<robot/>", "xml-declaration-not-first", 1, "blank"),
-    ("<?xml version=1.0?>\n<robot/>", "xml-declaration-wrong", 1, "order"),
+    ("<?xml version=1.0?>\n<robot/>", "xml-declaration-wrong", 1, "not valid"),
     (ROBOT.format("") + "<robot/>\n", "xml-two-robots", 4, "second"),
     (ROBOT.format("") + "end\n", "xml-text-after-root", 4, "end"),
     (ROBOT.format("") + "</robot>\n", "xml-closing-tag-surplus", 4, "nothing"),
@@ -132,7 +132,7 @@ def test_an_unclosed_tag_is_reported_with_the_places_to_open_and_to_close() -> N
     assert problem.hint == "add </link> after <visual …> on line 3"
 
 
-def test_an_opening_tag_that_is_missing_is_wanted_before_its_content() -> None:
+def test_a_missing_opening_tag_belongs_before_its_content() -> None:
     problem = only(
         '<robot name="r">\n  <material/>\n    <visual/>\n  </link>\n</robot>\n'
     )
@@ -166,7 +166,7 @@ def test_good_xml_has_nothing_to_explain() -> None:
     assert explained(ROBOT.format("<link name='a'/>\n")) == []
 
 
-def test_torn_and_shuffled_text_always_gets_an_explanation_with_a_line() -> None:
+def test_cut_and_shuffled_text_always_gets_an_explanation_with_a_line() -> None:
     chance = random.Random(7)
     good = ROBOT.format(
         '<link name="a">\n<!-- c -->\n<visual><origin xyz="0 0 1"/></visual>\n</link>\n'
@@ -185,7 +185,7 @@ def test_torn_and_shuffled_text_always_gets_an_explanation_with_a_line() -> None
             assert all(p.line and p.line <= joined.count("\n") + 1 for p in problems)
 
 
-def test_a_long_broken_file_is_explained_soon() -> None:
+def test_a_long_broken_file_is_explained() -> None:
     text = "<robot>\n" + "<link name='a'><visual>\n" * 5000
     try:
         parse_xml(text, "r.urdf")

@@ -5,7 +5,7 @@ from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.parse import parse_xml
 
 
-def test_every_element_knows_its_line_and_column():
+def test_every_element_has_its_line_and_column():
     root = parse_xml('<robot>\n  <link name="a">\n    <x/></link>\n</robot>', "f")
 
     link = root.find("link")
@@ -40,7 +40,7 @@ def test_text_is_kept_without_comments():
     assert parse_xml("<a>one<!-- no --> two</a>", "f").text == "one two"
 
 
-def test_a_fault_says_where_expat_stopped():
+def test_an_xml_error_has_the_place_where_expat_stopped():
     with pytest.raises(XmlFault) as caught:
         parse_xml("<a>\n<b></a>", "f")
 
@@ -74,14 +74,14 @@ def test_text_is_decoded_by_mark_then_by_declaration_then_as_utf_8():
     assert decode(korean.encode("euc-kr")) == korean
 
 
-def test_bytes_in_another_encoding_are_a_fault_at_their_line():
+def test_bytes_in_another_encoding_are_an_error_at_their_line():
     with pytest.raises(XmlFault, match="not utf-8") as caught:
         decode(b"<a>\n  <!-- \xb7 --></a>")
 
     assert (caught.value.line, caught.value.column) == (2, 8)
 
 
-def test_a_declaration_without_a_version_is_replaced_and_nothing_moves():
+def test_a_declaration_without_a_version_is_replaced_and_lines_stay():
     assert repaired_prolog("<?xml?>\n<a/>") == '<?xml version="1.0"?>\n<a/>'
     good = '<?xml version="1.0" encoding="utf-8"?>\n<a/>'
     assert repaired_prolog(good) == good
