@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from sambot_viz.robot.model import Joint
+from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.robot_parts import RobotParts
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sambot_viz.robot.model import Joint, Link
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Link
 from sambot_viz.robot.xml.element import Element
 
 
