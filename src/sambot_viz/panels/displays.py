@@ -10,17 +10,14 @@ import viser
 
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.status import Level, Status
 from sambot_viz.panels.arrange import Arrange, labelled
 from sambot_viz.panels.config_file import ConfigFile
 from sambot_viz.panels.entry_rows import EntryRows
+from sambot_viz.panels.status_html import line_html, status_html
 from sambot_viz.panels.widgets import Input, add_property, frame_choices, watch
 from sambot_viz.rviz import ConfigItem, Property, TfFrameProperty
 from sambot_viz.session import Event, Session, walk
 from sambot_viz.text import html_text, text
-
-SHOWN_STATUS_ROWS = 40
-"""Rows of a status that are written out; a robot of 300 links has as many."""
 
 Change = Callable[[str, Any], None]
 """Sets the property at a path to a value."""
@@ -133,13 +130,13 @@ class DisplaysPanel:
         if self._statuses is not None:
             status = self._session.picture.global_status()
             lines = [
-                _status_html("Global Status", status.level, {"Fixed Frame": status})
+                status_html("Global Status", status.level, {"Fixed Frame": status})
             ]
             for row in self._rows:
                 level = row.display.status.level
                 if row.display.shown and level != "Ok":
                     name = html_text(row.display.config.name)
-                    lines.append(_line_html(f"{name}: {level}", level))
+                    lines.append(line_html(f"{name}: {level}", level))
             content = "".join(lines)
             if self._statuses.content != content:
                 self._statuses.content = content
@@ -201,9 +198,8 @@ class _ItemRows:
             if prop.support == "none":
                 continue
             if prop.has_value:
-                value = self._item.get(path)
-                set_it = partial(self._set, path)
-                handle = add_property(self._session, prop, value, set_it, frames)
+                get, change = partial(self._item.get, path), partial(self._set, path)
+                handle = add_property(self._session, prop, get, change, frames)
                 self._inputs[path] = (handle, prop)
                 self._add_all(prop.children, f"{path}/", frames)
             elif not prop.open_keys:
@@ -276,32 +272,7 @@ class _DisplayRows:
             return
         self._version, self._was_shown = status.version, shown
         level = status.level if shown else None
-        self._status.content = _status_html("Status", level, status.rows)
-
-
-def _line_html(line: str, level: Level) -> str:
-    """One coloured line; `line` is HTML already."""
-    return f'<div class="sambot-status sambot-{level.lower()}">{line}</div>'
-
-
-def _status_html(title: str, level: Level | None, rows: dict[str, Status]) -> str:
-    """A status as RViz words and colours it, its rows folded away when all is well."""
-    if level is None:
-        return ""
-    opened = "" if level == "Ok" else " open"
-    bad_first = sorted(rows.items(), key=lambda row: row[1].level == "Ok")
-    lines = [
-        f'<li class="sambot-{row.level.lower()}"><b>{html_text(key)}</b> '
-        f"{html_text(row.text).replace('•', '<br>•')}</li>"
-        for key, row in bad_first[:SHOWN_STATUS_ROWS]
-    ]
-    if len(rows) > SHOWN_STATUS_ROWS:
-        lines.append(f"<li>and {len(rows) - SHOWN_STATUS_ROWS} more</li>")
-    return (
-        f'<details class="sambot-status"{opened}>'
-        f'<summary class="sambot-{level.lower()}">{title}: {level}</summary>'
-        f"<ul>{''.join(lines)}</ul></details>"
-    )
+        self._status.content = status_html("Status", level, status.rows)
 
 
 def _entries_of(display: Display, title: str) -> EntryList | None:

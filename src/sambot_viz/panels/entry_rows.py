@@ -124,9 +124,19 @@ class EntryRows:
                 # A box is saved as "Value"; RViz shows it beside the name.
                 shown = replace(prop, name="Enabled") if path == "Value" else prop
                 self._inputs[path] = add_property(
-                    self._session, shown, item.get(path), partial(self._set, path)
+                    self._session,
+                    shown,
+                    partial(self._get, item, path),
+                    partial(self._set, path),
                 )
             self._facts = self._gui.add_html("")
+
+    def _get(self, first: ConfigItem, path: str) -> Any:
+        """The value of the chosen one; of the first that was chosen while none is."""
+        found = self._entries()
+        if found is None or self._chosen is None:
+            return first.get(path)
+        return found.item(self._chosen).get(path)
 
     def _set(self, row: str, value: Any) -> None:
         found = self._entries()

@@ -50,7 +50,7 @@ class SelectionPanel:
             self._choice = add_property(
                 self._session,
                 self._property,
-                FIXED_FRAME,
+                lambda: self._frame,
                 self._set_frame,
                 self._frames(),
             )
@@ -72,8 +72,8 @@ class SelectionPanel:
     def _frames(self) -> Sequence[str]:
         return sorted(self._session.tree.frames)
 
-    def _set_frame(self, frame: str) -> None:
-        self._frame = frame
+    def _set_frame(self, frame: object) -> None:
+        self._frame = self._property.coerce(frame)
         self._write()
 
     def _hear(self, event: Event) -> None:
@@ -112,7 +112,9 @@ class _ColorSetting:
         gui = session.audience.gui
         self._folder = gui.add_folder(tool.label, expand_by_default=False)
         with self._folder:
-            self._input: Input = add_property(session, prop, self._value, self._set)
+            self._input: Input = add_property(
+                session, prop, lambda: self._value, self._set
+            )
         self.show()
 
     def show(self) -> None:

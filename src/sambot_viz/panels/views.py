@@ -113,7 +113,7 @@ class ViewsPanel:
             handle = add_property(
                 self._session,
                 prop,
-                _shown(prop, config.get(path)),
+                partial(self._shown_value, prop, path),
                 partial(self._views.set, path),
                 sorted(self._session.tree.frames),
             )
@@ -124,6 +124,9 @@ class ViewsPanel:
             hint="All browsers show what the camera shows that moved last.",
         )
         watch(self._session, follow, bool, self._follow)
+
+    def _shown_value(self, prop: Property, path: str) -> Any:
+        return _shown(prop, self._views.view.config.get(path))
 
     def _follow(self, on: bool) -> None:
         self._views.follow_presenter = on
@@ -166,9 +169,8 @@ class ViewsPanel:
 
     def _show_values(self) -> None:
         """Bring the numbers in line with the view; only what differs is sent."""
-        config = self._views.view.config
         for path, (handle, prop) in self._inputs.items():
-            value = _shown(prop, config.get(path))
+            value = self._shown_value(prop, path)
             if handle.value != value:
                 handle.value = value
 

@@ -57,6 +57,17 @@ def watch(
             ValueError or TypeError for a value outside the rule.
         on_change: takes the value; it may raise SambotVizError to refuse it.
     """
+
+    def use(value: Any) -> Any:
+        value = coerce(value)
+        on_change(value)
+        return value
+
+    _watch(session, handle, use)
+
+
+def _watch(session: Session, handle: Input, use: Callable[[Any], Any]) -> None:
+    """Call `use` with every value a browser sets; it returns the value that holds."""
     accepted = [handle.value]
     newest = taken = object()
 
@@ -74,9 +85,7 @@ def watch(
         if is_removed(handle):
             return
         with suppress(SambotVizError, ValueError, TypeError, OverflowError):
-            value = coerce(value)
-            on_change(value)
-            accepted[0] = value
+            accepted[0] = use(value)
         session.worker.on_loop(partial(answer, event))
 
     def answer(event: object) -> None:
@@ -115,7 +124,7 @@ def finite(value: Any) -> float:
 def add_property(
     session: Session,
     prop: Property,
-    value: Any,
+    get: Callable[[], Any],
     on_change: OnChange,
     frames: Sequence[str] = (),
 ) -> Input:
@@ -124,15 +133,21 @@ def add_property(
     Args:
         session: where to add it (to the current container of its GUI).
         prop: the declaration: name, type, range, options, help.
-        value: the present value.
-        on_change: called with the coerced value after a change in a browser.
+        get: gives the value that holds.
+        on_change: called with what a browser sets; it sets the property, or raises
+            SambotVizError for a value that the property cannot have.
         frames: the frames there are, for properties that name one.
 
     Returns:
         The widget's handle; set `.value` to show another value.
     """
-    handle = _make(session.audience.gui, prop, value, frames)
-    watch(session, handle, prop.coerce, on_change)
+
+    def use(value: Any) -> Any:
+        on_change(value)
+        return get()
+
+    handle = _make(session.audience.gui, prop, get(), frames)
+    _watch(session, handle, use)
     return handle
 
 
