@@ -276,3 +276,36 @@ def test_emission_adds_to_the_base_colour(
     content["meshes"][0]["primitives"][0]["material"] = 0
     mesh = read_mesh(write("a.glb", glb(content)))
     assert mesh.parts[0].rgba == (*shown, 1)
+
+
+def test_nodes_may_have_a_camera_and_any_name(write: Write) -> None:
+    nodes = [
+        {"name": "world", "camera": 0, "children": [1], "translation": [0, 0, 3]},
+        {"name": "world", "mesh": 0},
+    ]
+    mesh = read_mesh(write("a.glb", glb(document(nodes=nodes))))
+    assert np.array_equal(mesh.bounds, [[0, 0, 3], [2, 1, 3]])
+
+
+def test_a_mirrored_node_shows_its_outside(write: Write) -> None:
+    nodes = [{"mesh": 0, "scale": [-1, 1, 1]}]
+    part = read_mesh(write("a.glb", glb(document(nodes=nodes)))).parts[0]
+    a, b, c = part.vertices[part.faces].transpose(1, 0, 2)
+    assert np.allclose(np.cross(b - a, c - a).sum(axis=0), [0, 0, 4])
+    assert part.normals is not None and np.allclose(part.normals, [0, 0, 1])
+
+
+def test_a_last_triangle_that_is_not_complete_is_left_out(write: Write) -> None:
+    content = document()
+    content["accessors"][3]["count"] = 5
+    assert read_mesh(write("a.glb", glb(content))).triangles == 1
+    del content["meshes"][0]["primitives"][0]["indices"]
+    assert read_mesh(write("b.glb", glb(content))).triangles == 1
+
+
+def test_what_is_not_drawn_is_not_read(write: Write) -> None:
+    content = document()
+    content["accessors"].append({"componentType": 1, "count": 2**40, "type": "MAT4"})
+    content["buffers"].append({"uri": "gone.bin"})
+    mesh = read_mesh(write("a.glb", glb(content)))
+    assert mesh.triangles == 2 and mesh.problems == ()

@@ -6,11 +6,9 @@ from typing import Any
 
 from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.assembly.materials import MeshMaterial
-from sambot_viz.meshes.formats.gltf_accessor import Accessors
+from sambot_viz.meshes.formats.gltf_file import GltfFile
 from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry, section
-from sambot_viz.meshes.formats.gltf_resource import Resources
 from sambot_viz.meshes.mesh import WHITE, Texture
-from sambot_viz.meshes.source import MeshSource
 from sambot_viz.meshes.textures import TextureError
 
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
@@ -20,17 +18,8 @@ _IMAGE_EXTENSIONS = ("EXT_texture_webp", "KHR_texture_basisu")
 class GltfMaterials:
     """The materials of a file, each read once."""
 
-    def __init__(
-        self,
-        document: Json,
-        resources: Resources,
-        accessors: Accessors,
-        source: MeshSource,
-    ) -> None:
-        self.document = document
-        self.resources = resources
-        self.accessors = accessors
-        self.source = source
+    def __init__(self, file: GltfFile) -> None:
+        self._file = file
         self._looks: dict[int, tuple[MeshMaterial, int]] = {}
 
     def look(self, number: object) -> tuple[MeshMaterial, int]:
@@ -40,7 +29,7 @@ class GltfMaterials:
         """
         if number is None:
             return MeshMaterial(WHITE), 0
-        material = entry(self.document, "materials", number)
+        material = entry(self._file.document, "materials", number)
         known = self._looks.get(id(material))
         if known is None:
             known = self._looks[id(material)] = self._read(material)
@@ -67,21 +56,16 @@ class GltfMaterials:
 
     def _texture(self, number: object) -> Texture | None:
         try:
-            texture = entry(self.document, "textures", number)
+            texture = entry(self._file.document, "textures", number)
             extensions = section(texture, "extensions")
             source: object = texture.get("source")
             for name in _IMAGE_EXTENSIONS:
                 if source is None and name in extensions:
                     source = section(extensions, name).get("source")
-            image = entry(self.document, "images", source)
-            if "uri" in image:
-                data = self.resources.uri(str(image["uri"]))
-            else:
-                data = self.accessors.view(image.get("bufferView"))
-            return self.source.images.from_bytes(data)
+            return self._file.source.images.from_bytes(self._file.image(source))
         except (Broken, TextureError) as error:
             reason = str(error)
-        self.source.warn(
+        self._file.source.warn(
             "mesh-texture-broken",
             f"texture {number} of the glTF file cannot be used: {reason}; the surface "
             "is shown without it",
