@@ -4,9 +4,9 @@
 first uv set counts, colours are those of the file. Files that are not well-formed are
 recovered with a warning, because RViz shows many of them.
 
-trimesh is not used: of 1,707 real files it reads 42 as empty without an error, leaves
-`<unit>` out in 206, loses a material or a texture in 126 and cuts 22 concave polygons
-differently from Assimp.
+trimesh with pycollada is not used: of 1,707 real files it reads 42 as empty without an
+error, leaves `<unit>` out in 206, loses a material or a texture in 126 and cuts 22
+concave polygons differently from Assimp.
 """
 
 from __future__ import annotations

@@ -2,8 +2,9 @@
 
 White, whatever colours its vertices have; flat unless the file has normals.
 
-trimesh is not used: it fails on a point cloud, takes longer for ASCII (0.38 s instead
-of 0.22 s for 82,000 triangles), and its import takes longer than a robot's files.
+trimesh is not used: it refuses binary files that mix triangles with larger polygons
+("PLY is unexpected length!"), fails on a point cloud, takes faces with missing corners,
+and cuts every polygon as if it were convex.
 """
 
 from __future__ import annotations
