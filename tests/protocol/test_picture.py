@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import struct
+import zlib
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -43,6 +45,13 @@ def png(width: int, height: int) -> bytes:
     return file.getvalue()
 
 
+def claims_to_be(width: int, height: int) -> bytes:
+    """A small file whose header announces a picture of another size."""
+    small = png(1, 1)
+    header = b"IHDR" + struct.pack(">II", width, height) + small[24:29]
+    return small[:12] + header + struct.pack(">I", zlib.crc32(header)) + small[33:]
+
+
 def answer(client: ProtocolClient, number: str, payload: bytes) -> None:
     client.send("GetRenderResponseMessage", payload=payload, render_uuid=number)
 
@@ -59,6 +68,7 @@ def test_a_picture_of_the_size_that_was_asked_for_comes_as_a_file(
     [
         (b"nonsense", "not a picture"),
         (png(64, 64), "another size"),
+        (claims_to_be(13_000, 13_000), "another size"),
         (png(1280, 720)[:50_000], "not a picture"),
     ],
 )

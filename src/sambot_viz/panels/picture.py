@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import io
+import struct
 from dataclasses import replace
 
 import numpy as np
@@ -23,6 +24,7 @@ from sambot_viz.viser_private import drawn_by
 
 LONGEST_SIDE = 4096
 """A browser cannot draw a larger picture [pixels]."""
+_PNG_MARK = b"\x89PNG\r\n\x1a\n"
 RENDER_TIME = 20.0
 """A browser that has not drawn a picture by then does not get it [s]."""
 
@@ -138,13 +140,13 @@ def finished(
     Raises:
         PictureError: that is not a PNG file of this size.
     """
+    # The size is in the first bytes: nothing larger is ever unpacked.
+    if answer[:8] == _PNG_MARK and answer[16:24] != struct.pack(">II", *size):
+        raise PictureError("the browser drew a picture of another size")
     try:
-        # The size is in the first bytes: nothing larger is ever unpacked.
         picture: Image.Image = Image.open(io.BytesIO(answer), formats=["PNG"])
-        if picture.size != size:
-            raise PictureError("the browser drew a picture of another size")
         drawn = np.asarray(picture.convert("RGBA"))
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+    except (OSError, ValueError, SyntaxError):
         raise PictureError("the browser sent something that is not a picture") from None
     file = io.BytesIO()
     on_background(drawn, background).save(file, "PNG")
