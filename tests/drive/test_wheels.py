@@ -138,7 +138,7 @@ def test_what_is_given_counts(robot: MakeRobot) -> None:
     with pytest.raises(JointError) as caught:
         find_wheel_pair(model)
     assert str(caught.value) == (
-        "the wheels 'l' and 'r' have no cylinder or sphere that tells their radius; "
+        "the wheels 'l' and 'r' have no cylinder or sphere to take their radius from; "
         "give the radius"
     )
     pair = find_wheel_pair(model, radius=0.1)

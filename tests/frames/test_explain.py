@@ -1,8 +1,9 @@
-"""A pose explained hop by hop, and its absence explained in words."""
+"""A pose explained step by step, and its absence explained in words."""
 
 from __future__ import annotations
 
 import pytest
+from close import is_close
 
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.explain import explain
@@ -32,7 +33,7 @@ def test_the_product_of_the_hops_is_the_answer(robot: Robot) -> None:
     for hop in found.hops:
         product = hop.step @ product
     assert found.transform is not None
-    assert product.is_close(found.transform, 1e-15)
+    assert is_close(product, found.transform, 1e-15)
     assert found.transform == tree.lookup("wheel", "lamp")
 
 

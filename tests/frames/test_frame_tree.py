@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from close import is_close
 
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import (
@@ -61,7 +62,7 @@ def test_any_two_connected_frames_agree_with_the_way_over_the_root() -> None:
     for target in tree.frames:
         for source in tree.frames:
             expected = T_root[target].inverse() @ T_root[source]
-            assert tree.lookup(target, source).is_close(expected, 1e-12)
+            assert is_close(tree.lookup(target, source), expected, 1e-12)
 
 
 def test_the_same_name_twice_needs_no_data() -> None:

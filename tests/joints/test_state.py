@@ -1,4 +1,4 @@
-"""Joint states: joint_state_publisher's rules (spec/ros-nodes.md §1, §2)."""
+"""Joint states: joint_state_publisher's rules."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_a_zero_for_an_unknown_joint_is_refused(arm: Robot) -> None:
 
 
 def test_mimic_joints_follow_through_chains(arm: Robot) -> None:
-    # spec/ros-nodes.md §8: j = 0.5, k = j + 0.1, l = −k.
+    # j = 0.5, k = j + 0.1, l = −k.
     state = JointState(arm)
     state.set("j", 0.5)
     positions = state.all_positions()
@@ -213,6 +213,6 @@ def test_a_reload_keeps_the_values_of_joints_that_still_exist(
         Joint("new", "continuous", "base_link", "z"),
     )
     assert state.reload(edited) == ("wheel", "lift", "new")
-    # The wheel has another type; the lift stood at its start, and still does.
+    # The wheel has another type; the lift was at its start, and still is.
     assert state.positions == {"wheel": 0, "j": 1.5, "lift": 6, "new": 0}
     assert state.over_limit() == ("j",)

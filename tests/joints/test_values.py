@@ -43,11 +43,11 @@ def test_assignments_are_read_as_given() -> None:
         ),
         (
             "wheel=90°",
-            "--zeros wheel=90°: '90°' is no finite number of radians or metres",
+            "--zeros wheel=90°: '90°' is not a finite number of radians or metres",
         ),
         (
             "wheel=nan",
-            "--zeros wheel=nan: 'nan' is no finite number of radians or metres",
+            "--zeros wheel=nan: 'nan' is not a finite number of radians or metres",
         ),
     ],
 )
@@ -125,12 +125,12 @@ def test_of_a_name_that_stands_twice_the_first_counts(tmp_path: Path) -> None:
             "{} names 1 joints and gives 0 positions; there must be one position for "
             "each name",
         ),
-        ("j: fast\n", "{}: joint 'j' has 'fast', which is no finite number"),
-        ("j: .nan\n", "{}: joint 'j' has nan, which is no finite number"),
-        ("j: true\n", "{}: joint 'j' has True, which is no finite number"),
+        ("j: fast\n", "{}: joint 'j' has 'fast', which is not a finite number"),
+        ("j: .nan\n", "{}: joint 'j' has nan, which is not a finite number"),
+        ("j: true\n", "{}: joint 'j' has True, which is not a finite number"),
         (
             "- 1\n",
-            "{} holds no joint state: expected the lists 'name' and 'position', or one "
+            "{} is not a joint state: expected the lists 'name' and 'position', or one "
             "'joint: value' per line",
         ),
     ],
@@ -152,7 +152,7 @@ def test_a_file_that_cannot_be_read_says_why(tmp_path: Path) -> None:
     with pytest.raises(JointError, match=r"it is not UTF-8 text$"):
         load_joint_state(tmp_path / "latin.yaml")
     (tmp_path / "broken.yaml").write_text("j: [1\n")
-    with pytest.raises(JointError, match=r"is no yaml: while parsing .* line 2"):
+    with pytest.raises(JointError, match=r"is not yaml: while parsing .* line 2"):
         load_joint_state(tmp_path / "broken.yaml")
 
 
@@ -192,7 +192,7 @@ def test_a_pose_that_does_not_exist_offers_those_that_do() -> None:
 def test_a_pose_that_makes_no_sense_changes_nothing(tmp_path: Path) -> None:
     file = tmp_path / "poses.yaml"
     presets = Presets(file)
-    with pytest.raises(JointError, match=r"^joint 'j' has nan: no finite number$"):
+    with pytest.raises(JointError, match=r"^joint 'j' has nan: not a finite number$"):
         presets.save("up", {"j": math.nan})
     with pytest.raises(JointError, match=r"^a pose needs a name$"):
         presets.save("  ", {"j": 1.0})
@@ -218,11 +218,11 @@ def test_a_file_that_cannot_be_written_leaves_the_poses_as_they_were(
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("- up\n", "{} holds no poses: expected 'pose: {{joint: value}}'"),
-        ("up: 1\n", "{}: pose 'up' is no list of 'joint: value'"),
+        ("- up\n", "{} has no poses: expected 'pose: {{joint: value}}'"),
+        ("up: 1\n", "{}: pose 'up' is not a list of 'joint: value'"),
         (
             "up: {j: x}\n",
-            "{}: pose 'up' has 'x' for joint 'j', which is no finite number",
+            "{}: pose 'up' has 'x' for joint 'j', which is not a finite number",
         ),
     ],
 )

@@ -70,7 +70,7 @@ class WheelPair:
         middle: the point between the wheels, facing forwards, in the root link.
 
     Raises:
-        JointError: a measure that is no number above 0, or one wheel named twice.
+        JointError: a measure that is not a number above 0, or one wheel named twice.
     """
 
     left: str
@@ -96,7 +96,7 @@ class DriveStep:
     """The outcome of one step.
 
     Attributes:
-        pose: where the root link stands now, T_odom_root.
+        pose: the new pose of the root link, T_odom_root.
         wheels: wheel joint → how far its position grew [rad].
     """
 
@@ -130,7 +130,7 @@ class DifferentialDrive:
 
     @property
     def pose(self) -> PlanarPose:
-        """Where the root link stands, T_odom_root."""
+        """The pose of the root link, T_odom_root."""
         return self._middle @ self.wheels.middle.inverse()
 
     @property

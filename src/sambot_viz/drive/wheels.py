@@ -21,7 +21,7 @@ _PARALLEL = 1e-3
 """Two directions count as one below this sine: URDFs write 1.5708 for a right angle."""
 
 MOST_WHEELS = 40
-"""With more level continuous joints than this nobody guesses the driven pair."""
+"""With more level continuous joints than this, the driven pair is not guessed."""
 
 _SAME_LINE = 1e-3
 """Two axes count as one line below this distance [m]."""
@@ -161,7 +161,7 @@ def _measured(
     if radius is None:
         raise JointError(
             f"the wheels '{one.joint.name}' and '{other.joint.name}' have no cylinder "
-            "or sphere that tells their radius; give the radius"
+            "or sphere to take their radius from; give the radius"
         )
     if ordered:
         left, right = one, other

@@ -1,4 +1,4 @@
-"""Why a frame is where it is, hop by hop; or why there is no answer, in words."""
+"""Why a frame is where it is, step by step; or why there is no answer, in words."""
 
 from __future__ import annotations
 

@@ -86,7 +86,7 @@ class FrameTree(FrameHierarchy):
 
         Raises:
             TransformRefused: an empty name, or parent and child are the same.
-            CycleRefused: the parent hangs below the child.
+            CycleRefused: the parent is a descendant of the child.
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, True, 0.0
@@ -105,7 +105,7 @@ class FrameTree(FrameHierarchy):
 
         Raises:
             TransformRefused: an empty name, or parent and child are the same.
-            CycleRefused: the parent hangs below the child.
+            CycleRefused: the parent is a descendant of the child.
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, False, stamp
@@ -147,7 +147,7 @@ class FrameTree(FrameHierarchy):
             FrameError: the frame does not exist or has no parent.
         """
         edge = self._edge_of(child)
-        self._unhang(edge)
+        self._detach(edge)
         self._seen.clear()
 
     def clear(self) -> None:

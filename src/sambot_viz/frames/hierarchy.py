@@ -1,6 +1,6 @@
-"""Which frame hangs on which, and the way between two of them.
+"""The parent of each frame, and the path between two frames.
 
-The rules are tf2's (spec/ros-nodes.md §4): one parent per frame, the latest parent
+The rules are tf2's: one parent per frame, the latest parent
 wins, a frame exists as soon as a transform names it. Unlike tf2, a ring is refused
 when it would be made.
 """
@@ -135,7 +135,7 @@ class FrameHierarchy:
             raise FrameError(f"frame '{child}' is a root: it has no parent")
         return edge
 
-    def _unhang(self, edge: Edge) -> None:
+    def _detach(self, edge: Edge) -> None:
         del self._edges[edge.child]
         del self._children[edge.parent][edge.child]
         for name in (edge.child, edge.parent):

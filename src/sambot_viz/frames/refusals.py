@@ -1,6 +1,6 @@
 """The two ways a frame can be refused: when it is asked for, and when it is set.
 
-Both carry the texts of tf2 and RViz (spec/ros-nodes.md §4.2, spec/rviz-core.md §2.3)
+Both carry the texts of tf2 and RViz
 as attributes, because displays, `echo` and the Frames panel show exactly those; the
 message of the exception itself explains more and names the frames that exist.
 """

@@ -17,7 +17,7 @@ def robot_frames(
     """A new tree with the frames of a robot.
 
     Fixed and planar joints are static, the moving ones change. A floating joint gives
-    no transform, so that what hangs below it is a tree of its own.
+    no transform, so that its descendants are a tree of their own.
 
     Args:
         robot: the robot.
@@ -67,9 +67,9 @@ def hang_robot(
 
 
 def floating_problems(robot: Robot) -> tuple[Problem, ...]:
-    """What to say about floating joints where their children are shown all the same.
+    """Warnings about floating joints, whose children are shown here but not in RViz.
 
-    ROS publishes no transform for them, and RViz then draws what hangs below in white
+    ROS publishes no transform for them, and RViz then draws the links below in white
     at the origin of the fixed frame.
     """
     return tuple(

@@ -1,7 +1,7 @@
 """The arguments of static_transform_publisher, in all the forms that tool has had.
 
-The rules and error texts are those of spec/ros-nodes.md §4.1; what those texts leave
-unsaid (the order yaw pitch roll, the period of ROS 1) is said behind them.
+Rules and error texts are those of the ROS 2 tool. A hint after them explains what they
+leave out (the order yaw pitch roll, the period of ROS 1).
 """
 
 from __future__ import annotations
@@ -58,29 +58,6 @@ class StaticTransform:
     child: str
     transform: Transform
     warnings: tuple[str, ...] = ()
-
-    def as_arguments(self) -> str:
-        """The arguments for the new form of static_transform_publisher, exact."""
-        x, y, z = self.transform.translation.tolist()
-        roll, pitch, yaw = self.transform.rpy
-        numbers = zip(
-            ("x", "y", "z", "roll", "pitch", "yaw"),
-            (x, y, z, roll, pitch, yaw),
-            strict=True,
-        )
-        words = [word for name, n in numbers for word in (f"--{name}", repr(n + 0.0))]
-        names = ["--frame-id", self.parent, "--child-frame-id", self.child]
-        return shlex.join(words + names)
-
-    def report(self) -> str:
-        """The three lines that the real tool prints when it has started."""
-        translation = ", ".join(f"'{c:f}'" for c in self.transform.translation)
-        rotation = ", ".join(f"'{c:f}'" for c in self.transform.rotation_xyzw)
-        return (
-            f"translation: ({translation})\n"
-            f"rotation: ({rotation})\n"
-            f"from '{self.parent}' to '{self.child}'"
-        )
 
 
 def parse_static_transform(arguments: str | Sequence[str]) -> StaticTransform:
@@ -249,7 +226,7 @@ def _number(text: str, label: str, warnings: list[str]) -> float:
         if _NOT_FINITE.match(text):
             return math.nan
         raise StaticTransformError(
-            f"Failed to parse {label} as float", f"'{text}' is no number"
+            f"Failed to parse {label} as float", f"'{text}' is not a number"
         )
     if found[2]:
         warnings.append(f"'{text}' is read as {found[1]}: leave '{found[2]}' out")

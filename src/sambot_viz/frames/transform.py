@@ -31,7 +31,7 @@ _LENGTH_TOLERANCE = 0.01
 """tf2 refuses quaternions whose squared length differs from 1 by more."""
 
 _GIMBAL_COSINE = 1e-9
-"""Below this cosine of the pitch, roll and yaw cannot be told apart."""
+"""Below this cosine of the pitch, roll and yaw are not distinct."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Transform:
 
     Raises:
         TransformRefused: a number that is not finite (TF_NAN_INPUT).
-        FrameError: not of shape (4, 4), or no rotation and translation.
+        FrameError: not of shape (4, 4), or not a rotation and translation.
     """
 
     matrix: Matrix
@@ -62,7 +62,7 @@ class Transform:
             rotation @ np.transpose(rotation), np.eye(3), atol=_LENGTH_TOLERANCE
         )
         if not rigid or np.linalg.det(rotation) < 0 or any(matrix[3] != (0, 0, 0, 1)):
-            raise FrameError("the matrix is no rotation followed by a translation")
+            raise FrameError("the matrix is not a rotation followed by a translation")
         matrix.flags.writeable = False
         object.__setattr__(self, "matrix", matrix)
 
@@ -71,7 +71,7 @@ class Transform:
         """Wrap a matrix that is known to be good, without copying or checking.
 
         Args:
-            matrix: (4, 4) float64, T_parent_child; nobody may change it afterwards.
+            matrix: (4, 4) float64, T_parent_child; not to be changed afterwards.
             xyzw: the same rotation as a unit quaternion, when its sign matters.
         """
         self = object.__new__(cls)
@@ -87,16 +87,6 @@ class Transform:
         return _IDENTITY
 
     @classmethod
-    def from_matrix(cls, matrix: npt.ArrayLike) -> Transform:
-        """From T_parent_child, (4, 4).
-
-        Raises:
-            TransformRefused: a number that is not finite (TF_NAN_INPUT).
-            FrameError: not of shape (4, 4), or no rotation and translation.
-        """
-        return cls(np.array(matrix, dtype=np.float64))
-
-    @classmethod
     def from_xyz_rpy(
         cls, xyz: Sequence[float] = (0, 0, 0), rpy: Sequence[float] = (0, 0, 0)
     ) -> Transform:
@@ -104,7 +94,7 @@ class Transform:
 
         Args:
             xyz: where the child's origin is in the parent.
-            rpy: R = Rz(yaw) @ Ry(pitch) @ Rx(roll), as URDF (spec/ros-nodes.md §8).
+            rpy: R = Rz(yaw) @ Ry(pitch) @ Rx(roll), as in URDF.
 
         Raises:
             TransformRefused: a number that is not finite (TF_NAN_INPUT).
@@ -160,7 +150,7 @@ class Transform:
         """Fixed-axis roll, pitch, yaw [rad], pitch within ±π/2.
 
         At a pitch of ±90° only roll − yaw (or roll + yaw) means anything: yaw is 0
-        there and roll carries all of it (spec/ros-nodes.md §8).
+        there and roll carries all of it.
         """
         (r00, r01, _, _), (r10, r11, _, _), (r20, r21, r22, _), _ = self.matrix.tolist()
         pitch_cosine = math.hypot(r21, r22)
@@ -168,12 +158,6 @@ class Transform:
         if pitch_cosine < _GIMBAL_COSINE:
             return (math.atan2(r01 if pitch > 0 else -r01, r11), pitch, 0.0)
         return (math.atan2(r21, r22), pitch, math.atan2(r10, r00))
-
-    @property
-    def rpy_deg(self) -> Vector3:
-        """Fixed-axis roll, pitch, yaw [°]."""
-        roll, pitch, yaw = self.rpy
-        return (math.degrees(roll), math.degrees(pitch), math.degrees(yaw))
 
     def inverse(self) -> Transform:
         """The pose of the parent in the child, T_child_parent."""
@@ -193,10 +177,6 @@ class Transform:
     def __hash__(self) -> int:
         # Adding 0 makes -0.0 into 0.0, so that equal transforms have equal hashes.
         return hash((self.matrix + 0.0).tobytes())
-
-    def is_close(self, other: Transform, tolerance: float = 1e-9) -> bool:
-        """Whether no entry of the two matrices differs by more than the tolerance."""
-        return bool(np.abs(self.matrix - other.matrix).max() <= tolerance)
 
     def __repr__(self) -> str:
         # Adding 0 prints -0.0 as 0.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,6 +11,7 @@ import yaml
 
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.files import write_atomically
+from sambot_viz.geometry import finite
 
 Pose = dict[str, float]
 """Joint → position [rad or m]."""
@@ -48,7 +48,7 @@ class Presets:
         """A copy of one pose.
 
         Raises:
-            JointError: there is no pose of that name.
+            JointError: an unknown pose.
         """
         if name not in self._poses:
             raise JointError(f"no pose '{name}'; {did_you_mean(name, self._poses)}")
@@ -58,22 +58,22 @@ class Presets:
         """Keep a pose under a name, in place of an older one, and write the file.
 
         Raises:
-            JointError: an empty name, a value that is no finite number, or a file that
+            JointError: an empty name, a value that is not finite, or a file that
                 cannot be written (then nothing changes).
         """
         name = name.strip()
         if not name:
             raise JointError("a pose needs a name")
         for joint, value in positions.items():
-            if not math.isfinite(value):
-                raise JointError(f"joint '{joint}' has {value!r}: no finite number")
+            if finite(value) is None:
+                raise JointError(f"joint '{joint}' has {value!r}: not a finite number")
         self._replace({**self._poses, name: dict(positions)})
 
     def remove(self, name: str) -> None:
         """Forget a pose and write the file.
 
         Raises:
-            JointError: there is no such pose, or the file cannot be written.
+            JointError: an unknown pose, or the file cannot be written.
         """
         self.get(name)
         self._replace({n: pose for n, pose in self._poses.items() if n != name})
@@ -91,27 +91,27 @@ def _load(path: Path) -> dict[str, Pose]:
         raise JointError(f"cannot read the poses in {path}: {error}") from error
     except yaml.YAMLError as error:
         reason = " ".join(str(error).split())
-        raise JointError(f"{path} is no yaml: {reason}") from error
+        raise JointError(f"{path} is not yaml: {reason}") from error
     if document is None:
         return {}
     if not isinstance(document, dict):
-        raise JointError(f"{path} holds no poses: expected 'pose: {{joint: value}}'")
+        raise JointError(f"{path} has no poses: expected 'pose: {{joint: value}}'")
     poses = cast("dict[object, object]", document)
     return {str(name): _pose(str(name), pose, path) for name, pose in poses.items()}
 
 
 def _pose(name: str, pose: object, path: Path) -> Pose:
     if not isinstance(pose, dict):
-        raise JointError(f"{path}: pose '{name}' is no list of 'joint: value'")
+        raise JointError(f"{path}: pose '{name}' is not a list of 'joint: value'")
     values: Pose = {}
     for joint, value in cast("dict[object, object]", pose).items():
-        number = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if not number or not math.isfinite(cast("float", value)):
+        number = finite(value)
+        if number is None:
             raise JointError(
-                f"{path}: pose '{name}' has {value!r} for joint '{joint}', which is no "
-                "finite number"
+                f"{path}: pose '{name}' has {value!r} for joint '{joint}', which is "
+                "not a finite number"
             )
-        values[str(joint)] = float(cast("float", value))
+        values[str(joint)] = number
     return values
 
 

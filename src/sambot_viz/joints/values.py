@@ -10,6 +10,7 @@ from typing import cast
 import yaml
 
 from sambot_viz.errors import JointError, UsageError
+from sambot_viz.geometry import finite
 
 
 def parse_assignments(texts: Iterable[str], option: str) -> dict[str, float]:
@@ -42,7 +43,9 @@ def _argument(text: str, label: str) -> float:
     except ValueError:
         number = math.nan
     if not math.isfinite(number):
-        raise UsageError(f"{label}: '{text}' is no finite number of radians or metres")
+        raise UsageError(
+            f"{label}: '{text}' is not a finite number of radians or metres"
+        )
     return number
 
 
@@ -64,10 +67,10 @@ def load_joint_state(path: Path) -> dict[str, float]:
     except (OSError, UnicodeDecodeError) as error:
         raise JointError(f"cannot read {path}: {_reason(error)}") from error
     except yaml.YAMLError as error:
-        raise JointError(f"{path} is no yaml: {_one_line(error)}") from error
+        raise JointError(f"{path} is not yaml: {_one_line(error)}") from error
     if not isinstance(document, dict):
         raise JointError(
-            f"{path} holds no joint state: expected the lists 'name' and 'position', "
+            f"{path} is not a joint state: expected the lists 'name' and 'position', "
             "or one 'joint: value' per line"
         )
     mapping = cast("dict[object, object]", document)
@@ -87,16 +90,18 @@ def _paired(message: dict[object, object], path: Path) -> dict[object, object]:
         )
     paired: dict[object, object] = {}
     for name, position in zip(names, cast("list[object]", positions), strict=True):
-        # robot_state_publisher takes the first of a name that stands there twice.
+        # robot_state_publisher takes the first of two values with one name.
         paired.setdefault(name, position)
     return paired
 
 
 def _value(name: object, value: object, path: Path) -> float:
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        if math.isfinite(value):
-            return float(value)
-    raise JointError(f"{path}: joint '{name}' has {value!r}, which is no finite number")
+    number = finite(value)
+    if number is not None:
+        return number
+    raise JointError(
+        f"{path}: joint '{name}' has {value!r}, which is not a finite number"
+    )
 
 
 def as_yaml(positions: Mapping[str, float]) -> str:
@@ -109,7 +114,7 @@ def as_yaml(positions: Mapping[str, float]) -> str:
 def as_topic_pub(positions: Mapping[str, float], topic: str = "/joint_states") -> str:
     """The shell command that publishes the positions once, with the time of then.
 
-    robot_state_publisher drops messages with the stamp 0 (spec/ros-nodes.md §3.3), so
+    robot_state_publisher drops messages with the stamp 0 , so
     the header asks for the present time.
     """
     names = ", ".join(_word(name) for name in positions)

@@ -1,4 +1,4 @@
-"""The Frames panel: how one frame stands to another, and static transforms by hand."""
+"""The Frames panel: the pose of one frame in another, and added static transforms."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NONE_ADDED = "none"
 
 
 class FramesPanel:
-    """See the module.
+    """Shows look-ups of a session, and adds and removes static transforms.
 
     Args:
         session: whose frames these are.
@@ -170,7 +170,7 @@ class FramesPanel:
 
 
 def answer_html(found: Explanation) -> str:
-    """The chain hop by hop and the product; or why there is none."""
+    """The chain step by step and the product; or why there is none."""
     if found.transform is None:
         tf2_text = html_text(found.refused.tf2_text) if found.refused else ""
         return (

@@ -1,7 +1,7 @@
-"""The Joints panel: what joint_state_publisher_gui shows (spec/ros-nodes.md §2).
+"""The Joints panel: what joint_state_publisher_gui shows.
 
-Unlike there, typed values are exact, and joints that follow, are over a limit or have
-no position are told.
+Unlike there, typed values are exact, and a note names joints that mimic others, are
+over a limit or have no position.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from sambot_viz.text import text
 
 MIRROR_PERIOD = 0.2
 """Sliders follow positions set by a program this often [s]: moving fifty sliders
-thirty times a second keeps a browser busy to the full (spec/viser.md §3c)."""
+thirty times a second uses all of a browser thread."""
 SEARCH_PAST = 12
 MOST_ROWS = 40
 """More sliders than this make the page slow; the search finds the others."""
@@ -69,7 +69,7 @@ class JointsPanel:
         self._build()
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Stop listening to the session."""
         self._session.listeners.remove(self._hear)
         self._mirror.close()
 
@@ -238,7 +238,7 @@ class JointsPanel:
             motion.turn(name, 0.0 if motion.turns(name) else self._rate)
 
     def _show_positions(self) -> None:
-        """Bring the sliders in line with the positions."""
+        """Show the positions of the joints on the sliders."""
         with self._session.lock:
             joints = self._session.joints
             if joints is None:
@@ -283,7 +283,7 @@ def _seed(value: object) -> str:
 
 
 def _mark(value: float) -> str:
-    """The text below an end of a slider: multiples of π as such."""
+    """The text below an end of a slider: π instead of 3.14."""
     if math.isclose(abs(value), math.pi):
         return "π" if value > 0 else "−π"
     return f"{value:.3g}".replace("-", "−")

@@ -1,4 +1,4 @@
-"""Where the panels stand: Displays at the left, the others as tabs at the right."""
+"""The places of the panels: Displays at the left, the others as tabs at the right."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Tab:
     """A tab at the right.
 
     Attributes:
-        title: what stands on it.
+        title: its label.
         make: makes the panel that fills it.
         for_joints: left out by ``--no-gui``.
     """

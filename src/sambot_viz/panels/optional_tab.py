@@ -23,7 +23,7 @@ class OptionalTab:
     Args:
         session: whose robot it is.
         panel: where the tab is added.
-        title: what stands on it.
+        title: its label.
         make: fills the tab.
         wanted: whether the session's robot has use for it.
     """

@@ -81,7 +81,7 @@ class ToolControl:
         """The tool of a class id.
 
         Raises:
-            UsageError: there is no such tool.
+            UsageError: an unknown tool.
         """
         for tool in self.tools:
             if tool.kind == kind:
@@ -92,7 +92,7 @@ class ToolControl:
         """Make a tool current, whichever was before.
 
         Raises:
-            UsageError: there is no such tool.
+            UsageError: an unknown tool.
         """
         with self._session.change("tools"):
             self._switch(self.tool(kind))
@@ -103,7 +103,7 @@ class ToolControl:
         As in RViz, Select keeps all keys: only its own key and Esc leave it.
 
         Raises:
-            UsageError: there is no such tool.
+            UsageError: an unknown tool.
         """
         if self.current.kind == kind:
             self.finish()
@@ -142,7 +142,7 @@ class ToolControl:
         """Set a property of a tool that the document lists.
 
         Raises:
-            UsageError: there is no such tool, or the document does not list it.
+            UsageError: an unknown tool, or the document does not list it.
         """
         with self._session.change("tools"):
             tool = self.tool(kind)

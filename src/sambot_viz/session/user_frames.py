@@ -52,7 +52,7 @@ class UserFrames:
 
         Raises:
             TransformRefused: an empty name, or parent and child are the same.
-            CycleRefused: the parent hangs below the child.
+            CycleRefused: the parent is a descendant of the child.
         """
         set_it = self._tree.set_static if static else self._tree.set
         set_it(parent, child, transform)
@@ -60,13 +60,13 @@ class UserFrames:
         self._added[plain_name(child)] = added
 
     def moved(self, child: str, transform: Transform) -> None:
-        """Remember the value that an added frame has in the tree by now."""
+        """Remember the pose that an added frame now has in the tree."""
         added = self._added.get(child)
         if added is not None:
             self._added[child] = UserFrame(added.parent, transform, added.static)
 
     def forget(self, child: str) -> None:
-        """Take one out of the list and, where it still hangs there, out of the tree.
+        """Forget an added frame; remove it from the tree if its parent is unchanged.
 
         Raises:
             FrameError: that frame was not added.

@@ -137,7 +137,7 @@ class ViewControl:
         """Choose a type of view; the new one takes over what the old one showed.
 
         Raises:
-            UsageError: there is no such type.
+            UsageError: an unknown type.
         """
         if kind not in VIEWS:
             known = ", ".join(VIEWS)

@@ -79,7 +79,7 @@ class Worker(threading.Thread):
 
         The values of widgets are set there: a browser may be setting the same one.
         """
-        # A loop that has stopped already has nobody to show anything to.
+        # A loop that has stopped already has no browsers.
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(action)
 
@@ -137,5 +137,5 @@ class Worker(threading.Thread):
 
 
 def log_error(error: Exception) -> None:
-    """Write an exception that nobody expected to the log, with its traceback."""
+    """Log an unexpected exception, with its traceback."""
     logging.getLogger("sambot_viz").error("internal error: %s", error, exc_info=error)

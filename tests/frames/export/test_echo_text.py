@@ -1,4 +1,4 @@
-"""What tf2_echo prints (spec/ros-nodes.md §4.2)."""
+"""What tf2_echo prints."""
 
 from __future__ import annotations
 

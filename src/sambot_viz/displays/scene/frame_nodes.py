@@ -1,6 +1,6 @@
 """Frames are the scene tree: one viser frame node per TF frame, under its parent's.
 
-Everything that is drawn at a frame hangs below its node, so a joint that moves is
+Everything drawn at a frame is a child of its node, so a joint that moves is
 one message, whatever the size of the robot. The node of a root frame carries the fixed
 frame: its pose is T_fixed_root.
 """

@@ -1,4 +1,4 @@
-"""Positions as viser may have them: finite, whatever a model says."""
+"""Positions for viser: always finite, whatever a model contains."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ def position_of(T: Matrix) -> Vector3:
     """The translation of a (4, 4) matrix [m], always finite.
 
     viser keeps what it is given for every browser that comes later, so this is the
-    last place where an absurd number can be stopped (DESIGN §4.5).
+    last place where an absurd number can be stopped.
     """
     return (_shown(T[0, 3]), _shown(T[1, 3]), _shown(T[2, 3]))
 

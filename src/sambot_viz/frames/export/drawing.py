@@ -1,6 +1,6 @@
 """The tree of frames as DOT and as JSON, and what is written at its edges.
 
-The form of the graph is view_frames' (spec/ros-nodes.md §4.4), with what that leaves
+The form of the graph is view_frames' as of ROS 2, with what that leaves
 out: joint name and type, xyz and rpy.
 """
 
@@ -16,7 +16,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.text import text
 
 NO_DATA = "No tf data received"
-"""What view_frames draws when there is no frame."""
+"""What view_frames draws without frames."""
 
 
 class EdgeJson(TypedDict):

@@ -1,4 +1,4 @@
-"""A transform as tf2_echo prints it, and as JSON (spec/ros-nodes.md §4.2)."""
+"""A transform as tf2_echo prints it, and as JSON."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _listed(numbers: list[float] | tuple[float, ...]) -> str:
 
 def _time(seconds: float) -> str:
     """Seconds, a dot, nanoseconds without zero padding: tf2_echo's own way."""
-    # A float of today's epoch cannot tell microseconds apart any better.
+    # A float of today's epoch has no better resolution than microseconds.
     nanoseconds = round(seconds * 1_000_000) * 1000
     whole, rest = divmod(nanoseconds, 1_000_000_000)
     return f"{whole}.{rest}"

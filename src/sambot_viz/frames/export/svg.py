@@ -16,7 +16,7 @@ _BOX = 28.0
 _LINK = 46.0
 _GAP = 18.0
 _MARGIN = 20.0
-# Every rule begins with the picture's own class, so that the picture can stand in a
+# Every rule begins with the picture's own class, so that the picture can be part of a
 # page without changing it.
 _STYLE = """\
 .tf-tree text { font: 12px "DejaVu Sans", Verdana, sans-serif; text-anchor: middle }
@@ -123,7 +123,7 @@ class _Drawing:
         bend = (y0 + label) / 2
         kind = ' class="static"' if hop.static else ""
         lines = self._lines[frame]
-        # Short labels stand at the lower end of the space for labels.
+        # Short labels are at the lower end of the space for labels.
         first = y1 - 16 - _LINE * (len(lines) - 1)
         width = max(map(_text_width, lines)) - 8
         texts = "".join(

@@ -1,6 +1,6 @@
-"""Where the boxes of a drawn tree stand: a tidy tree from top to bottom.
+"""The positions of boxes in a drawing of a tree: a tidy tree from top to bottom.
 
-Children stand side by side under the middle of their parent, as near to each other as
+Children are side by side under the middle of their parent, as near to each other as
 the widths of whole subtrees allow; no two boxes of one depth overlap.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class BoxPlace:
-    """Where a node stands: the middle of its box, and its depth from 0."""
+    """The position of a node: the middle of its box, and its depth from 0."""
 
     x: float
     depth: int
