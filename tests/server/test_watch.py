@@ -189,7 +189,9 @@ class Followed:
             watch=True,
             on_reload=lambda problems: self.reports.put(tuple(problems)),
         )
-        self._told = threading.Condition()
+        # The lock of the session: its listeners are called with it, and what tests
+        # wait for needs it. Two locks would be taken in both orders.
+        self._told = threading.Condition(self.session.lock)
         self.session.listeners.append(self._hear)
 
     @property
