@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable
-from concurrent.futures import Future, InvalidStateError
+from concurrent.futures import Future, InvalidStateError, wait
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -80,6 +80,14 @@ class Inputs:
             KeyboardInterrupt: after `give_up`.
         """
         return self._robot.result()
+
+    def wait(self, timeout: float) -> bool:
+        """Wait for the robot to be loaded, or refused, at most so long [s].
+
+        Returns:
+            Whether `robot` answers at once now.
+        """
+        return bool(wait([self._robot], timeout).done)
 
     def give_up(self) -> None:
         """Make `robot` raise KeyboardInterrupt for whoever waits for it.

@@ -29,6 +29,9 @@ from sambot_viz.session.frame_view import FrameView
 
 _P = ParamSpec("_P")
 
+PANELS_WITHOUT_ROBOT = 1.0
+"""The page gets its panels before the robot when a model takes longer to load [s]."""
+
 
 def _takes_the_keywords_of(
     options: Callable[_P, Options],
@@ -107,10 +110,13 @@ class Visualizer:
             options, documents, models, listening, Presets(inputs.poses)
         )
         try:
+            if not inputs.wait(PANELS_WITHOUT_ROBOT):
+                self._server.show_panels()
             robot = inputs.robot()
             if inputs.takes_bundled_config and options.fixed_frame is None:
                 _fit_fixed_frame(document, robot)
             self._server.show_robot(robot)
+            self._server.show_panels()
             if options.watch:
                 self._reloader = Reloader(
                     self._server,

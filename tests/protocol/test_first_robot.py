@@ -114,3 +114,11 @@ def test_a_browser_that_comes_later_sees_the_present_state(
     viz.set_joint_positions({JOINT: 0.75})
     late = join()
     late.wait_until(lambda: late.value_of(JOINT) == pytest.approx(0.75))
+
+
+def test_the_robot_is_sent_before_the_panels(
+    join: Callable[[], ProtocolClient],
+) -> None:
+    types = [message.type for message in join().messages]
+    assert types.index("BoxMessage") < types.index("GuiSliderMessage")
+    assert types.index("CylinderMessage") < types.index("GuiCheckboxMessage")

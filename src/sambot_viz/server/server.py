@@ -72,7 +72,7 @@ class Server:
         self._robot: Robot | None = None
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self._advice: dict[Session, CheckResults] = {}
-        self._private: dict[int, tuple[Session, Layout | None]] = {}
+        self._private: dict[int, Session] = {}
         self._workers: dict[int | None, Worker] = {}
         self._viser = listening or listen(
             options.host, options.port, options.allowed_origins
@@ -81,10 +81,10 @@ class Server:
         guard(self._viser)
         Layout.prepare_page(self._viser)
         self.shared: Session | None = None
-        self._layout: Layout | None = None
+        self._layouts: dict[Session, Layout] = {}
         if options.session == "shared":
             try:
-                self.shared, self._layout = self._open(self._viser, self._worker(None))
+                self.shared = self._open(self._viser, self._worker(None))
             except BaseException:
                 self.stop()
                 raise
@@ -109,7 +109,7 @@ class Server:
     def sessions(self) -> list[Session]:
         """All sessions there are at the moment."""
         with self._lock:
-            private = [session for session, _ in self._private.values()]
+            private = list(self._private.values())
         return [*private] if self.shared is None else [self.shared, *private]
 
     def for_each_session(self, action: Callable[[Session], object]) -> None:
@@ -136,6 +136,21 @@ class Server:
         finally:
             self._forget_unused_files()
             self.for_each_session(self._check)
+
+    def show_panels(self) -> None:
+        """Add the panels to the shared session, unless it has them or is to have none.
+
+        Call it after `show_robot`: a browser draws what it receives in order, and the
+        panels take it longer than the robot.
+        """
+        if self.shared is not None:
+            self._add_panels(self.shared)
+
+    def _add_panels(self, session: Session) -> None:
+        # A model that is being read may change the displays while panels are made.
+        with session.lock:
+            if self.options.panels and session not in self._layouts:
+                self._layouts[session] = Layout(session, joints=self.options.gui)
 
     def _check(self, session: Session) -> None:
         advice = self._advice.get(session)
@@ -221,7 +236,7 @@ class Server:
         _run_what_waits(self._viser.get_event_loop())
         close(self._viser)
 
-    def _open(self, audience: object, worker: Worker) -> tuple[Session, Layout | None]:
+    def _open(self, audience: object, worker: Worker) -> Session:
         session = Session(
             cast(Audience, audience),
             worker,
@@ -239,11 +254,7 @@ class Server:
             worker.post(advice.give)
         for of, problems in self._reload_problems.items():
             session.problems.set_saves(of, problems)
-        if not self.options.panels:
-            return session, None
-        # A model that is being read may change the displays while panels are made.
-        with session.lock:
-            return session, Layout(session, joints=self.options.gui)
+        return session
 
     async def _join(self, client: viser.ClientHandle) -> None:
         viser_private.allow_late_messages(client)
@@ -275,15 +286,15 @@ class Server:
         if client.client_id not in self._workers:
             # It has left already.
             return
-        opened = self._open(client, worker)
+        session = self._open(client, worker)
         with self._lock:
-            self._private[client.client_id] = opened
+            self._private[client.client_id] = session
             robot, problems = self._robot, dict(self._reload_problems)
-        session = opened[0]
         if robot is not None and robot is not session.robot:
             session.show_robot(robot)
         for of, found in problems.items():
             session.problems.set_saves(of, found)
+        self._add_panels(session)
         self._give_view(session, client)
 
     async def _leave(self, client: viser.ClientHandle) -> None:
@@ -297,10 +308,10 @@ class Server:
 
     def _close_private(self, client_id: int, worker: Worker) -> None:
         with self._lock:
-            opened = self._private.pop(client_id, None)
-        if opened is not None:
-            session, layout = opened
+            session = self._private.pop(client_id, None)
+        if session is not None:
             self._advice.pop(session, None)
+            layout = self._layouts.pop(session, None)
             if layout is not None:
                 layout.close()
             session.close()
