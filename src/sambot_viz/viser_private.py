@@ -242,6 +242,6 @@ def quiet_websockets() -> None:
     """Keep the tracebacks of half-open connections off the terminal.
 
     Browsers open connections on speculation and drop them; the websockets library
-    logs each as an error with a traceback. A dropped connection harms nobody here.
+    logs each as an error with a traceback. A dropped connection does no harm here.
     """
     logging.getLogger("websockets.server").setLevel(logging.CRITICAL)

@@ -1,4 +1,4 @@
-"""From the command to the page, and to the robot's first pixels (issue 2)."""
+"""From the command to the page, and to the robot's first pixels."""
 
 from __future__ import annotations
 

@@ -14,9 +14,9 @@ from sambot_viz.robot.model import Robot
 def test_the_hops_lead_from_the_source_to_the_target(robot: Robot) -> None:
     found = explain(robot_frames(robot), "wheel", "lamp", robot)
     assert [hop.words for hop in found.hops] == [
-        "lamp hangs on mast (fixed joint lamp_joint)",
-        "mast hangs on base_link (fixed joint mast_joint)",
-        "base_link carries wheel (continuous joint wheel_joint)",
+        "lamp is a child of mast (fixed joint lamp_joint)",
+        "mast is a child of base_link (fixed joint mast_joint)",
+        "base_link is the parent of wheel (continuous joint wheel_joint)",
     ]
     assert [(hop.start, hop.end, hop.static) for hop in found.hops] == [
         ("lamp", "mast", True),
@@ -44,8 +44,8 @@ def test_a_transform_without_a_joint_is_named_for_what_it_is(robot: Robot) -> No
     found = explain(tree, "/odom", "/base_laser", robot)
     assert (found.target, found.source) == ("odom", "base_laser")
     assert [hop.words for hop in found.hops] == [
-        "base_laser hangs on base_link (static transform)",
-        "base_link hangs on odom (transform)",
+        "base_laser is a child of base_link (static transform)",
+        "base_link is a child of odom (transform)",
     ]
 
 
@@ -84,7 +84,7 @@ def test_a_floating_joint_is_the_reason_for_what_hangs_below_it(
     robot: Robot, target: str, source: str
 ) -> None:
     assert explain(robot_frames(robot), target, source, robot).reason == (
-        "'flag' hangs below 'buoy', which is held by the floating joint 'buoy_joint', "
+        "'flag' is below 'buoy', which is held by the floating joint 'buoy_joint', "
         "and ROS publishes no transform for it; something else has to say where "
         "'buoy' is in 'base_link'"
     )

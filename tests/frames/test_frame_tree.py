@@ -141,7 +141,7 @@ def test_a_ring_is_refused_with_the_ring(tree: FrameTree) -> None:
         tree.set("base_laser", "odom", at())
     assert caught.value.ring == ("base_laser", "odom", "base_link", "base_laser")
     assert str(caught.value) == (
-        "'base_laser' cannot be the parent of 'odom', because it already hangs below "
+        "'base_laser' cannot be the parent of 'odom', because it is already below "
         "it and the frames would form a ring: base_laser → odom → base_link → "
         "base_laser; turn the transform round or take the other one out"
     )

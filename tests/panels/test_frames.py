@@ -48,8 +48,8 @@ def test_the_answer_has_every_hop_and_the_product_in_four_forms() -> None:
     tree.set_static("base_link", "mast", Transform.from_xyz_rpy((0, 0, 1), (0, 0, 0)))
     tree.set("mast", "laser", Transform.from_xyz_rpy((1, 0, 0), (0, 0, 0.5)))
     html = answer_html(explain(tree, "base_link", "laser"))
-    assert "laser hangs on mast (transform)" in html
-    assert "mast hangs on base_link (static transform)" in html
+    assert "laser is a child of mast (transform)" in html
+    assert "mast is a child of base_link (static transform)" in html
     assert "<td>1.0000 0.0000 1.0000</td>" in html
     assert "<td>0.0000 0.0000 28.648</td>" in html or "28.648" in html
     assert "0.2474" in html

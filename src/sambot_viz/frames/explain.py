@@ -36,7 +36,7 @@ class ExplainedHop:
 
     @property
     def words(self) -> str:
-        """The step in words: "wheel hangs on base_link (continuous joint j)"."""
+        """The step in words: "wheel is a child of base_link (continuous joint j)"."""
         if self.joint_type == "floating":
             by = (
                 f"floating joint {self.joint}: shown at its origin, ROS publishes no "
@@ -46,7 +46,7 @@ class ExplainedHop:
             by = f"{self.joint_type} joint {self.joint}"
         else:
             by = "static transform" if self.static else "transform"
-        relation = "hangs on" if self.up else "carries"
+        relation = "is a child of" if self.up else "is the parent of"
         return f"{self.start} {relation} {self.end} ({by})"
 
 
@@ -146,7 +146,7 @@ def _floating_above(frame: str, robot: Robot | None) -> Joint | None:
 
 
 def _cut_off(frame: str, joint: Joint) -> str:
-    below = "is" if frame == joint.child else f"hangs below '{joint.child}', which is"
+    below = "is" if frame == joint.child else f"is below '{joint.child}', which is"
     return (
         f"'{frame}' {below} held by the floating joint '{joint.name}', and ROS "
         f"publishes no transform for it; something else has to say where "

@@ -1,8 +1,8 @@
 """The two ways a frame can be refused: when it is asked for, and when it is set.
 
-Both carry the texts of tf2 and RViz
-as attributes, because displays, `echo` and the Frames panel show exactly those; the
-message of the exception itself explains more and names the frames that exist.
+Both have the texts of tf2 and RViz as attributes, because displays, `echo` and the
+Frames panel show exactly those; the message of the exception itself explains more and
+names the frames that exist.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class TransformRefused(FrameError):
 
 
 class CycleRefused(FrameError):
-    """A parent that hangs below its own child.
+    """A parent that is below its own child.
 
     tf2 takes such a transform and fails at every later look-up.
 
@@ -50,8 +50,8 @@ class CycleRefused(FrameError):
     def __init__(self, ring: tuple[str, ...]) -> None:
         self.ring = ring
         super().__init__(
-            f"'{ring[0]}' cannot be the parent of '{ring[1]}', because it already "
-            f"hangs below it and the frames would form a ring: {' → '.join(ring)}; "
+            f"'{ring[0]}' cannot be the parent of '{ring[1]}', because it is "
+            f"already below it and the frames would form a ring: {' → '.join(ring)}; "
             "turn the transform round or take the other one out"
         )
 

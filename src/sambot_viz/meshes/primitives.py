@@ -65,7 +65,7 @@ def unit_box() -> Primitive:
 def unit_cylinder() -> Primitive:
     """A 16-sided cylinder along z: radius 0.5 at the edges, z from −0.5 to 0.5.
 
-    The edges stand at 0°, 22.5°, … from x, so the sides face 11.25° + k · 22.5°.
+    The edges are at 0°, 22.5°, … from x, so the sides face 11.25° + k · 22.5°.
     """
     ring = _ring()
     half = np.array([0.0, 0.0, 0.5])

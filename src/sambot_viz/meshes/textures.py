@@ -117,7 +117,7 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
 def _ready(image: Image, data: bytes) -> bool:
     """Whether a browser shows these bytes as they are; raises when they are broken.
 
-    The check sums of a PNG and the end mark of a JPEG tell a file that was cut off
+    The check sums of a PNG and the end mark of a JPEG show whether a file was cut off,
     without the time that decoding takes.
     """
     if image.format == "PNG":

@@ -1,4 +1,4 @@
-"""The line that is there while mesh files are being read."""
+"""The line that shows how many mesh files are still being read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from sambot_viz.session import Event, Session
 class ProgressLine:
     """How many mesh files and textures of how many have been read.
 
-    It stands in the current container of the session's GUI, and is only there while
+    It is in the current container of the session's GUI, and is only there while
     something is still being read.
     """
 

@@ -38,7 +38,7 @@ NO_SAVED = "none yet"
 
 
 class ViewsPanel:
-    """See the module.
+    """The type of the view, its numbers, and the saved views of one session.
 
     Args:
         session: whose view this is.

@@ -71,7 +71,7 @@ class Server:
         self._joined = threading.Condition()
         self._robot: Robot | None = None
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
-        self._advice: dict[Session, CheckResults] = {}
+        self._checks: dict[Session, CheckResults] = {}
         self._private: dict[int, Session] = {}
         self._workers: dict[int | None, Worker] = {}
         self._viser = listening or listen(
@@ -153,9 +153,9 @@ class Server:
                 self._layouts[session] = Layout(session, joints=self.options.gui)
 
     def _check(self, session: Session) -> None:
-        advice = self._advice.get(session)
-        if advice is not None:
-            advice.give()
+        checks = self._checks.get(session)
+        if checks is not None:
+            checks.give()
 
     def refresh(self) -> None:
         """Draw again what comes from mesh files and textures that have changed."""
@@ -248,10 +248,10 @@ class Server:
             self._poses if audience is self._viser else self._poses.in_memory(),
         )
         session.show_config()
-        advice = self._advice[session] = CheckResults(session)
+        checks = self._checks[session] = CheckResults(session)
         if self._robot is not None:
             session.show_robot(self._robot)
-            worker.post(advice.give)
+            worker.post(checks.give)
         for of, problems in self._reload_problems.items():
             session.problems.set_saves(of, problems)
         return session
@@ -310,7 +310,7 @@ class Server:
         with self._lock:
             session = self._private.pop(client_id, None)
         if session is not None:
-            self._advice.pop(session, None)
+            self._checks.pop(session, None)
             layout = self._layouts.pop(session, None)
             if layout is not None:
                 layout.close()

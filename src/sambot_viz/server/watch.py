@@ -187,5 +187,5 @@ def _saved_since(now: Stamp | None, since: int) -> bool:
 
 
 def _is_empty(found: Stamp | None) -> bool:
-    """Whether there is no file, or nothing in it."""
+    """Whether a file is missing or empty."""
     return found is None or found[1] == 0

@@ -103,7 +103,7 @@ def _import_path() -> list[str]:
 def _run_child(job: Mapping[str, Any], limits: Limits) -> dict[str, Any]:
     own = {name: os.environ[name] for name in ("SYSTEMROOT",) if name in os.environ}
     order = json.dumps(job).encode()
-    # EOF on this pipe tells the child that this process has died, so it exits too.
+    # The child reads EOF from this pipe when this process has died, and exits too.
     # Therefore the pipe stays open until the answer is there; `communicate` would
     # close it earlier.
     read_end, lifeline = os.pipe()
