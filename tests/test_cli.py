@@ -25,14 +25,19 @@ Capture = pytest.CaptureFixture[str]
 @contextmanager
 def running(*words: str, cwd: Path | None = None) -> Iterator[subprocess.Popen[str]]:
     """The program as a user starts it, ended by its own handle."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "sambot_viz", *words],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=cwd,
-        env={**os.environ, "PYTHONIOENCODING": "utf-8"},
-    )
+    # A job in the background of a script ignores Ctrl-C, and would pass that on.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "sambot_viz", *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=cwd,
+            env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)
     try:
         yield process
     finally:

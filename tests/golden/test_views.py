@@ -61,7 +61,7 @@ def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> Non
     golden = np.asarray(Image.open(folder / "render.png").convert("RGB"), np.int16)
     height, width, _ = golden.shape
     options = Options(port=0, panels=False)
-    server = Server(options, lambda: load_config(folder / "config.rviz"), load_robot)
+    server = Server(options, lambda: load_config(folder / "config.rviz"))
     try:
         server.show_robot(load_robot(DATA / "view_robot.urdf"))
         session = server.shared
