@@ -119,6 +119,6 @@ def test_without_the_fixed_frame_no_heap_of_axes_is_drawn(
 ) -> None:
     session = tf(fixed="nowhere")
     assert drawn(session, nodes) == set()
-    assert session.picture.global_status().text == "Frame [nowhere] does not exist"
+    assert session.drawn.global_status().text == "Frame [nowhere] does not exist"
     session.set_global("Fixed Frame", "base")
     assert drawn(session, nodes) == {"base", "upper", "tool"}

@@ -92,7 +92,7 @@ def _exit_on_sigterm() -> Generator[None]:
 
 def _report_fixed_frame(session: Session) -> None:
     """Warn when the fixed frame does not exist, because the picture is empty then."""
-    status = session.picture.global_status()
+    status = session.drawn.global_status()
     if status.level != "Ok":
         frames = ", ".join(session.tree.frames) or "none"
         warn(f"Fixed Frame: {status.text}; existing frames: {frames}")

@@ -128,7 +128,7 @@ class DisplaysPanel:
         for row in self._rows:
             row.write_status()
         if self._statuses is not None:
-            status = self._session.picture.global_status()
+            status = self._session.drawn.global_status()
             lines = [
                 status_html("Global Status", status.level, {"Fixed Frame": status})
             ]

@@ -19,7 +19,7 @@ class _Message(msgspec.Struct, tag_field="type", forbid_unknown_fields=True):
     """A message that a browser may send."""
 
 
-class Camera(_Message, tag="ViewerCameraMessage"):
+class CameraMoved(_Message, tag="ViewerCameraMessage"):
     """Where a browser's camera is."""
 
     wxyz: tuple[_Number, _Number, _Number, _Number]
@@ -65,14 +65,14 @@ class Point(_Message, tag="ScenePointerMessage"):
     modifier: _Id | None
 
 
-class Picture(_Message, tag="GetRenderResponseMessage"):
+class PictureDrawn(_Message, tag="GetRenderResponseMessage"):
     """The picture that the server has asked this browser for."""
 
     payload: bytes
     render_uuid: _Id
 
 
-BrowserMessage = Camera | SetValue | HoldButton | RunCommand | Point | Picture
+BrowserMessage = CameraMoved | SetValue | HoldButton | RunCommand | Point | PictureDrawn
 _DECODER = msgspec.msgpack.Decoder(BrowserMessage)
 
 

@@ -31,9 +31,9 @@ from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
 from sambot_viz.server.browser_messages import (
-    Camera,
+    CameraMoved,
     HoldButton,
-    Picture,
+    PictureDrawn,
     Point,
     SetValue,
     decode,
@@ -111,7 +111,7 @@ class Door:
         message = decode(raw) if isinstance(raw, bytes) else None
         if message is None:
             return "not one of the messages that a page of this server sends"
-        if isinstance(message, Camera):
+        if isinstance(message, CameraMoved):
             self._known = True
             return None
         if not self._known:
@@ -122,7 +122,7 @@ class Door:
             return "a button that cannot be pressed"
         if isinstance(message, Point):
             return _reason_against_gesture(message)
-        if isinstance(message, Picture):
+        if isinstance(message, PictureDrawn):
             expected = viser_private.awaits_picture(self._server, self._client_id)
             return None if expected else "a picture that was not asked for"
         return None

@@ -4,7 +4,7 @@
 robot's state, frames that users add, motion and driving, views, tools, problems.
 """
 
-from sambot_viz.session.picture import walk
+from sambot_viz.session.drawn_scene import walk
 from sambot_viz.session.problem_list import Reloaded
 from sambot_viz.session.session import Session
 from sambot_viz.session.shared_state import Audience, Event

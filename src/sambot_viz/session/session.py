@@ -26,8 +26,8 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.drawn_scene import DrawnScene
 from sambot_viz.session.motion import Motion
-from sambot_viz.session.picture import Picture
 from sambot_viz.session.problem_list import ProblemList
 from sambot_viz.session.robot_state import RobotState
 from sambot_viz.session.shared_state import Audience, SharedState
@@ -83,7 +83,7 @@ class Session(SharedState):
             models=models,
             apply=self._apply,
         )
-        self.picture = Picture(self.context, config)
+        self.drawn = DrawnScene(self.context, config)
         self._pacer = Throttle(worker, self.period, self._draw_moved)
         self.views = ViewControl(self)
         self.motion = Motion(self)
@@ -94,17 +94,17 @@ class Session(SharedState):
     @property
     def config(self) -> RvizConfig:
         """The document that is shown."""
-        return self.picture.config
+        return self.drawn.config
 
     @property
     def displays(self) -> list[Display]:
         """The supported displays of the document, in its order."""
-        return self.picture.displays
+        return self.drawn.displays
 
     @property
     def period(self) -> float:
         """Shortest time between two pictures of a stream [s]."""
-        return self.picture.period
+        return self.drawn.period
 
     @property
     def robot(self) -> Robot | None:
@@ -119,12 +119,12 @@ class Session(SharedState):
     def show_config(self) -> None:
         """Make the displays of the document and draw them; existing ones are kept."""
         with self.change("config"):
-            self.picture.make_displays()
+            self.drawn.make_displays()
 
     def set_config(self, config: RvizConfig) -> None:
         """Show another document: its displays and options; cameras stay."""
         with self.change():
-            self.picture.take_config(config)
+            self.drawn.take_config(config)
             self._pacer.period = self.period
             self.context.nodes.sync(self.tree, self.context.fixed_frame)
             self.show_config()
@@ -139,8 +139,8 @@ class Session(SharedState):
             self.motion.drive.take(robot)
             refused = self._posed.build_tree()
             self.context.moving = self._posed.moving
-            self.picture.publish()
-            self.picture.take_options()
+            self.drawn.publish()
+            self.drawn.take_options()
             wheels = self.motion.drive.problems
             self.problems.of_frames = (*floating_problems(robot), *refused, *wheels)
             of_joints = self.joints.problems if self.joints else ()
@@ -209,13 +209,13 @@ class Session(SharedState):
             self._posed.forget_pose(child)
             # A joint of the robot may hold that frame again.
             self._posed.build_tree()
-            self.picture.publish()
+            self.drawn.publish()
             self._frames_changed()
 
     def set_global(self, name: str, value: Any) -> None:
         """Set one of the Global Options."""
         with self.change("config"):
-            fixed_frame_changed = self.picture.set_option(name, value)
+            fixed_frame_changed = self.drawn.set_option(name, value)
             self._pacer.period = self.period
             if fixed_frame_changed:
                 self._frames_changed()
@@ -241,7 +241,7 @@ class Session(SharedState):
         """Enable or disable a display."""
         with self.change("status"):
             display.config.set_enabled(enabled)
-            self.picture.apply_enabled()
+            self.drawn.apply_enabled()
 
     def refresh(self) -> None:
         """Draw what has changed in the files; what has not is not sent again."""
@@ -252,7 +252,7 @@ class Session(SharedState):
     def files_saved(self, files: Set[Path]) -> None:
         """Read again the robots that displays have from some of these files."""
         with self.change("status"):
-            self.picture.read_again(files)
+            self.drawn.read_again(files)
 
     def _apply(self, action: Callable[[], None]) -> None:
         with self.change("config", "status"):
@@ -260,7 +260,7 @@ class Session(SharedState):
 
     def _assets_read(self) -> None:
         with self.change("status"):
-            self.picture.assets_read()
+            self.drawn.assets_read()
 
     def close(self) -> None:
         """Send nothing any more."""
@@ -278,21 +278,21 @@ class Session(SharedState):
             if not frames:
                 return
             with self.audience.atomic():
-                self.picture.place(frames.keys())
+                self.drawn.place(frames.keys())
             # The poses are sent before any panel is notified.
             self.audience.flush()
             self.notify("joints")
 
     def _before_sending(self) -> None:
-        if self.picture.outdated:
+        if self.drawn.outdated:
             # A display has set frames of its own.
             self._frames_changed()
 
     def _frames_changed(self) -> None:
-        self.picture.draw_frames()
+        self.drawn.draw_frames()
         self.notify("status")
         self.notify("frames")
 
     def _redraw(self) -> None:
-        self.picture.redraw()
+        self.drawn.redraw()
         self.notify("status")

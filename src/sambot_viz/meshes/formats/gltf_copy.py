@@ -20,7 +20,7 @@ from sambot_viz.meshes.formats.gltf_json import (
 )
 from sambot_viz.meshes.formats.gltf_material import GltfMaterials
 from sambot_viz.meshes.formats.gltf_numbers import GltfNumbers
-from sambot_viz.meshes.formats.gltf_primitive import Primitive, read_primitive
+from sambot_viz.meshes.formats.gltf_primitive import GltfPrimitive, read_primitive
 
 _DEEPEST = 200
 _TRANSFORM = {"matrix": 16, "translation": 3, "rotation": 4, "scale": 3}
@@ -37,7 +37,7 @@ class GltfCopy:
 
     def __init__(self, file: GltfFile) -> None:
         self.nodes: list[Json] = []
-        self.meshes: list[list[Primitive]] = []
+        self.meshes: list[list[GltfPrimitive]] = []
         self.numbers = GltfNumbers(file)
         self._file = file
         self._document = file.document

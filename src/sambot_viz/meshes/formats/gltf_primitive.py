@@ -29,7 +29,7 @@ _ATTRIBUTES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Primitive:
+class GltfPrimitive:
     """Triangles of one look.
 
     Attributes:
@@ -100,7 +100,7 @@ class Primitive:
 
 def read_primitive(
     primitive: Json, file: GltfFile, copy: GltfNumbers, materials: GltfMaterials
-) -> Primitive | None:
+) -> GltfPrimitive | None:
     """Check a primitive, an entry of a mesh of the file, and copy its numbers.
 
     Returns:
@@ -136,7 +136,7 @@ def read_primitive(
     # Vertices split for a texture that is not shown are joined again, and so are those
     # of files that do not share any.
     split = look.texture is None and "TEXCOORD_0" in attributes
-    return Primitive(json, look, mode, normalized, corners > vertices and not split)
+    return GltfPrimitive(json, look, mode, normalized, corners > vertices and not split)
 
 
 def _copy_attributes(

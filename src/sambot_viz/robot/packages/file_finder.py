@@ -48,7 +48,7 @@ _OUTSIDE = "it is outside the model's folder and packages, and the model is not 
 
 
 @dataclass(frozen=True, slots=True)
-class _Cause:
+class _MissingCause:
     """Why files were not found, or not as ROS would find them.
 
     Attributes:
@@ -98,7 +98,7 @@ class FileFinder:
         self._resolver = FileResolver(index, folder)
         self._findings = findings
         self._seen: set[str] = set()
-        self._causes: dict[_Cause, _Affected] = {}
+        self._causes: dict[_MissingCause, _Affected] = {}
         self.roots: tuple[Path, ...] | None = None
         if not trusted:
             self.roots = tuple(root.resolve() for root in index.own_roots())
@@ -132,7 +132,9 @@ class FileFinder:
         if found.doubt is not None:
             code = _DOUBTS[found.doubt][0]
         if code:
-            cause = _Cause(code, kind, found.missing_package or _folder_of(filename))
+            cause = _MissingCause(
+                code, kind, found.missing_package or _folder_of(filename)
+            )
             affected = self._causes.setdefault(cause, _Affected(element, found))
             affected.names.append(filename)
         return found.path
@@ -148,7 +150,7 @@ class FileFinder:
         tried = [Path(text) for text in found.searched]
         return any(p.is_absolute() and not is_below(p, self.roots) for p in tried)
 
-    def _report_doubt(self, cause: _Cause, affected: _Affected) -> None:
+    def _report_doubt(self, cause: _MissingCause, affected: _Affected) -> None:
         found = affected.resolution
         _, message, hint = _DOUBTS[found.doubt or "path-only"]
         path = found.path or "no file"
@@ -156,7 +158,7 @@ class FileFinder:
         subject = _subject(cause, affected.names)
         self._warn(cause.code, f"{subject}: {text}", hint, affected)
 
-    def _report_missing(self, cause: _Cause, affected: _Affected) -> None:
+    def _report_missing(self, cause: _MissingCause, affected: _Affected) -> None:
         resolution = affected.resolution
         package = resolution.missing_package
         if package is not None:
@@ -190,7 +192,7 @@ def _folder_of(filename: str) -> str:
     return str(PurePosixPath(filename.replace("\\", "/")).parent)
 
 
-def _subject(cause: _Cause, names: Sequence[str]) -> str:
+def _subject(cause: _MissingCause, names: Sequence[str]) -> str:
     """The file, or how many files of which package or folder: "52 meshes of arm"."""
     if len(names) == 1:
         return f"the {cause.kind} {names[0]}"

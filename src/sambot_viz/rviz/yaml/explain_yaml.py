@@ -81,7 +81,7 @@ def explain_yaml(
     )
 
 
-class _Cause(NamedTuple):
+class _YamlCause(NamedTuple):
     line: int
     column: int | None
     message: str
@@ -116,7 +116,7 @@ class _Slip:
             return len(self.lines), None
         return line, column
 
-    def cause(self) -> _Cause:
+    def cause(self) -> _YamlCause:
         here = self.lines[self.line - 1]
         if self.refused:
             return self._at_place(self.said, "write the value out")
@@ -153,14 +153,14 @@ class _Slip:
             return self._no_colon(self.line)
         return self._at_place(f"this is not YAML: {self.said}", _GENERAL)
 
-    def _at_place(self, message: str, hint: str) -> _Cause:
-        return _Cause(self.line, self.column, message, hint)
+    def _at_place(self, message: str, hint: str) -> _YamlCause:
+        return _YamlCause(self.line, self.column, message, hint)
 
-    def _at_beginning(self, message: str, hint: str) -> _Cause:
+    def _at_beginning(self, message: str, hint: str) -> _YamlCause:
         line, column = self.began or (self.line, self.column)
-        return _Cause(line, column, message, hint)
+        return _YamlCause(line, column, message, hint)
 
-    def _stray_colon(self, here: str) -> _Cause:
+    def _stray_colon(self, here: str) -> _YamlCause:
         before = here[: (self.column or 1) - 1]
         if ": " in before:
             message = "there are two colons in this line, each followed by a blank"
@@ -173,10 +173,10 @@ class _Slip:
             "indent it like the keys around it",
         )
 
-    def _no_colon(self, line: int) -> _Cause:
+    def _no_colon(self, line: int) -> _YamlCause:
         while line > 1 and (":" in self.lines[line - 1] or not self.lines[line - 1]):
             line -= 1
-        return _Cause(
+        return _YamlCause(
             line,
             None,
             "this line is not 'key: value'",

@@ -15,12 +15,12 @@ from sambot_viz.displays.status import Status
 from sambot_viz.rviz import DisplayConfig, FileProperty, RvizConfig
 
 
-class Picture:
+class DrawnScene:
     """The drawing of one session; not thread-safe, the session holds the lock.
 
     Args:
         context: what displays draw with.
-        config: the .rviz document; the picture changes it as the user does.
+        config: the .rviz document, which the edits of the user change.
 
     Attributes:
         config: the document that is shown.
