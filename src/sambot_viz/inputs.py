@@ -12,21 +12,23 @@ from typing import TYPE_CHECKING
 from sambot_viz import bundled
 from sambot_viz.errors import UsageError
 from sambot_viz.options import Options, PathLike
-from sambot_viz.robot.load import OpenedModel, load_robot, open_model
-from sambot_viz.robot.model import Robot
-from sambot_viz.rviz import RvizConfig
-from sambot_viz.rviz.yaml.document import Document
+from sambot_viz.robot.opened_model import OpenedModel, open_model
 
+# The page is there before what is only needed to draw in it has been imported.
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
+
+    from sambot_viz.robot.model import Robot
+    from sambot_viz.rviz import RvizConfig
+    from sambot_viz.rviz.yaml.document import Document
 
 
 class Inputs:
     """What `Options.model` and `Options.config` mean.
 
     Each file is read once. What is plainly wrong with one (no such file, not XML, not
-    a .rviz document) is raised here, before a server is started; the robot is loaded
-    in a thread meanwhile.
+    a .rviz document) is raised here, before a server is started; `begin` loads the
+    robot in a thread.
 
     Args:
         options: what the user asked for.
@@ -50,13 +52,14 @@ class Inputs:
             Path(model) if isinstance(model, Path | str) else None,
             Path(config) if isinstance(config, Path | str) else None,
         )
-        self.config = None if isinstance(config, RvizConfig) else found.config
-        self._document = None if self.config is None else Document.load(self.config)
+        document = config is not None and not isinstance(config, Path | str)
+        self.config = None if document else found.config
+        self._document = None if self.config is None else _open_config(self.config)
         self._robot: Future[Robot] = Future()
+        self._opened: OpenedModel | None = None
         if model is None or isinstance(model, Path | str):
             self.model = found.model
-            opened = open_model(found.model)
-            _in_thread(lambda: self.load(opened), self._robot)
+            self._opened = open_model(found.model)
         else:
             self.model = None
             self._robot.set_result(_robot_of(model))
@@ -70,7 +73,13 @@ class Inputs:
     @property
     def takes_bundled_config(self) -> bool:
         """Whether the config is the bundled one, which was made for sam_bot."""
-        return self.config is None and not isinstance(self._options.config, RvizConfig)
+        return self.config is None and self._options.config is None
+
+    def begin(self) -> None:
+        """Load the robot in a thread; a second call does nothing."""
+        opened, self._opened = self._opened, None
+        if opened is not None:
+            _in_thread(lambda: self.load(opened), self._robot)
 
     def robot(self) -> Robot:
         """The robot, as soon as it is loaded.
@@ -79,6 +88,7 @@ class Inputs:
             RobotError: the model cannot be shown.
             KeyboardInterrupt: after `give_up`.
         """
+        self.begin()
         return self._robot.result()
 
     def wait(self, timeout: float) -> bool:
@@ -87,6 +97,7 @@ class Inputs:
         Returns:
             Whether `robot` answers at once now.
         """
+        self.begin()
         return bool(wait([self._robot], timeout).done)
 
     def give_up(self) -> None:
@@ -107,6 +118,8 @@ class Inputs:
         Raises:
             RobotError: the model cannot be shown.
         """
+        from sambot_viz.robot import load_robot
+
         return load_robot(
             model,
             xacro_args=self._options.xacro_args,
@@ -122,9 +135,10 @@ class Inputs:
         """
         # The displays that declare the properties import viser.
         from sambot_viz.open_config import declarations, load_config
+        from sambot_viz.rviz import RvizConfig
 
         given = self._options.config
-        if isinstance(given, RvizConfig):
+        if given is not None and not isinstance(given, Path | str):
             return given
         if self._document is None:
             return load_config(bundled.config_path())
@@ -136,8 +150,21 @@ class Inputs:
         return None if self.model is None else poses_beside(self.model)
 
 
+def _open_config(path: Path) -> Document:
+    """The text of a .rviz file.
+
+    Raises:
+        ConfigError: it is not a .rviz document.
+    """
+    from sambot_viz.rviz.yaml.document import Document
+
+    return Document.load(path)
+
+
 def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
     """The robot of an object from Python."""
+    from sambot_viz.robot.model import Robot
+
     if isinstance(model, Robot):
         return model
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]

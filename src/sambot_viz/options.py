@@ -113,7 +113,7 @@ class Options:
     """What to show, to whom, and how the robot starts.
 
     Attributes:
-        start_pose: from `zeros`, `joint_state` and `joint_positions`.
+        recorded: the positions of `joint_state`.
         transforms: `static_transforms`, read.
 
     Raises:
@@ -274,7 +274,7 @@ class Options:
         None,
         "called with what is wrong with the model whenever a reload changes that",
     )
-    start_pose: StartPose = field(init=False, repr=False, compare=False)
+    recorded: Mapping[str, float] = field(init=False, repr=False, compare=False)
     transforms: tuple[StaticTransform, ...] = field(
         init=False, repr=False, compare=False
     )
@@ -287,16 +287,22 @@ class Options:
                 "the fixed frame has an empty name; give a frame of the robot, such "
                 "as base_link"
             )
-        object.__setattr__(self, "start_pose", self._read_start_pose())
+        object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
 
-    def _read_start_pose(self) -> StartPose:
+    @property
+    def start_pose(self) -> StartPose:
+        """The pose that `zeros`, `joint_state` and `joint_positions` ask for."""
         from sambot_viz.joints.start import StartPose
+
+        return StartPose(self.zeros, self.recorded, self.joint_positions)
+
+    def _read_recorded(self) -> Mapping[str, float]:
+        if self.joint_state is None:
+            return {}
         from sambot_viz.joints.values import load_joint_state
 
-        file = self.joint_state
-        recorded = {} if file is None else load_joint_state(Path(file))
-        return StartPose(self.zeros, recorded, self.joint_positions)
+        return load_joint_state(Path(self.joint_state))
 
     def _read_transforms(self) -> tuple[StaticTransform, ...]:
         if not self.static_transforms:

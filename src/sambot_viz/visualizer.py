@@ -100,6 +100,7 @@ class Visualizer:
 
     def _start(self, inputs: Inputs, listening: viser.ViserServer | None) -> None:
         options = inputs.options
+        inputs.begin()
         document = inputs.document()
         prepare = partial(_set_fixed_frame, fixed_frame=options.fixed_frame)
         prepare(document)

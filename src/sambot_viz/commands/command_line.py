@@ -95,7 +95,9 @@ def parse(
     ]
     if len(models) > 1:
         raise UsageError(f"two models given: '{models[0]}' and '{models[1]}'; name one")
-    values = {o.name: _value(o, getattr(given, o.name)) for o in parser.options}
+    # A value is read by the room that knows it, imported only when there is a value.
+    found = [(option, getattr(given, option.name)) for option in parser.options]
+    values = {o.name: _value(o, value) for o, value in found if value != []}
     model = models[0] if models else None
     options = Options(model=model, xacro_args=arguments, **values, **fixed)
     for transform in options.transforms:

@@ -42,8 +42,8 @@ def run(words: list[str]) -> int:
     """Serve until Ctrl-C."""
     given, options = parse(parser(), words, on_reload=_report_reload)
     inputs = Inputs(options)
-    # viser is imported and the port opened while the robot is loaded; the rest of the
-    # program is imported while a browser loads the page.
+    # The port is opened first; the rest of the program is imported, and the robot
+    # loaded, while a browser loads the page.
     from sambot_viz.server.access import only_this_machine
     from sambot_viz.server.bind import close, listen, url_of
 
@@ -54,6 +54,7 @@ def run(words: list[str]) -> int:
         _announce(url_of(server), given.open)
         if not only_this_machine(options.host):
             sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
+        inputs.begin()
         from sambot_viz.commands.posed_frames import start_state
         from sambot_viz.visualizer import Visualizer
 

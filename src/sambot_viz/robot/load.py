@@ -9,12 +9,8 @@ from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.model_source import (
-    ModelSource,
-    first_xacro,
-    only_names_files,
-    read_source,
-)
+from sambot_viz.robot.model_source import ModelSource, first_xacro, only_names_files
+from sambot_viz.robot.opened_model import OpenedModel, PathLike, open_model
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.read_urdf import read_urdf
@@ -24,44 +20,9 @@ from sambot_viz.robot.xacro.diagnose.library import report_library
 from sambot_viz.robot.xacro.diagnose.prefix import missing_prefixes, undeclared_prefix
 from sambot_viz.robot.xacro.expand import expand_model
 from sambot_viz.robot.xacro.result import ExpansionError, ExpansionXmlError
-from sambot_viz.robot.xml.decode import XmlFault, declared_as_utf8
+from sambot_viz.robot.xml.decode import declared_as_utf8
 from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 from sambot_viz.robot.xml.element import Element
-from sambot_viz.robot.xml.parse import parse_xml
-
-PathLike = str | os.PathLike[str]
-
-
-@dataclass(frozen=True, slots=True)
-class OpenedModel:
-    """A model that is well-formed XML; xacro and URDF's rules come later.
-
-    Attributes:
-        source: the text and the file it is from.
-        document: its root element.
-    """
-
-    source: ModelSource
-    document: Element
-
-
-def open_model(model: PathLike) -> OpenedModel:
-    """Read the text of a model as XML, for `load_robot`.
-
-    Args:
-        model: the file, or the XML text itself.
-
-    Raises:
-        RobotError: it cannot be read, or it is not well-formed.
-    """
-    try:
-        source = read_source(model)
-    except XmlFault as fault:
-        raise RobotError(explain_xml(fault.text, os.fspath(model), fault)) from None
-    try:
-        return OpenedModel(source, parse_xml(source.text, source.label))
-    except XmlFault as fault:
-        raise RobotError(explain_xml(source.text, source.label, fault)) from None
 
 
 def load_robot(
@@ -93,9 +54,6 @@ def load_robot(
     """
     opened = model if isinstance(model, OpenedModel) else open_model(model)
     return _Loader(opened, xacro_args or {}, package_path, trusted).load()
-
-
-Robot.load_text = load_robot
 
 
 def expand(

@@ -8,10 +8,10 @@ robot written in two files is equal.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.geometry import Matrix, Rgba, Vector3
@@ -161,9 +161,6 @@ class Robot:
     files: tuple[Path, ...] = field(default=(), compare=False, repr=False)
     file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
 
-    load_text: ClassVar[Callable[[str], Robot]]
-    # Set by `load.py`, which knows this module.
-
     def forward_kinematics(
         self, positions: Mapping[str, float] | None = None
     ) -> dict[str, Matrix]:
@@ -197,6 +194,7 @@ class Robot:
         Raises:
             RobotError: ROS would refuse the model.
         """
+        from sambot_viz.robot import load_robot
         from sambot_viz.robot.yourdfpy_bridge import text_of
 
-        return cls.load_text(text_of(urdf))
+        return load_robot(text_of(urdf))
