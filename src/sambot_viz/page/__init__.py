@@ -1,43 +1,35 @@
-"""Delivers the scripts and the style sheet that make viser's page look like RViz."""
+"""The page's own files: scripts, style sheets and the HTML page that loads them."""
 
 from __future__ import annotations
 
-import html
 from functools import cache
 from importlib import resources
+from pathlib import PurePosixPath
+
+FOLDER = "sambot"
+"""Below the address of the page."""
+_TYPES = {".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8"}
+_HEAD = (
+    f'<link rel="stylesheet" href="./{FOLDER}/window.css">'
+    f'<script type="module" src="./{FOLDER}/main.js"></script>'
+)
 
 
 @cache
-def script() -> str:
-    """The text of rviz_look.js."""
-    return resources.files(__name__).joinpath("rviz_look.js").read_text("utf-8")
-
-
-def script_element() -> str:
-    """HTML that runs the script once, for viser's public `gui.add_html`.
-
-    A script element inserted as HTML does not run, so the script is the error handler
-    of an image whose data is empty; nothing is fetched for it.
-    """
-    source = html.escape(script(), quote=True)
-    return f'<img alt="" src="data:," style="display:none" onerror="{source}">'
-
-
-def style_element() -> str:
-    """HTML that carries the page's style sheet (page/rviz_look.css)."""
-    sheet = resources.files(__name__).joinpath("rviz_look.css").read_text("utf-8")
-    return f"<style>{sheet}</style>"
-
-
-def mouse_element(kind: str) -> str:
-    """HTML that makes the mouse move the camera as a type of RViz's views does.
+def file(path: str) -> tuple[bytes, str] | None:
+    """A file of the page and its media type; None when there is no such file.
 
     Args:
-        kind: the type of the view, such as "Orbit"; one of the program's own names.
+        path: below this folder, such as "main.js".
     """
-    source = resources.files(__name__).joinpath("rviz_mouse.js").read_text("utf-8")
-    return (
-        f'<i hidden data-sambot-view="{html.escape(kind, quote=True)}"></i>'
-        '<img alt="" src="data:," style="display:none" '
-        f'onerror="{html.escape(source, quote=True)}">'
-    )
+    pure = PurePosixPath(path)
+    media_type = _TYPES.get(pure.suffix)
+    if media_type is None or pure.is_absolute() or ".." in pure.parts:
+        return None
+    found = resources.files(__name__).joinpath(*pure.parts)
+    return (found.read_bytes(), media_type) if found.is_file() else None
+
+
+def with_scripts(html: bytes) -> bytes:
+    """viser's page with our scripts and style sheet in its head."""
+    return html.replace(b"</head>", _HEAD.encode() + b"</head>", 1)

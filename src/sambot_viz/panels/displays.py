@@ -1,279 +1,296 @@
-"""The Displays panel: Global Options, and each display with its properties."""
+"""The Displays panel: RViz's tree of displays, as rows."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import itertools
+import weakref
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-import viser
-
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.panels.arrange import Arrange, labelled
-from sambot_viz.panels.config_file import ConfigFile
-from sambot_viz.panels.entry_rows import EntryRows
-from sambot_viz.panels.status_html import line_html, status_html
-from sambot_viz.panels.widgets import Input, add_property, frame_choices, watch
-from sambot_viz.rviz import ConfigItem, Property, TfFrameProperty
-from sambot_viz.session import Event, Session, walk
-from sambot_viz.text import html_text, text
+from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.status import StatusList
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.expanded import expanded_rows, mark_expanded
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
+from sambot_viz.panels.row import Level, Row
+from sambot_viz.rviz import DisplayConfig
+from sambot_viz.rviz.class_name import GROUP, row_text
+from sambot_viz.session import Session
 
-Change = Callable[[str, Any], None]
-"""Sets the property at a path to a value."""
+OPTIONS, STATUS = "options", "status"
+_LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
 
 
-class DisplaysPanel:
-    """RViz's tree of displays as folders.
+class DisplaysPanel(Panel):
+    """Global Options, and each display with its status, properties and entries.
+
+    The rows of a single link, joint or frame, and of statuses that are fine, are only
+    made when a page has unfolded what they are below: a robot has hundreds.
 
     Args:
         session: whose displays these are.
-        container: the folder or panel to fill.
+        remake: called when a page has unfolded something.
     """
 
-    def __init__(self, session: Session, container: viser.GuiFolderHandle) -> None:
+    name = "displays"
+    remade_by = frozenset({"config", "robot", "frames", "status"})
+    moved_by = frozenset({"joints"})
+
+    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
         self._session = session
-        self._gui = session.audience.gui
-        self._container = container
-        self._rows: list[_DisplayRows] = []
-        self._options: _ItemRows | None = None
-        self._folder: viser.GuiFolderHandle | None = None
-        self._statuses: viser.GuiHtmlHandle | None = None
-        self._arrange: Arrange | None = None
-        self._built: tuple[object, ...] = ()
-        with container:
-            self._file = ConfigFile(session)
-        session.listeners.append(self._hear)
-        self._build()
+        self._remake = remake
+        self._numbers: weakref.WeakKeyDictionary[DisplayConfig, int] = (
+            weakref.WeakKeyDictionary()
+        )
+        self._count = itertools.count(1)
+        self._unfolded: set[str] = set()
+        self._facts: list[tuple[str, EntryList, str]] = []
 
-    def close(self) -> None:
-        """Follow the session no longer."""
-        self._session.listeners.remove(self._hear)
-        self._file.close()
-        self._drop()
-
-    def _hear(self, event: Event) -> None:
-        if event == "joints":
-            for row in self._rows:
-                row.moved()
-            return
-        if event in ("config", "robot") and self._state() != self._built:
-            self._build()
-        elif event in ("frames", "robot"):
-            names = self._frame_names()
-            if self._options is not None:
-                self._options.offer_frames(names)
-            for row in self._rows:
-                row.rows.offer_frames(names)
-                row.offer_entries()
-        elif event == "status":
-            for row in self._rows:
-                row.offer_entries()
-        self._write_statuses()
-
-    def _state(self) -> tuple[object, ...]:
-        """What the rows are made from; they are made again when it differs."""
+    def rows(self) -> Sequence[Row]:
+        """All rows; a row comes after the one above it."""
+        self._facts.clear()
         config = self._session.config
-        return (
-            id(config),
-            tuple((id(item), label) for label, item in labelled(config.displays)),
-            tuple(
-                tuple(entries.title for entries in display.entries())
-                for display in self._session.displays
-            ),
+        made = [*self._global_rows(), *self._display_rows(config.displays, "")]
+        return [*mark_expanded(made, expanded_rows(config)), *self._actions()]
+
+    def values(self) -> dict[str, Any]:
+        """What is shown of links and frames that are unfolded."""
+        return {
+            _fact_id(row_id, key): value
+            for row_id, entries, name in self._facts
+            for key, value in entries.facts(name).items()
+        }
+
+    # Finding what a row means
+
+    def id_of(self, config: DisplayConfig) -> str:
+        """The id of a display's row; it stays the same when the display is moved."""
+        if config not in self._numbers:
+            self._numbers[config] = next(self._count)
+        return f"d{self._numbers[config]}"
+
+    def display_of(self, row_id: str) -> DisplayConfig:
+        """The display of a row.
+
+        Raises:
+            UsageError: it is not there any more.
+        """
+        for config, number in self._numbers.items():
+            if f"d{number}" == row_id and _is_in(config, self._session):
+                return config
+        raise UsageError("this display is not there any more")
+
+    # The rows
+
+    def _global_rows(self) -> Iterator[Row]:
+        session = self._session
+        yield Row(
+            OPTIONS, "", "group", "Global Options", icon="options", expanded=True
+        )
+        yield from property_rows(
+            session.config.global_options, OPTIONS, session.set_global
+        )
+        status = session.drawn.global_status()
+        yield Row(
+            STATUS,
+            "",
+            "status",
+            "Global Status",
+            value=status.level,
+            level=_LEVELS[status.level],
+            expanded=status.level != "Ok",
+        )
+        yield Row(
+            f"{STATUS}/Fixed Frame",
+            STATUS,
+            "status",
+            "Fixed Frame",
+            value=status.text,
+            level=_LEVELS[status.level],
         )
 
-    def _drop(self) -> None:
-        for row in self._rows:
-            row.close()
-        self._rows.clear()
-        if self._folder is not None:
-            self._folder.remove()
+    def _display_rows(
+        self, configs: Sequence[DisplayConfig], above: str
+    ) -> Iterator[Row]:
+        displays = {id(display.config): display for display in self._session.displays}
+        for config in configs:
+            row_id, display = self.id_of(config), displays.get(id(config))
+            yield self._head(config, display, row_id, above)
+            if display is not None:
+                yield from self._status_rows(display, row_id)
+                yield from self._property_rows(display, row_id)
+            elif config.kind != GROUP:
+                yield _unsupported(config, row_id)
+            yield from self._display_rows(config.displays, row_id)
 
-    def _build(self) -> None:
-        gui, session = self._gui, self._session
-        self._drop()
-        self._built = self._state()
-        displays = {id(display.config): display for display in session.displays}
-        with self._container:
-            self._folder = gui.add_folder(None)
-        with self._folder:
-            with gui.add_folder("Global Options"):
-                self._options = _ItemRows(
-                    session,
-                    session.config.global_options,
-                    session.set_global,
-                    self._frame_names(),
-                )
-            self._statuses = gui.add_html("")
-            with gui.add_folder("Displays"):
-                for label, item in labelled(session.config.displays):
-                    display = displays.get(id(item))
-                    if display is not None:
-                        _add_box(gui, session, display, label)
-                self._list_unsupported()
-            for _, item in labelled(session.config.displays):
-                display = displays.get(id(item))
-                if display is not None and display.properties:
-                    row = _DisplayRows(session, display, self._frame_names())
-                    self._rows.append(row)
-            chosen = self._arrange.chosen if self._arrange is not None else None
-            self._arrange = Arrange(session, chosen)
-        self._write_statuses()
+    def _head(
+        self, config: DisplayConfig, display: Display | None, row_id: str, above: str
+    ) -> Row:
+        level = None
+        if display is not None and display.shown:
+            level = _LEVELS[display.status.level]
+        elif not config.supported:
+            level = "info"
+        return Row(
+            row_id,
+            above,
+            "display",
+            config.name,
+            value=config.enabled,
+            level=level,
+            icon=config.kind.rpartition("/")[2],
+            help=_help(config, display),
+            bold=True,
+            extra={"display": config.kind, "known": config.supported},
+            set=partial(self._session.set_enabled, config),
+        )
 
-    def _frame_names(self) -> Sequence[str]:
-        return sorted(self._session.tree.frames)
-
-    def _write_statuses(self) -> None:
-        for row in self._rows:
-            row.write_status()
-        if self._statuses is not None:
-            status = self._session.drawn.global_status()
-            lines = [
-                status_html("Global Status", status.level, {"Fixed Frame": status})
-            ]
-            for row in self._rows:
-                level = row.display.status.level
-                if row.display.shown and level != "Ok":
-                    name = html_text(row.display.config.name)
-                    lines.append(line_html(f"{name}: {level}", level))
-            content = "".join(lines)
-            if self._statuses.content != content:
-                self._statuses.content = content
-
-    def _list_unsupported(self) -> None:
-        names = [
-            f"{item.name} ({item.class_id})"
-            for item in walk(self._session.config.displays)
-            if not item.supported
-        ]
-        if names:
-            rows = "".join(f"<li>{html_text(name)}</li>" for name in names)
-            self._gui.add_html(
-                '<details class="sambot-status"><summary>Not supported yet: '
-                f"{len(names)}</summary><ul>{rows}</ul></details>"
-            )
-
-
-EntryFolder = Callable[[str], None]
-"""Fills the folder of links, joints or frames, if there are any under that title."""
-
-
-class _ItemRows:
-    """The inputs of one item's properties, in the current container."""
-
-    def __init__(
-        self,
-        session: Session,
-        item: ConfigItem,
-        change: Change,
-        frames: Sequence[str],
-        entries: Mapping[str, EntryFolder] | None = None,
-    ) -> None:
-        self._session = session
-        self._gui = session.audience.gui
-        self._item = item
-        self._change = change
-        self._entries = entries or {}
-        self._inputs: dict[str, tuple[Input, Property]] = {}
-        top = [d.property for path, d in item.declared.items() if "/" not in path]
-        self._add_all(top, "", frames)
-        self._hide_what_is_off()
-
-    def offer_frames(self, frames: Sequence[str]) -> None:
-        """The lists of frames offer the frames that exist."""
-        for path, (handle, prop) in self._inputs.items():
-            if isinstance(prop, TfFrameProperty) and isinstance(
-                handle, viser.GuiDropdownHandle
-            ):
-                value = self._item.get(path)
-                handle.options = frame_choices(prop, frames, value)
-                handle.value = text(value)
-
-    def _add_all(
-        self, properties: Sequence[Property], above: str, frames: Sequence[str]
-    ) -> None:
-        for prop in properties:
-            path = f"{above}{prop.name}"
-            if prop.support == "none":
-                continue
-            if prop.has_value:
-                get, change = partial(self._item.get, path), partial(self._set, path)
-                handle = add_property(self._session, prop, get, change, frames)
-                self._inputs[path] = (handle, prop)
-                self._add_all(prop.children, f"{path}/", frames)
-            elif not prop.open_keys:
-                with self._gui.add_folder(prop.name, expand_by_default=False):
-                    self._add_all(prop.children, f"{path}/", frames)
-            elif path in self._entries:
-                with self._gui.add_folder(prop.name, expand_by_default=False):
-                    kept = [p for p in prop.children if p.support == "full"]
-                    self._add_all(kept, f"{path}/", frames)
-                    self._entries[path](path)
-
-    def _set(self, path: str, value: Any) -> None:
-        self._change(path, value)
-        self._hide_what_is_off()
-
-    def _hide_what_is_off(self) -> None:
-        """Rows that only make sense for another value are hidden, as in RViz."""
-        for path, (handle, _) in self._inputs.items():
-            handle.visible = self._item.is_shown(path)
-
-
-def _add_box(gui: viser.GuiApi, session: Session, display: Display, label: str) -> None:
-    """The box that switches a display on and off."""
-    config = display.config
-    box = gui.add_checkbox(label, config.enabled, hint=text(display.help))
-    watch(session, box, bool, partial(session.set_enabled, display))
-
-
-class _DisplayRows:
-    """The folder of one display: its status and its properties."""
-
-    def __init__(
-        self, session: Session, display: Display, frames: Sequence[str]
-    ) -> None:
-        self.display = display
-        self._session = session
-        self._version = -1
-        self._was_shown: bool | None = None
-        self._entries: list[EntryRows] = []
-        gui, config = session.audience.gui, display.config
-        with gui.add_folder(text(config.name, 40), expand_by_default=False):
-            self._status = gui.add_html("")
-            change = partial(session.set_property, display)
-            folders = {found.title: self._add_entries for found in display.entries()}
-            self.rows = _ItemRows(session, config, change, frames, folders)
-
-    def close(self) -> None:
-        """Write nothing any more."""
-        for entries in self._entries:
-            entries.close()
-
-    def offer_entries(self) -> None:
-        """The links, joints or frames may be others, or have other values."""
-        for entries in self._entries:
-            entries.offer()
-
-    def moved(self) -> None:
-        """Something has moved: positions follow."""
-        for entries in self._entries:
-            entries.moved()
-
-    def _add_entries(self, title: str) -> None:
-        find = partial(_entries_of, self.display, title)
-        self._entries.append(EntryRows(self._session, self.display, find))
-
-    def write_status(self) -> None:
-        """Write the status again if it has changed."""
-        status, shown = self.display.status, self.display.shown
-        if (status.version, shown) == (self._version, self._was_shown):
+    def _status_rows(self, display: Display, row_id: str) -> Iterator[Row]:
+        if not display.shown:
             return
-        self._version, self._was_shown = status.version, shown
-        level = status.level if shown else None
-        self._status.content = status_html("Status", level, status.rows)
+        status, status_id = display.status, f"{row_id}/:status"
+        lazy = status.level == "Ok"
+        yield Row(
+            status_id,
+            row_id,
+            "status",
+            "Status",
+            value=status.level,
+            level=_LEVELS[status.level],
+            expanded=not lazy,
+            extra={"lazy": True} if lazy and status.rows else None,
+        )
+        if not lazy or status_id in self._unfolded:
+            yield from _statuses(status, status_id)
+
+    def _property_rows(self, display: Display, row_id: str) -> Iterator[Row]:
+        item = display.config
+        change = partial(self._session.set_property, display)
+        entries = {found.title: found for found in display.entries()}
+        for path, declared in item.declared.items():
+            if not is_listed(item, declared):
+                continue
+            found = entries.get(path)
+            if declared.property.open_keys and found is None:
+                continue
+            yield property_row(item, declared, row_id, change)
+            if found is not None:
+                yield from self._entry_rows(display, found, f"{row_id}/{path}")
+
+    def _entry_rows(
+        self, display: Display, entries: EntryList, above: str
+    ) -> Iterator[Row]:
+        for name in entries.names:
+            item, row_id = entries.item(name), f"{above}/{name}"
+            change = partial(
+                self._session.set_entry, display, entries.title, name
+            )
+            wanted = entries.rows(name) if entries.rows else tuple(item.declared)
+            box = "Value" in wanted and "Value" in item.declared
+            yield Row(
+                row_id,
+                above,
+                "display" if box else "group",
+                name,
+                value=item.get("Value") if box else None,
+                icon=entries.singular,
+                extra={"lazy": True, "entry": True},
+                set=partial(change, "Value") if box else None,
+            )
+            if row_id in self._unfolded:
+                self._facts.append((row_id, entries, name))
+                for path in wanted:
+                    if path != "Value" and path in item.declared:
+                        yield property_row(item, item.declared[path], row_id, change)
+                for key, value in entries.facts(name).items():
+                    yield Row(_fact_id(row_id, key), row_id, "fact", key, value)
+
+    # What the page can ask for
+
+    def _actions(self) -> Iterator[Row]:
+        yield _action("displays/unfold", (str,), self._unfold)
+        yield _action("displays/add", (str, (str, type(None))), self._add)
+        yield _action("displays/duplicate", (str,), self._duplicate)
+        yield _action("displays/remove", (str,), self._delete)
+        yield _action("displays/rename", (str, str), self._rename)
+        yield _action("displays/move", (str, str, int), self._move)
+        kinds = [
+            {"kind": kind, "name": row_text(kind), "help": display.help}
+            for kind, display in sorted(DISPLAYS.items())
+        ]
+        yield Row("displays/types", "", "names", value=kinds)
+
+    def _unfold(self, arguments: tuple[str]) -> None:
+        (row_id,) = arguments
+        if row_id not in self._unfolded:
+            self._unfolded.add(row_id)
+            self._remake(self)
+
+    def _add(self, arguments: tuple[str, str | None]) -> None:
+        kind, after = arguments
+        if kind not in DISPLAYS:
+            raise UsageError(f"there is no display '{kind}'")
+        behind = None if after is None else self.display_of(after)
+        self._session.add_display(kind, after=behind)
+
+    def _duplicate(self, arguments: tuple[str]) -> None:
+        self._session.duplicate_display(self.display_of(arguments[0]))
+
+    def _delete(self, arguments: tuple[str]) -> None:
+        self._session.remove_display(self.display_of(arguments[0]))
+
+    def _rename(self, arguments: tuple[str, str]) -> None:
+        row_id, name = arguments
+        if not name.strip():
+            raise UsageError("a display needs a name")
+        self._session.rename_display(self.display_of(row_id), name.strip())
+
+    def _move(self, arguments: tuple[str, str, int]) -> None:
+        row_id, group, index = arguments
+        into = self.display_of(group) if group else None
+        self._session.move_display(self.display_of(row_id), index, into)
 
 
-def _entries_of(display: Display, title: str) -> EntryList | None:
-    return next((found for found in display.entries() if found.title == title), None)
+def _action(row_id: str, takes: tuple[Any, ...], act: Callable[[Any], object]) -> Row:
+    return Row(row_id, "", "action", takes=takes, set=act)
+
+
+def _statuses(status: StatusList, above: str) -> Iterator[Row]:
+    for key, row in status.rows.items():
+        yield Row(
+            f"{above}/{key}", above, "status", key, row.text, level=_LEVELS[row.level]
+        )
+
+
+def _fact_id(row_id: str, key: str) -> str:
+    return f"{row_id}/:{key}"
+
+
+def _unsupported(config: DisplayConfig, above: str) -> Row:
+    return Row(
+        f"{above}/:status",
+        above,
+        "note",
+        "Status",
+        f"Displays of type {row_text(config.kind)} are not shown yet. It stays in the "
+        "file as it is.",
+        level="info",
+    )
+
+
+def _help(config: DisplayConfig, display: Display | None) -> str:
+    if display is not None:
+        return display.help
+    if config.kind == GROUP:
+        return "Displays that are switched on and off together."
+    return f"Displays of type {row_text(config.kind)} are not shown yet."
+
+
+def _is_in(config: DisplayConfig, session: Session) -> bool:
+    siblings = config.parent.displays if config.parent else session.config.displays
+    inside = any(config is sibling for sibling in siblings)
+    return inside and (config.parent is None or _is_in(config.parent, session))

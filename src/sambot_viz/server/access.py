@@ -29,6 +29,8 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from sambot_viz.server import page_files
+
 _PROTOCOL = f"viser-v{viser.__version__}"
 _VERSION_MISMATCH = 1002
 
@@ -123,7 +125,9 @@ def checked(listening_on: str, allowed: Sequence[str] = ()) -> Generator[None]:
                 sentence = "This page may not use this server; see --allow-origin."
                 return _refusal(http.HTTPStatus.FORBIDDEN, sentence)
             try:
-                response = answer(connection, request) if answer else None
+                response = page_files.answer(request)
+                if response is None and answer:
+                    response = answer(connection, request)
             except (OSError, ValueError):
                 # The file name is too long for the system, or contains a NUL.
                 return _refusal(http.HTTPStatus.NOT_FOUND, "No such page.")

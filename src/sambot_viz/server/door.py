@@ -22,7 +22,8 @@ import asyncio
 import logging
 import math
 import time
-from collections.abc import Sequence
+import weakref
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, cast
 
@@ -31,6 +32,7 @@ from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
 from sambot_viz.server.browser_messages import (
+    BrowserMessage,
     CameraMoved,
     HoldButton,
     PictureDrawn,
@@ -38,6 +40,8 @@ from sambot_viz.server.browser_messages import (
     SetValue,
     decode,
 )
+
+TakeEdit = Callable[[int, object], None]
 
 LARGEST_MESSAGE = 64 * 1024
 """A connection that sends a longer message is closed [bytes]."""
@@ -59,6 +63,21 @@ _LARGEST_INT = 2**53
 """Integers beyond this one are not exact in a browser."""
 
 _log = logging.getLogger(__name__)
+
+EDITS = "sambot-viz"
+"""A value for the widget of this id is an edit of one of our rows."""
+_takers: weakref.WeakKeyDictionary[viser.ViserServer, TakeEdit] = (
+    weakref.WeakKeyDictionary()
+)
+
+
+def give_edits(server: viser.ViserServer, take: TakeEdit) -> None:
+    """Call `take` with the number of a browser and what it wants to edit.
+
+    It is called on the event loop, and viser never sees these messages: it would send
+    them on to the other browsers.
+    """
+    _takers[server] = take
 
 
 def guard(server: viser.ViserServer) -> None:
@@ -93,10 +112,14 @@ class Door:
         while True:
             raw = await self._recv()
             await self._rate.wait()
-            reason = self._reason_against(raw)
-            if reason is None:
+            message = decode(raw) if isinstance(raw, bytes) else None
+            reason = self._reason_against(message)
+            if reason is not None:
+                _report(self._client_id, reason)
+            elif isinstance(message, SetValue) and message.uuid == EDITS:
+                self._give(message.updates["value"])
+            else:
                 return cast(bytes, raw)
-            _report(self._client_id, reason)
 
     async def send(self, message: bytes) -> None:
         """Send a message; disconnect a browser that does not take it."""
@@ -106,9 +129,13 @@ class Door:
         finally:
             timer.cancel()
 
-    def _reason_against(self, raw: object) -> str | None:
+    def _give(self, edit: object) -> None:
+        take = _takers.get(self._server)
+        if take is not None:
+            take(self._client_id, edit)
+
+    def _reason_against(self, message: BrowserMessage | None) -> str | None:
         """Why a message is refused; None when it may be handled."""
-        message = decode(raw) if isinstance(raw, bytes) else None
         if message is None:
             return "not one of the messages that a page of this server sends"
         if isinstance(message, CameraMoved):
@@ -130,6 +157,8 @@ class Door:
     def _reason_against_value(self, message: SetValue) -> str | None:
         if set(message.updates) != {"value"}:
             return "an attribute of a widget other than its value"
+        if message.uuid == EDITS:
+            return None
         handle = self._usable(message.uuid)
         if handle is None:
             return "a value for a widget that is not there, hidden or disabled"

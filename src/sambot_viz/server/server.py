@@ -19,11 +19,11 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
-from sambot_viz.panels.layout import Layout
+from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.bind import close, listen, url_of
-from sambot_viz.server.door import guard
+from sambot_viz.server.door import give_edits, guard
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
@@ -79,9 +79,10 @@ class Server:
         )
         self._stopped = threading.Event()
         guard(self._viser)
-        Layout.prepare_page(self._viser)
+        give_edits(self._viser, self._take_edit)
+        prepare_page(self._viser)
         self.shared: Session | None = None
-        self._layouts: dict[Session, Layout] = {}
+        self._windows: dict[Session, Window] = {}
         if options.session == "shared":
             try:
                 self.shared = self._open(self._viser, self._worker(None))
@@ -149,8 +150,8 @@ class Server:
     def _add_panels(self, session: Session) -> None:
         # A model that is being read may change the displays while panels are made.
         with session.lock:
-            if self.options.panels and session not in self._layouts:
-                self._layouts[session] = Layout(session, joints=self.options.gui)
+            if self.options.panels and session not in self._windows:
+                self._windows[session] = Window(session, joints=self.options.gui)
 
     def _check(self, session: Session) -> None:
         checks = self._checks.get(session)
@@ -256,6 +257,13 @@ class Server:
             session.problems.set_saves(of, problems)
         return session
 
+    def _take_edit(self, client_id: int, edit: object) -> None:
+        """Give an edit of a browser to the window of its session."""
+        session = self.shared or self._private.get(client_id)
+        window = None if session is None else self._windows.get(session)
+        if window is not None:
+            window.receive(client_id, edit)
+
     async def _join(self, client: viser.ClientHandle) -> None:
         viser_private.allow_late_messages(client)
         if self.shared is not None:
@@ -274,6 +282,7 @@ class Server:
 
     def _give_view(self, session: Session, client: viser.ClientHandle) -> None:
         session.views.join(client)
+        session.join_browser(client)
         with self._joined:
             self._joined.notify_all()
 
@@ -311,11 +320,22 @@ class Server:
             session = self._private.pop(client_id, None)
         if session is not None:
             self._checks.pop(session, None)
-            layout = self._layouts.pop(session, None)
-            if layout is not None:
-                layout.close()
+            window = self._windows.pop(session, None)
+            if window is not None:
+                window.close()
             session.close()
         worker.close()
+
+
+def prepare_page(server: viser.ViserServer) -> None:
+    """Light for the page, and nothing of viser's own."""
+    server.gui.configure_theme(
+        dark_mode=True, show_logo=False, show_share_button=False
+    )
+    # Without our script the page still has light to see by.
+    server.scene.configure_default_lights(enabled=False)
+    server.scene.configure_environment_map(None)
+    server.scene.add_light_ambient("/~ambient", intensity=2.0)
 
 
 def _run_what_waits(loop: asyncio.AbstractEventLoop) -> None:

@@ -88,6 +88,10 @@ class Session(SharedState):
         self.views = ViewControl(self)
         self.motion = Motion(self)
         self.tools = ToolControl(self)
+        from sambot_viz.session.browser import Browser, Edits
+        self.browsers = {}
+        self.browser_listeners = []
+        self.edits = Edits()
         for added in self.options.transforms:
             self.add_frame(added.parent, added.child, added.transform)
 
@@ -115,6 +119,22 @@ class Session(SharedState):
     def joints(self) -> JointState | None:
         """The positions of its joints; move them with the methods of the session."""
         return self._posed.joints
+
+    def join_browser(self, client):
+        from sambot_viz.session.browser import Browser
+        b = self.browsers[client.client_id] = Browser(self, client)
+        for f in self.browser_listeners: f(b, True)
+
+    def leave_browser(self, client_id):
+        b = self.browsers.pop(client_id, None)
+        for f in self.browser_listeners:
+            if b: f(b, False)
+
+    def set_entry(self, display, title, name, path, value):
+        with self.change("status"):
+            found = next(f for f in display.entries() if f.title == title)
+            found.set(name, path, value)
+            display.property_changed(f"{title}/{path}")
 
     def show_config(self) -> None:
         """Make the displays of the document and draw them; existing ones are kept."""

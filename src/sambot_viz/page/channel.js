@@ -1,0 +1,57 @@
+// @ts-check
+/* The way between the rows and the server.
+ *
+ * Rows arrive as JSON in elements that viser puts into its own, hidden, control panel.
+ * Edits leave as the message that viser's own widgets send. This is the only module
+ * that uses viser's names for that.
+ */
+
+import { Rows } from "./rows.js";
+
+/** viser's objects have no types here. @type {any} */
+const page = window;
+export const rows = new Rows();
+export const CHANNEL = "sambot-viz";
+
+let gestures = 0;
+/** A new number for all that a hand does in one go. */
+export const newGesture = () => ++gestures;
+
+/**
+ * Send an edit.
+ * @param {string} id @param {any} value @param {number} [gesture]
+ */
+export function send(id, value, gesture) {
+  const edit = gesture === undefined ? [id, value] : [id, value, gesture];
+  page.__viserMutable?.sendMessage({ type: "GuiUpdateMessage", uuid: CHANNEL, updates: { value: edit } });
+}
+
+/** Do what an action row does, if it can be done now. @param {string} id @param {any[]} [args] */
+export function act(id, args = []) {
+  const row = rows.get(id);
+  if (row && !row.off) send(id, args);
+}
+
+/** @type {WeakMap<Node, string>} */
+const taken = new WeakMap();
+
+function take() {
+  /** @type {NodeListOf<HTMLScriptElement>} */
+  const elements = document.querySelectorAll("script[data-sambot]");
+  // All rows before what has changed since.
+  for (const what of /** @type {const} */ (["rows", "changes"])) {
+    for (const element of elements) {
+      const { sambot, of: scope = "session" } = element.dataset;
+      const text = element.textContent || "";
+      if (sambot !== what || taken.get(element) === text) continue;
+      taken.set(element, text);
+      rows.take(scope, what, JSON.parse(text));
+    }
+  }
+}
+
+/** Take rows from now on. */
+export function connect() {
+  new MutationObserver(take).observe(document.body, { childList: true, subtree: true });
+  take();
+}

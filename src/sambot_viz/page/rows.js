@@ -1,0 +1,126 @@
+// @ts-check
+/* The rows that the server describes: what the panels show.
+ *
+ * Rows come in two parts: all of them, and all that has changed since. There are rows of
+ * the session, which everyone sees, and rows of this browser alone.
+ */
+
+/**
+ * @typedef {{
+ *   id: string, in: string, kind: string, name?: string, value?: any, unit?: string,
+ *   min?: number, max?: number, step?: number, options?: string[], editable?: boolean,
+ *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean,
+ *   open?: boolean, bold?: boolean, lazy?: boolean, [key: string]: any,
+ * }} Row
+ * @typedef {{base: number, panels: Record<string, Row[]>, rows?: Record<string, any>}} Part
+ */
+
+export class Rows {
+  constructor() {
+    /** @type {Map<string, Row>} */
+    this.byId = new Map();
+    /** The ids of the rows of each panel, in order. @type {Map<string, string[]>} */
+    this.panels = new Map();
+    /** The ids of the rows below a row, by its id; those at the top by "panel:NAME".
+     * @type {Map<string, string[]>} */
+    this.below = new Map();
+    /** @type {Map<string, Part>} */
+    this.whole = new Map();
+    /** @type {Map<string, Set<() => void>>} */
+    this.listeners = new Map();
+    /** @type {Map<string, any>} */
+    this.drafts = new Map();
+  }
+
+  /**
+   * Take a part that the server has sent.
+   * @param {string} scope "session" or "browser"
+   * @param {"rows" | "changes"} what
+   * @param {Part} part
+   */
+  take(scope, what, part) {
+    const touched = new Set();
+    if (what === "rows") {
+      this.whole.set(scope, part);
+      for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
+    } else if (this.whole.get(scope)?.base === part.base) {
+      for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
+      for (const [id, patch] of Object.entries(part.rows || {})) this.patch(id, patch, touched);
+    }
+    for (const key of touched) this.notify(key);
+  }
+
+  /**
+   * @param {string} name @param {Row[]} rows @param {Set<string>} touched
+   */
+  replace(name, rows, touched) {
+    const before = this.panels.get(name) || [];
+    const ids = rows.map((row) => row.id);
+    const kept = new Set(ids);
+    for (const id of before) {
+      if (!kept.has(id)) { this.byId.delete(id); this.below.delete(id); touched.add(id); }
+    }
+    this.panels.set(name, ids);
+    const below = new Map([[`panel:${name}`, /** @type {string[]} */ ([])]]);
+    for (const row of rows) {
+      const key = row.in || `panel:${name}`;
+      if (!below.has(key)) below.set(key, []);
+      /** @type {string[]} */ (below.get(key)).push(row.id);
+      if (!same(this.byId.get(row.id), row)) { this.byId.set(row.id, row); touched.add(row.id); }
+    }
+    for (const id of ids) if (!below.has(id)) this.below.delete(id);
+    let moved = !same(before, ids);
+    for (const [key, list] of below) {
+      if (!same(this.below.get(key), list)) { this.below.set(key, list); moved = true; }
+    }
+    if (moved) touched.add(`panel:${name}`);
+  }
+
+  /** @param {string} id @param {any} patch @param {Set<string>} touched */
+  patch(id, patch, touched) {
+    const row = this.byId.get(id);
+    if (!row) return;
+    const changed = Object.keys(patch).filter((key) => !same(row[key] ?? null, patch[key]));
+    if (!changed.length) return;
+    /** @type {Row} */
+    const next = { ...row };
+    for (const key of changed) {
+      if (patch[key] === null) delete next[key]; else next[key] = patch[key];
+    }
+    this.byId.set(id, next);
+    touched.add(id);
+  }
+
+  /** @param {string} id */
+  get(id) { return this.byId.get(id); }
+
+  /** The value of a row, for rows that are only data. @param {string} id */
+  value(id) { return this.byId.get(id)?.value; }
+
+  /** The ids below a row, or at the top of a panel ("panel:NAME"). @param {string} key */
+  children(key) { return this.below.get(key) || []; }
+
+  /**
+   * Call a function after each change of a row, or of the list of a panel ("panel:NAME").
+   * @param {string} key @param {() => void} listener @returns {() => void} stops it
+   */
+  listen(key, listener) {
+    if (!this.listeners.has(key)) this.listeners.set(key, new Set());
+    const set = /** @type {Set<() => void>} */ (this.listeners.get(key));
+    set.add(listener);
+    return () => { set.delete(listener); if (!set.size) this.listeners.delete(key); };
+  }
+
+  /** @param {string} key */
+  notify(key) {
+    for (const listener of [...(this.listeners.get(key) || [])]) listener();
+  }
+}
+
+/** Whether two values from JSON are equal. @param {any} a @param {any} b @returns {boolean} */
+export function same(a, b) {
+  if (a === b) return true;
+  if (typeof a !== "object" || typeof b !== "object" || !a || !b) return false;
+  const keys = Object.keys(a);
+  return keys.length === Object.keys(b).length && keys.every((key) => same(a[key], b[key]));
+}

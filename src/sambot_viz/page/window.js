@@ -1,0 +1,192 @@
+// @ts-check
+/* The window: toolbar, panels at the left, right and bottom, status bar. */
+
+import { html, useEffect, useRef } from "./vendor/preact.js";
+import { rows } from "./channel.js";
+import { DisplaysPanel } from "./panels/displays.js";
+import { JointsPanel } from "./panels/joints.js";
+import { StatusBar } from "./status_bar.js";
+import { Toolbar } from "./toolbar.js";
+import { Tree } from "./tree.js";
+import { Cell, useRow } from "./state.js";
+import { Icon } from "./icons.js";
+
+/** Sizes of the panels [px]. @type {Cell<Record<string, number>>} */
+const sizes = new Cell({ left: 300, right: 320, bottom: 160, views: 240 }, "sizes");
+/** Which panels are folded away. @type {Cell<Record<string, boolean>>} */
+export const hidden = new Cell(/** @type {Record<string, boolean>} */ ({}), "hidden");
+/** The chosen tab at the right, or in the sheet of a phone. */
+export const tab = new Cell("joints", "tab");
+/** "wide" beside the view, "tall" (a phone) below it. */
+export const shape = new Cell(measure());
+
+function measure() {
+  return matchMedia("(max-width: 640px) and (orientation: portrait)").matches ? "tall"
+    : matchMedia("(max-height: 480px), (max-width: 640px)").matches ? "flat" : "wide";
+}
+addEventListener("resize", () => shape.set(measure()));
+
+/**
+ * The panels that are chosen by tabs; a new one is a file and a line here.
+ * @type {Record<string, {title: string, content: any}>}
+ */
+const TABS = {
+  joints: { title: "Joints", content: JointsPanel },
+  frames: { title: "Frames", content: () => html`<${Tree} panel="frames" label="Frames" />` },
+  selection: { title: "Selection", content: () => html`<${Tree} panel="selection" label="Selection" />` },
+  drive: { title: "Drive", content: () => html`<${Tree} panel="drive" label="Drive" />` },
+};
+const SHEET = {
+  ...TABS,
+  displays: { title: "Displays", content: DisplaysPanel },
+  views: { title: "Views", content: () => html`<${Tree} panel="views" label="Views" />` },
+  problems: { title: "Problems", content: () => html`<${Tree} panel="problems" label="Problems" />` },
+};
+
+export function Window() {
+  const form = shape.use(), away = hidden.use(), size = sizes.use();
+  const view = useRef(/** @type {any} */ (null));
+  useEffect(() => placeView(view.current), []);
+  const style = `--left:${size.left}px;--right:${size.right}px;--bottom:${size.bottom}px`;
+  return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
+    ${!away.all && html`<${Toolbar} />`}
+    ${form === "wide" && !away.all && html`<${Left} />`}
+    <div class="view" ref=${view}></div>
+    ${away.all && html`<button class="back" onClick=${() => hidden.set({ ...away, all: false })}>Show panels (H)</button>`}
+    ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
+    ${form !== "wide" && !away.all && html`<${Sheet} />`}
+    ${!away.all && html`<${StatusBar} />`}
+  </div>`;
+}
+
+/** Keep viser's page exactly where the view is. @param {HTMLElement} view */
+function placeView(view) {
+  const root = /** @type {HTMLElement} */ (document.getElementById("root"));
+  const place = () => {
+    const { left, top, width, height } = view.getBoundingClientRect();
+    Object.assign(root.style, { position: "fixed", left: `${left}px`, top: `${top}px`,
+      width: `${width}px`, height: `${height}px` });
+  };
+  const observer = new ResizeObserver(place);
+  observer.observe(view);
+  addEventListener("resize", place);
+  place();
+}
+
+/** @param {{title: string, name: string, children?: any}} props */
+export function Section({ title, name, children }) {
+  const away = hidden.use();
+  return html`<section class=${`panel ${name}`} aria-label=${title}>
+    <header class="title">${title}
+      <button class="flat" title=${`Fold ${title}`} aria-label=${`Fold ${title}`}
+        onClick=${() => hidden.set({ ...away, [name]: true })}><${Icon} name="close" /></button>
+    </header>${children}</section>`;
+}
+
+function Left() {
+  const away = hidden.use();
+  if (away.left) return html`<${Tab} side="left" />`;
+  return html`<aside class="left">
+    <${DisplaysPanel} />
+    ${rows.children("panel:views").length > 0 && html`<section class="panel views" aria-label="Views" style=${`height:${sizes.value.views}px`}>
+      <${Splitter} side="views" label="Height of Views" />
+      <header class="title">Views</header><${Tree} panel="views" label="Views" /></section>`}
+    <${Splitter} side="left" label="Width of the left panels" />
+  </aside>`;
+}
+
+function Right() {
+  const away = hidden.use(), chosen = tab.use();
+  for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
+  const names = Object.keys(TABS).filter((name) => rows.panels.get(name)?.length);
+  if (!names.length) return null;
+  if (away.right) return html`<${Tab} side="right" />`;
+  const current = names.includes(chosen) ? chosen : names[0];
+  return html`<aside class="right">
+    <${Tabs} names=${names} of=${TABS} current=${current} />
+    <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}><${TABS[current].content} /></div>
+    <${Splitter} side="right" label="Width of the right panels" />
+  </aside>`;
+}
+
+function Sheet() {
+  const chosen = tab.use();
+  /** @type {Record<string, {title: string, content: any}>} */
+  const of = SHEET;
+  for (const name of Object.keys(of)) useRow(`panel:${name}`);
+  const names = Object.keys(of).filter((name) => rows.panels.get(name)?.length);
+  const current = names.includes(chosen) ? chosen : names[0];
+  return html`<aside class="sheet">
+    <${Tabs} names=${names} of=${of} current=${current} />
+    <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}><${of[current].content} /></div>
+  </aside>`;
+}
+
+/** @param {{names: string[], of: Record<string, {title: string}>, current: string}} props */
+function Tabs({ names, of, current }) {
+  /** @param {any} event */
+  const key = (event) => {
+    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 1, ArrowLeft: -1 })[event.key];
+    if (!by) return;
+    const next = names[(names.indexOf(current) + by + names.length) % names.length];
+    tab.set(next);
+    event.currentTarget.querySelector(`[data-tab="${next}"]`)?.focus();
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return html`<div class="tabs" role="tablist" onKeyDown=${key}>
+    ${names.map((name) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
+      aria-controls=${name === current ? "panel-right" : undefined} tabindex=${name === current ? 0 : -1}
+      onClick=${() => tab.set(name)}>${of[name].title}</button>`)}
+  </div>`;
+}
+
+/** What is below the view: the problems, when they are open. */
+function Bottom() {
+  const away = hidden.use();
+  useRow("panel:problems");
+  if (away.problems !== false || !rows.children("panel:problems").length) return null;
+  return html`<section class="panel bottom" aria-label="Problems">
+    <${Splitter} side="bottom" label="Height of Problems" />
+    <header class="title">Problems
+      <button class="flat" aria-label="Close Problems" title="Close" onClick=${() => hidden.set({ ...away, problems: true })}><${Icon} name="close" /></button>
+    </header>
+    <${Tree} panel="problems" label="Problems" />
+  </section>`;
+}
+
+/** @param {{side: string}} props */
+function Tab({ side }) {
+  return html`<button class=${`unfold ${side}`} title=${`Show the ${side} panels`} aria-label=${`Show the ${side} panels`}
+    onClick=${() => hidden.set({ ...hidden.value, [side]: false })}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
+}
+
+/** An edge that a hand can move; arrow keys move it too. @param {{side: string, label: string}} props */
+function Splitter({ side, label }) {
+  const sign = side === "left" ? 1 : -1;
+  const across = side === "left" || side === "right";
+  const most = () => (across ? innerWidth : innerHeight) * 0.6;
+  /** @param {number} size */
+  const set = (size) => sizes.set({ ...sizes.value, [side]: Math.round(Math.min(most(), Math.max(90, size))) });
+  /** @param {any} event */
+  const drag = (event) => {
+    const from = across ? event.clientX : event.clientY, size = sizes.value[side];
+    event.target.setPointerCapture(event.pointerId);
+    event.target.onpointermove = (/** @type {any} */ e) => set(size + sign * ((across ? e.clientX : e.clientY) - from));
+    event.target.onpointerup = () => { event.target.onpointermove = null; };
+    event.preventDefault();
+  };
+  /** @param {any} event */
+  const key = (event) => {
+    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 16, ArrowUp: across ? 0 : -16, ArrowLeft: -16, ArrowDown: across ? 0 : 16 })[event.key];
+    if (!by) return;
+    set(sizes.value[side] + sign * by);
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  const icon = across && html`<button class="tuck" tabindex="-1" aria-label=${`Hide the ${side} panels`} title=${`Hide the ${side} panels`}
+    onClick=${() => hidden.set({ ...hidden.value, [side]: true })}><${Icon} name=${side === "left" ? "fold" : "unfold"} /></button>`;
+  return html`<div class=${`splitter ${across ? "across" : "down"} ${side}`}><div class="grip" role="separator" tabindex="0" aria-label=${label}
+    aria-orientation=${across ? "vertical" : "horizontal"} aria-valuenow=${sizes.value[side]} aria-valuemin="90" aria-valuemax=${Math.round(most())}
+    onPointerDown=${drag} onKeyDown=${key}></div>${icon}</div>`;
+}

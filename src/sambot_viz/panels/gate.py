@@ -1,0 +1,160 @@
+"""The one place where what a browser sends back is checked.
+
+A message is a list: the id of a row, the new value, and for what a hand does in one go
+(a drag, a key that is held) the number of that gesture.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+from sambot_viz.errors import UsageError
+from sambot_viz.geometry import finite
+from sambot_viz.panels.row import Json, Row
+from sambot_viz.text import text
+
+LONGEST_TEXT = 1000
+"""Of a value that is a text [characters]."""
+LONGEST_ID = 400
+LARGEST = 1e12
+"""No number of a user is larger."""
+_MOST_PARTS = 4000
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """A value that a browser wants a row to have.
+
+    Attributes:
+        row: the id of the row.
+        value: not checked yet.
+        gesture: the same number for all values of one drag; None for a single one.
+    """
+
+    row: str
+    value: Json
+    gesture: int | None
+
+
+class ValueRefused(UsageError):
+    """A value that a row cannot have."""
+
+
+def read(message: object) -> Edit | None:
+    """What a browser has sent; None when it is not an edit."""
+    if not isinstance(message, list) or not 2 <= len(cast("list[Any]", message)) <= 3:
+        return None
+    parts = cast("list[Any]", message)
+    gesture = parts[2] if len(parts) == 3 else None
+    if not isinstance(parts[0], str) or len(parts[0]) > LONGEST_ID:
+        return None
+    if isinstance(gesture, bool) or not isinstance(gesture, int | None):
+        return None
+    return Edit(parts[0], parts[1], gesture)
+
+
+def checked(row: Row, value: Json) -> Any:
+    """A value that the row's `set` may be called with.
+
+    Raises:
+        ValueRefused: it has another type, is outside the limits or not offered, or the
+            row cannot be set at present.
+    """
+    if row.set is None or not row.enabled:
+        raise ValueRefused(f"'{text(row.name)}' cannot be changed at present")
+    if row.kind in ("int", "float", "slider"):
+        return _number(row, value)
+    if row.kind in ("bool", "display") and isinstance(value, bool):
+        return value
+    if row.kind == "enum" and not row.editable:
+        return _option(row, value)
+    if row.kind in ("enum", "text", "frame", "file") and isinstance(value, str):
+        return _short(row, value)
+    if row.kind == "color":
+        return _short(row, value) if isinstance(value, str) else _numbers(row, value, 3)
+    if row.kind == "vector":
+        return _numbers(row, value, len(cast("list[Any]", row.value)))
+    if row.kind == "action":
+        return _arguments(row, value)
+    raise ValueRefused(f"'{text(row.name)}' does not take {_shown(value)}")
+
+
+def _number(row: Row, value: Json) -> float:
+    number = None if isinstance(value, bool) else finite(value)
+    if number is None or abs(number) > LARGEST:
+        raise ValueRefused(f"'{text(row.name)}' needs a number, not {_shown(value)}")
+    low = -math.inf if row.least is None else row.least
+    high = math.inf if row.most is None else row.most
+    if not low <= number <= high:
+        limits = f"{low:.6g} … {high:.6g} {row.unit}".strip()
+        raise ValueRefused(
+            f"'{text(row.name)}' cannot be {number:.6g}: its limits are {limits}"
+        )
+    if row.kind == "int" and number != int(number):
+        raise ValueRefused(f"'{text(row.name)}' needs a whole number")
+    return int(number) if row.kind == "int" else number
+
+
+def _option(row: Row, value: Json) -> str:
+    # The page has the options in a safe form; two of them may look the same there.
+    for option in row.options:
+        if value == text(option, 200):
+            return option
+    raise ValueRefused(f"'{text(row.name)}' does not offer {_shown(value)}")
+
+
+def _short(row: Row, value: str) -> str:
+    if len(value) > LONGEST_TEXT:
+        raise ValueRefused(
+            f"'{text(row.name)}' takes at most {LONGEST_TEXT} characters"
+        )
+    # What cannot be encoded must never reach viser's buffer.
+    if not value.isascii() and text(value, LONGEST_TEXT) != value:
+        raise ValueRefused(
+            f"'{text(row.name)}' contains a character that cannot be seen"
+        )
+    return value
+
+
+def _numbers(row: Row, value: Json, count: int) -> tuple[float, ...]:
+    parts = cast("Sequence[object]", value) if isinstance(value, list) else ()
+    numbers = [None if isinstance(part, bool) else finite(part) for part in parts]
+    known = tuple(n for n in numbers if n is not None and abs(n) <= LARGEST)
+    if len(known) != count or len(numbers) != count:
+        raise ValueRefused(f"'{text(row.name)}' needs {count} numbers")
+    return known
+
+
+def _arguments(row: Row, value: Json) -> tuple[Any, ...]:
+    parts = cast("list[Any]", value) if isinstance(value, list) else []
+    fits = len(parts) == len(row.takes) and all(
+        isinstance(part, kind) and not (isinstance(part, bool) and kind is not bool)
+        for part, kind in zip(parts, row.takes, strict=False)
+    )
+    if value is None and not row.takes:
+        return ()
+    if not fits:
+        raise ValueRefused(f"'{text(row.name)}' does not take {_shown(value)}")
+    return tuple(_argument(row, part) for part in parts)
+
+
+def _argument(row: Row, part: Json) -> Any:
+    if isinstance(part, str):
+        return _short(row, part)
+    if isinstance(part, int | float) and not math.isfinite(part):
+        raise ValueRefused(f"'{text(row.name)}' needs a number")
+    if isinstance(part, list):
+        parts = cast("list[Any]", part)
+        if len(parts) > _MOST_PARTS or any(
+            isinstance(p, list | dict) for p in parts
+        ):
+            raise ValueRefused(f"'{text(row.name)}' does not take such a list")
+        return [_argument(row, p) for p in parts]
+    return part
+
+
+def _shown(value: Json) -> str:
+    return text(repr(value), 60)

@@ -1,0 +1,124 @@
+"""Rows of declared properties: the declaration says all there is to say about a row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from sambot_viz.panels.row import Kind, Row
+from sambot_viz.rviz import (
+    BoolProperty,
+    ColorProperty,
+    ConfigItem,
+    Declared,
+    EditableEnumProperty,
+    EnumProperty,
+    FileProperty,
+    FloatProperty,
+    IntProperty,
+    Property,
+    TfFrameProperty,
+    VectorProperty,
+)
+
+Change = Callable[[str, Any], object]
+"""Sets the property at a path to a value."""
+
+_KINDS: tuple[tuple[type[Property], Kind], ...] = (
+    (BoolProperty, "bool"),
+    (IntProperty, "int"),
+    (FloatProperty, "float"),
+    (ColorProperty, "color"),
+    (VectorProperty, "vector"),
+    (EnumProperty, "enum"),
+    (EditableEnumProperty, "enum"),
+    (TfFrameProperty, "frame"),
+    (FileProperty, "file"),
+)
+
+
+def kind_of(prop: Property) -> Kind:
+    """How a property's row is drawn."""
+    if not prop.has_value:
+        return "group"
+    return next((kind for cls, kind in _KINDS if isinstance(prop, cls)), "text")
+
+
+def property_rows(
+    item: ConfigItem, above: str, change: Change, *, prefix: str = ""
+) -> Iterator[Row]:
+    """The rows of all properties of an item that are shown at present.
+
+    Args:
+        item: whose properties.
+        above: the id of the row they are below; the ids begin with it.
+        change: called with the path of a property and its new value.
+        prefix: a path of `item`, to get only what is below it.
+    """
+    for path, declared in item.declared.items():
+        if path.startswith(prefix) and path != prefix and is_listed(item, declared):
+            yield property_row(item, declared, above, change)
+
+
+def is_listed(item: ConfigItem, declared: Declared) -> bool:
+    """Whether a property has a row now: it may depend on another one's value."""
+    prop = declared.property
+    if prop.support in ("none", "kept") or not item.is_shown(declared.path):
+        return False
+    # A group is there for what is in it; lists of links or frames add their own rows.
+    if prop.has_value or prop.open_keys:
+        return True
+    return any(
+        child.property.support not in ("none", "kept")
+        for child in item.declared.values()
+        if child.above is declared
+    )
+
+
+def property_row(
+    item: ConfigItem, declared: Declared, above: str, change: Change
+) -> Row:
+    """The row of one property."""
+    prop, path = declared.property, declared.path
+    parent = above if declared.above is None else f"{above}/{declared.above.path}"
+    kind = kind_of(prop)
+    return Row(
+        id=f"{above}/{path}",
+        above=parent,
+        kind=kind,
+        name=prop.name,
+        value=item.get(path) if prop.has_value else None,
+        unit=prop.unit,
+        least=prop.minimum,
+        most=prop.maximum,
+        step=_step(prop),
+        options=_options(prop),
+        editable=isinstance(prop, EditableEnumProperty),
+        help=prop.help,
+        extra=_extra(prop),
+        set=None if kind == "group" or prop.read_only else _setter(change, path),
+    )
+
+
+def _setter(change: Change, path: str) -> Callable[[Any], object]:
+    return lambda value: change(path, value)
+
+
+def _step(prop: Property) -> float | None:
+    """What an arrow key adds: one step of the unit that people think in."""
+    if isinstance(prop, IntProperty):
+        return 1
+    if isinstance(prop, FloatProperty | VectorProperty):
+        return 0.01
+    return None
+
+
+def _options(prop: Property) -> tuple[str, ...]:
+    if isinstance(prop, TfFrameProperty):
+        # The frames themselves are in a list for all rows of this kind.
+        return (prop.default,) if prop.offers_fixed_frame else ()
+    return prop.options
+
+
+def _extra(prop: Property) -> dict[str, Any] | None:
+    return {"parts": list(prop.keys)} if isinstance(prop, VectorProperty) else None

@@ -1,0 +1,175 @@
+"""Sends rows to the page: all of them once, then what changes.
+
+viser keeps only the last content of an HTML element for browsers that come later. So
+there are two elements: one with all rows, written rarely, and one with all changes
+since, written again with every change. A browser that joins applies both.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from typing import Literal, Protocol
+
+import viser
+
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Json, Row, safe
+from sambot_viz.session import Event
+from sambot_viz.session.throttle import Throttle
+from sambot_viz.session.worker import Worker
+
+PERIOD = 0.05
+"""Shortest time between two messages with rows [s]."""
+MOST_CHANGES = 16_000
+"""When the changes are longer than this, all rows are sent again [characters]."""
+
+Scope = Literal["session", "browser"]
+
+
+class Owner(Protocol):
+    """Who sees the rows: a session's audience, or one browser of it."""
+
+    gui: viser.GuiApi
+
+    def flush(self) -> None:
+        """Send waiting messages now."""
+
+
+class Publisher:
+    """The rows of one session, or of one browser.
+
+    Args:
+        owner: whom they are sent to.
+        worker: whose lock is held while rows are made.
+        panels: what makes the rows.
+        scope: whose state they show.
+    """
+
+    def __init__(
+        self, owner: Owner, worker: Worker, panels: Sequence[Panel], scope: Scope
+    ) -> None:
+        self._owner = owner
+        self._worker = worker
+        self._panels = tuple(panels)
+        self._scope = scope
+        self._base = 0
+        self._rows: dict[str, dict[str, Row]] = {panel.name: {} for panel in panels}
+        self._sent: dict[str, dict[str, Json]] = {}
+        self._replaced: dict[str, list[dict[str, Json]]] = {}
+        self._patches: dict[str, dict[str, Json]] = {}
+        self._remake: set[Panel] = set()
+        self._move: set[Panel] = set()
+        self._throttle = Throttle(worker, PERIOD, self._publish)
+        for panel in self._panels:
+            self._make(panel)
+        self._all = owner.gui.add_html(self._whole())
+        self._changes = owner.gui.add_html(self._element("changes", self._difference()))
+
+    def close(self) -> None:
+        """Send nothing any more."""
+        self._throttle.close()
+        for panel in self._panels:
+            panel.close()
+
+    def row(self, row_id: str) -> Row | None:
+        """The row of this id, if there is one at present."""
+        for rows in self._rows.values():
+            if row_id in rows:
+                return rows[row_id]
+        return None
+
+    def hear(self, event: Event) -> None:
+        """Send what an event changes, soon."""
+        for panel in self._panels:
+            if event in panel.remade_by:
+                self._remake.add(panel)
+            elif event in panel.moved_by:
+                self._move.add(panel)
+        if self._remake or self._move:
+            self._throttle.request()
+
+    def remake(self, panel: Panel) -> None:
+        """Make the rows of a panel again, soon."""
+        self._remake.add(panel)
+        self._throttle.request()
+
+    def _publish(self) -> None:
+        with self._worker.lock:
+            remake, self._remake = self._remake, set()
+            move, self._move = self._move - remake, set()
+            changed = [self._make(panel) for panel in self._panels if panel in remake]
+            changed += [self._follow(panel) for panel in self._panels if panel in move]
+            if any(changed):
+                self._send()
+
+    def _send(self) -> None:
+        changes = self._element("changes", self._difference())
+        if len(changes) > MOST_CHANGES:
+            self._base += 1
+            self._replaced.clear()
+            self._patches.clear()
+            self._all.content = self._whole()
+            changes = self._element("changes", self._difference())
+        self._changes.content = changes
+        self._owner.flush()
+
+    def _make(self, panel: Panel) -> bool:
+        """Make the rows of a panel; whether the page has to show something else."""
+        made = {row.id: row for row in panel.rows()}
+        before, self._rows[panel.name] = self._rows[panel.name], made
+        new = {row_id: row.json() for row_id, row in made.items()}
+        if list(before) != list(new):
+            for row_id in before:
+                self._sent.pop(row_id, None)
+                self._patches.pop(row_id, None)
+            self._sent |= new
+            self._replaced[panel.name] = list(new.values())
+            return True
+        return any([self._patch(row_id, value) for row_id, value in new.items()])
+
+    def _patch(self, row_id: str, new: dict[str, Json]) -> bool:
+        old = self._sent[row_id]
+        patch = {key: value for key, value in new.items() if old.get(key) != value}
+        patch |= {key: None for key in old if key not in new}
+        if not patch:
+            return False
+        self._sent[row_id] = new
+        self._patches.setdefault(row_id, {}).update(patch)
+        return True
+
+    def _follow(self, panel: Panel) -> bool:
+        changed = False
+        for row_id, value in panel.values().items():
+            sent = self._sent.get(row_id)
+            if sent is not None and sent.get("value") != (shown := safe(value)):
+                sent["value"] = shown
+                self._patches.setdefault(row_id, {})["value"] = shown
+                changed = True
+        return changed
+
+    def _whole(self) -> str:
+        panels = {
+            name: [self._sent[row_id] for row_id in rows]
+            for name, rows in self._rows.items()
+        }
+        self._replaced.clear()
+        return self._element("rows", {"base": self._base, "panels": panels})
+
+    def _difference(self) -> Json:
+        return {
+            "base": self._base,
+            "panels": self._replaced,
+            "rows": self._patches,
+        }
+
+    def _element(self, what: str, content: Json) -> str:
+        data = json.dumps(content, separators=(",", ":"), ensure_ascii=False)
+        data = data.replace("<", "\\u003c")
+        return (
+            f'<script type="application/json" data-sambot="{what}" '
+            f'data-of="{self._scope}">{data}</script>'
+        )
+
+
+Listener = Callable[[Event], None]

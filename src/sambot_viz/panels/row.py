@@ -1,0 +1,133 @@
+"""A row of the page's panels: what it shows, and what happens when a user sets it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+from sambot_viz.text import text
+
+Json: TypeAlias = Any
+"""What `json.dumps` takes: numbers, texts, lists, dictionaries, None."""
+
+Kind = Literal[
+    "group",  # only a name, with rows below
+    "display",  # a display, group or list entry: its value is its box
+    "bool",
+    "int",
+    "float",
+    "slider",  # a number with a handle, such as a joint
+    "text",
+    "enum",
+    "frame",
+    "file",
+    "color",
+    "vector",
+    "status",
+    "fact",  # a name and a text that can only be read
+    "note",  # a sentence over the whole width
+    "lines",  # several lines of text, in a fixed-width font
+    "action",  # what a button, a key or a menu entry sends
+    "names",  # a list for other rows to offer
+]
+Level = Literal["ok", "warn", "error", "info"]
+
+LONGEST_NAME = 200
+LONGEST_TEXT = 2000
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One row.
+
+    Attributes:
+        id: unique in the window, and the same as long as the row means the same thing.
+        above: the id of the row it is below; empty at the top of its panel.
+        kind: how it is drawn, and what values it takes.
+        name: its label.
+        value: what it shows; of the type that `kind` says.
+        unit: written beside the value.
+        least: lowest value that may be set.
+        most: highest value that may be set.
+        step: what an arrow key adds.
+        options: what can be chosen.
+        editable: other texts than the options may be typed.
+        help: a sentence or more about it.
+        icon: the name of its picture.
+        level: how good or bad what it shows is.
+        enabled: whether it can be used at present.
+        expanded: whether the rows below it are shown when the page is opened.
+        bold: RViz writes what a file gives, and displays, in bold.
+        takes: the types of the values that an action takes.
+        extra: more for the page, by name.
+        set: called with a checked value, in the session's worker and with its lock
+            held; None for a row that can only be read. It raises SambotVizError to
+            refuse the value.
+    """
+
+    id: str
+    above: str
+    kind: Kind
+    name: str = ""
+    value: Json = None
+    unit: str = ""
+    least: float | None = None
+    most: float | None = None
+    step: float | None = None
+    options: Sequence[str] = ()
+    editable: bool = False
+    help: str = ""
+    icon: str = ""
+    level: Level | None = None
+    enabled: bool = True
+    expanded: bool = False
+    bold: bool = False
+    takes: tuple[type | tuple[type, ...], ...] = ()
+    extra: dict[str, Json] | None = None
+    set: Callable[[Any], object] | None = field(default=None, compare=False)
+
+    def json(self) -> dict[str, Json]:
+        """What the page gets: only what differs from the defaults, all texts safe."""
+        values: dict[str, Json] = {
+            "id": self.id,
+            "in": self.above,
+            "kind": self.kind,
+            "name": text(self.name, LONGEST_NAME),
+            "value": safe(self.value),
+            "unit": self.unit,
+            "min": self.least,
+            "max": self.most,
+            "step": self.step,
+            "options": [text(option, LONGEST_NAME) for option in self.options],
+            "editable": self.editable,
+            "help": text(self.help, LONGEST_TEXT),
+            "icon": self.icon,
+            "level": self.level,
+            "off": not self.enabled,
+            "fixed": self.set is None,
+            "open": self.expanded,
+            "bold": self.bold,
+            **(safe(self.extra) or {}),
+        }
+        kept = ("id", "in", "kind")
+        return {
+            key: value
+            for key, value in values.items()
+            if key in kept
+            or (value is not None and value is not False and value not in ("", []))
+            # A box that is off is a value all the same.
+            or (key == "value" and value is not None)
+        }
+
+
+def safe(value: Json) -> Json:
+    """A value whose texts any browser can show; the lines of a text stay lines."""
+    if isinstance(value, str):
+        lines = value.split("\n")
+        return "\n".join(text(line, LONGEST_TEXT) for line in lines)
+    if isinstance(value, dict):
+        return {text(key): safe(part) for key, part in value.items()}  # pyright: ignore[reportUnknownVariableType]
+    if isinstance(value, list | tuple):
+        return [safe(part) for part in value]  # pyright: ignore[reportUnknownVariableType]
+    return value

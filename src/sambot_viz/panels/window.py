@@ -1,0 +1,103 @@
+"""The window of a session: its panels as rows, and what its browsers send back."""
+
+from __future__ import annotations
+
+import logging
+from functools import partial
+
+from sambot_viz.errors import SambotVizError
+from sambot_viz.panels import gate
+from sambot_viz.panels.browser import BrowserPanels
+from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.joints import JointsPanel
+from sambot_viz.panels.names import NamesPanel
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.publisher import Publisher
+from sambot_viz.session import Event, Session
+from sambot_viz.session.browser import Browser
+
+_log = logging.getLogger(__name__)
+
+
+class Window:
+    """The panels of one session.
+
+    Args:
+        session: what they show.
+        joints: whether there are panels to move joints (``--no-gui`` leaves them out).
+    """
+
+    def __init__(self, session: Session, joints: bool = True) -> None:
+        self._session = session
+        self._browsers: dict[int, BrowserPanels] = {}
+        self._keys: dict[tuple[int, str, int | None], object] = {}
+        self._shared = Publisher(
+            session.audience, session.worker, self._panels(joints), "session"
+        )
+        session.listeners.append(self._hear)
+        session.browser_listeners.append(self._browser)
+        for browser in session.browsers.values():
+            self._browser(browser, True)
+
+    def _panels(self, joints: bool) -> list[Panel]:
+        session = self._session
+        panels: list[Panel] = [NamesPanel(session)]
+        panels.append(DisplaysPanel(session, lambda panel: self._shared.remake(panel)))
+        if joints:
+            panels.append(JointsPanel(session))
+        return panels
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._session.listeners.remove(self._hear)
+        self._session.browser_listeners.remove(self._browser)
+        for panels in self._browsers.values():
+            panels.close()
+        self._shared.close()
+
+    def _hear(self, event: Event) -> None:
+        self._shared.hear(event)
+        for panels in self._browsers.values():
+            panels.hear(event)
+
+    def _browser(self, browser: Browser, joined: bool) -> None:
+        if joined:
+            self._browsers[browser.client_id] = BrowserPanels(self._session, browser)
+        else:
+            panels = self._browsers.pop(browser.client_id, None)
+            if panels is not None:
+                panels.close()
+
+    # What browsers send
+
+    def receive(self, client_id: int, message: object) -> None:
+        """Take a message of a browser; called on the event loop, returns at once."""
+        edit = gate.read(message)
+        if edit is None:
+            _log.warning("browser %d: dropped a message that is not an edit", client_id)
+            return
+        # Of the values of one drag that wait, only the last one counts.
+        latest_of = None
+        if edit.gesture is not None:
+            key = (client_id, edit.row, edit.gesture)
+            self._keys = {key: self._keys.get(key, key)}
+            latest_of = self._keys[key]
+        take = partial(self._take, client_id, edit)
+        self._session.worker.post(take, latest_of=latest_of)
+
+    def _take(self, client_id: int, edit: gate.Edit) -> None:
+        """Check an edit and do it; a refused one is answered in its browser."""
+        browser = self._browsers.get(client_id)
+        if browser is None:
+            return
+        row = browser.row(edit.row) or self._shared.row(edit.row)
+        if row is None:
+            browser.answer(edit.row, "this row is not there any more", None)
+            return
+        try:
+            value = gate.checked(row, edit.value)
+            with self._session.edits.acting(client_id, edit.gesture):
+                assert row.set is not None
+                row.set(value)
+        except SambotVizError as error:
+            browser.answer(edit.row, str(error), row)
