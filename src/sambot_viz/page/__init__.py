@@ -31,5 +31,5 @@ def file(path: str) -> tuple[bytes, str] | None:
 
 
 def with_scripts(html: bytes) -> bytes:
-    """viser's page with our scripts and style sheet in its head."""
+    """Viser's page with our scripts and style sheet in its head."""
     return html.replace(b"</head>", _HEAD.encode() + b"</head>", 1)

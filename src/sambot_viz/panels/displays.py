@@ -88,9 +88,7 @@ class DisplaysPanel(Panel):
 
     def _global_rows(self) -> Iterator[Row]:
         session = self._session
-        yield Row(
-            OPTIONS, "", "group", "Global Options", icon="options", expanded=True
-        )
+        yield Row(OPTIONS, "", "group", "Global Options", icon="options", expanded=True)
         yield from property_rows(
             session.config.global_options, OPTIONS, session.set_global
         )
@@ -186,9 +184,7 @@ class DisplaysPanel(Panel):
     ) -> Iterator[Row]:
         for name in entries.names:
             item, row_id = entries.item(name), f"{above}/{name}"
-            change = partial(
-                self._session.set_entry, display, entries.title, name
-            )
+            change = partial(self._session.set_entry, display, entries.title, name)
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
             yield Row(

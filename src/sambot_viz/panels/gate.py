@@ -148,9 +148,7 @@ def _argument(row: Row, part: Json) -> Any:
         raise ValueRefused(f"'{text(row.name)}' needs a number")
     if isinstance(part, list):
         parts = cast("list[Any]", part)
-        if len(parts) > _MOST_PARTS or any(
-            isinstance(p, list | dict) for p in parts
-        ):
+        if len(parts) > _MOST_PARTS or any(isinstance(p, list | dict) for p in parts):
             raise ValueRefused(f"'{text(row.name)}' does not take such a list")
         return [_argument(row, p) for p in parts]
     return part

@@ -68,9 +68,7 @@ class JointsPanel(Panel):
 
     def _actions(self) -> Iterator[Row]:
         session = self._session
-        yield Row(
-            "joints/center", "", "action", set=lambda _: session.center_joints()
-        )
+        yield Row("joints/center", "", "action", set=lambda _: session.center_joints())
         yield Row(
             "joints/randomize", "", "action", set=lambda _: session.randomize_joints()
         )

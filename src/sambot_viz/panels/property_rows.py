@@ -41,7 +41,10 @@ def kind_of(prop: Property) -> Kind:
     """How a property's row is drawn."""
     if not prop.has_value:
         return "group"
-    return next((kind for cls, kind in _KINDS if isinstance(prop, cls)), "text")
+    for cls, kind in _KINDS:
+        if isinstance(prop, cls):
+            return kind
+    return "text"
 
 
 def property_rows(

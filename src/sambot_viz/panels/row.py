@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, cast
 
 from sambot_viz.text import text
 
@@ -127,7 +127,8 @@ def safe(value: Json) -> Json:
         lines = value.split("\n")
         return "\n".join(text(line, LONGEST_TEXT) for line in lines)
     if isinstance(value, dict):
-        return {text(key): safe(part) for key, part in value.items()}  # pyright: ignore[reportUnknownVariableType]
+        parts = cast("dict[str, Json]", value)
+        return {text(key): safe(part) for key, part in parts.items()}
     if isinstance(value, list | tuple):
-        return [safe(part) for part in value]  # pyright: ignore[reportUnknownVariableType]
+        return [safe(part) for part in cast("Sequence[Json]", value)]
     return value

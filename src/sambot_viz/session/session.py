@@ -89,6 +89,7 @@ class Session(SharedState):
         self.motion = Motion(self)
         self.tools = ToolControl(self)
         from sambot_viz.session.browser import Browser, Edits
+
         self.browsers = {}
         self.browser_listeners = []
         self.edits = Edits()
@@ -122,13 +123,16 @@ class Session(SharedState):
 
     def join_browser(self, client):
         from sambot_viz.session.browser import Browser
+
         b = self.browsers[client.client_id] = Browser(self, client)
-        for f in self.browser_listeners: f(b, True)
+        for f in self.browser_listeners:
+            f(b, True)
 
     def leave_browser(self, client_id):
         b = self.browsers.pop(client_id, None)
         for f in self.browser_listeners:
-            if b: f(b, False)
+            if b:
+                f(b, False)
 
     def set_entry(self, display, title, name, path, value):
         with self.change("status"):
