@@ -10,7 +10,9 @@ import pytest
 from protocol_client import ProtocolClient
 
 from sambot_viz import Problem, Visualizer
-from sambot_viz.panels.problems import MOST_SHOWN, in_order, problems_html, title
+from sambot_viz.panels import problems as panel_module
+from sambot_viz.panels.problems import MOST_SHOWN, title
+from sambot_viz.problem_groups import group_problems
 from sambot_viz.session import Session
 
 
@@ -49,22 +51,14 @@ def panel(client: ProtocolClient) -> dict[str, Any]:
     return props
 
 
-def test_errors_come_first_and_each_problem_once() -> None:
-    info = Problem("info", "i", "note")
-    warning = Problem("warning", "w", "hm", file="a", line=1)
-    error = Problem("error", "e", "no", file="a", line=9)
-    again = Problem("error", "e", "no, again", file="a", line=9)
-    assert in_order((info, warning, error, again)) == [error, warning, info]
-
-
-def test_problems_without_a_line_are_told_apart_by_what_they_say() -> None:
-    one, two = Problem("error", "e", "one"), Problem("error", "e", "two")
-    assert in_order((one, two, one)) == [one, two]
+def problems_html(problems: list[Problem]) -> str:
+    return panel_module.problems_html(group_problems(problems))
 
 
 def test_the_title_counts() -> None:
     assert title([]) == "Problems"
-    assert title([Problem("info", "i", "note")] * 3) == "Problems (3)"
+    notes = [Problem("info", "i", f"note {number}") for number in range(3)]
+    assert title(group_problems(notes)) == "Problems (3)"
 
 
 def test_what_comes_out_of_files_is_escaped(tmp_path: Path) -> None:

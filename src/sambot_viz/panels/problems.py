@@ -8,19 +8,21 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import PurePath
 
 import viser
 
-from sambot_viz import problem_text, viser_private
-from sambot_viz.errors import Problem, Severity
+from sambot_viz import viser_private
+from sambot_viz.errors import Problem
+from sambot_viz.problem_groups import ProblemGroup, group_problems
+from sambot_viz.problem_text import problem_lines
 from sambot_viz.session import Event, Session
+from sambot_viz.session.shown_problems import last_good_note, problems_of
 from sambot_viz.text import html_text, text
 
 MOST_SHOWN = 60
-"""Problems that are written out; the rest is counted."""
-SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
+"""Groups that are written out; the rest is counted."""
 _LONGEST_NAME = 60
 _LONGEST_EXCERPT = 100
 _WORD = re.compile(r"</?[\w:.-]+|[\w:.-]+|\S")
@@ -38,7 +40,7 @@ class ProblemsPanel:
         self._session = session
         self._panel = panel
         self._tab = panel.add_tab("Problems")
-        self._shown: tuple[list[Problem], str] | None = None
+        self._shown: tuple[list[ProblemGroup], str] | None = None
         with self._tab:
             self._list = session.audience.gui.add_html("")
         session.listeners.append(self._hear)
@@ -53,78 +55,50 @@ class ProblemsPanel:
             self._write()
 
     def _write(self) -> None:
-        problems = problems_of(self._session)
+        groups = group_problems(problems_of(self._session))
         note = last_good_note(self._session)
-        if (problems, note) == self._shown:
+        if (groups, note) == self._shown:
             return
-        self._shown = (problems, note)
-        viser_private.set_tab_label(self._tab, title(problems))
-        self._list.content = note + problems_html(problems)
-        self._panel.visible = bool(problems)
+        self._shown = (groups, note)
+        viser_private.set_tab_label(self._tab, title(groups))
+        self._list.content = _note_html(note) + problems_html(groups)
+        self._panel.visible = bool(groups)
 
 
-def problems_of(session: Session) -> list[Problem]:
-    """The problems to show, each once, errors first, then in the order of the files.
-
-    While the saved model has a mistake, its problems take the place of those of the
-    version that is shown, whose line numbers are out of date.
-    """
-    saved = session.problems.of_saves
-    shapes = (p for display in session.displays for p in display.problems)
-    model = saved.get("model", ()) or (*session.problems.of_model, *shapes)
-    config = saved.get("config", ()) or session.config.problems
-    others = (*saved.get("fault", ()), *saved.get("watch", ()))
-    return in_order((*model, *config, *others))
-
-
-def in_order(problems: Iterable[Problem]) -> list[Problem]:
-    """Errors, warnings, infos; of those with the same code and line only the first."""
-    once: dict[object, Problem] = {}
-    for problem in problems:
-        same = problem.message if problem.line is None else ""
-        once.setdefault((problem.code, problem.file, problem.line, same), problem)
-    return sorted(once.values(), key=lambda p: SEVERITIES.index(p.severity))
-
-
-def title(problems: Iterable[Problem]) -> str:
+def title(groups: Sequence[ProblemGroup]) -> str:
     """The label of the tab: "Problems (3)"."""
-    count = Counter(problem.severity for problem in problems)
-    return f"Problems ({count.total()})" if count else "Problems"
+    return f"Problems ({len(groups)})" if groups else "Problems"
 
 
-def last_good_note(session: Session) -> str:
-    """HTML that says that the picture is older than the file, or nothing."""
-    faults = session.problems.of_saves.get("model", ())
-    if not any(fault.severity == "error" for fault in faults):
+def _note_html(note: str) -> str:
+    if not note:
         return ""
-    return (
-        '<div class="sambot-last-good" role="alert">Showing the last good version: '
-        "what was saved has a mistake.</div>"
-    )
+    return f'<div class="sambot-last-good" role="alert">{html_text(note)}</div>'
 
 
-def problems_html(problems: list[Problem]) -> str:
+def problems_html(groups: Sequence[ProblemGroup]) -> str:
     """The list as HTML; everything out of files is escaped."""
-    parts = [_problem_html(problem) for problem in problems[:MOST_SHOWN]]
-    if len(problems) > MOST_SHOWN:
-        rest = Counter(problem.severity for problem in problems[MOST_SHOWN:])
+    parts = [_group_html(group) for group in groups[:MOST_SHOWN]]
+    if len(groups) > MOST_SHOWN:
+        rest = Counter(group.severity for group in groups[MOST_SHOWN:])
         kinds = ", ".join(f"{rest[s]} {_plural(s, rest[s])}" for s in rest)
         parts.append(f'<div class="sambot-note">and {kinds} more</div>')
     return f'<div class="sambot-problems">{"".join(parts)}</div>'
 
 
-def _problem_html(problem: Problem) -> str:
+def _group_html(group: ProblemGroup) -> str:
+    problem = group.first
     lines = [
-        f'<div class="sambot-problem sambot-{problem.severity}">'
-        f'<div class="sambot-kind"><b>{problem.severity}</b> '
+        f'<div class="sambot-problem sambot-{group.severity}">'
+        f'<div class="sambot-kind"><b>{group.severity}</b> '
         f"{_place_html(problem)}</div>"
-        f"<div>{html_text(problem.message)}</div>"
+        f"<div>{html_text(group.message)}</div>"
     ]
-    line = problem_text.excerpt(problem)
-    if line is not None and line.strip():
-        lines.append(f"<pre>{_excerpt_html(line, problem.column)}</pre>")
-    if problem.hint:
-        lines.append(f'<div class="sambot-hint">{html_text(problem.hint)}</div>')
+    for _, line in problem_lines(problem, context=0):
+        if line.strip():
+            lines.append(f"<pre>{_excerpt_html(line, problem.column)}</pre>")
+    if group.hint:
+        lines.append(f'<div class="sambot-hint">{html_text(group.hint)}</div>')
     lines.append("</div>")
     return "".join(lines)
 
