@@ -9,7 +9,7 @@ import pytest
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.picture import on_background, side
-from sambot_viz.panels.selection import facts, geometry_text, item_html
+from sambot_viz.panels.selection import apart, facts, geometry_text, item_html
 from sambot_viz.robot.model import Box, Cylinder, MeshFile, Sphere
 from sambot_viz.session import Session
 from sambot_viz.tools.picking.hit import Selectable
@@ -39,6 +39,18 @@ def test_a_link_tells_its_pose_in_any_frame_and_where_it_is_written(
 def test_a_frame_that_is_gone_says_so(session: Session) -> None:
     rows = dict(facts(session, Selectable("frame", "nowhere"), "base_link"))
     assert "nowhere" in rows["Pose"]
+
+
+def test_two_selected_frames_say_how_far_they_are_apart(session: Session) -> None:
+    left, right = (
+        Selectable("frame", "drivewhl_l_link"),
+        Selectable("link", "drivewhl_r_link"),
+    )
+    assert apart(session.tree, left, right) == (
+        "0.36 m from drivewhl_l_link to drivewhl_r_link: "
+        "0; -0.36; 0 along the axes of drivewhl_l_link"
+    )
+    assert "nowhere" in apart(session.tree, left, Selectable("frame", "nowhere"))
 
 
 def test_names_cannot_be_markup() -> None:

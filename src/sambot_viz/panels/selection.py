@@ -9,7 +9,8 @@ import viser
 
 from sambot_viz.displays.entries import numbers
 from sambot_viz.errors import Place
-from sambot_viz.frames import LookupRefused
+from sambot_viz.frames import FrameTree, LookupRefused
+from sambot_viz.frames.distance import distance_between
 from sambot_viz.panels.widgets import Input, add_property, frame_choices
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
@@ -98,8 +99,10 @@ class SelectionPanel:
             content = NOTHING if not items else ""
             for item in items[:SHOWN]:
                 content += item_html(item, facts(self._session, item, self._frame))
+            if len(items) == 2:
+                content += note_html(apart(self._session.tree, *items))
             if len(items) > SHOWN:
-                content += f'<p class="sambot-note">and {len(items) - SHOWN} more</p>'
+                content += note_html(f"and {len(items) - SHOWN} more")
             if self._list.content != content:
                 self._list.content = content
 
@@ -141,6 +144,23 @@ def item_html(item: Selectable, rows: Sequence[Fact]) -> str:
     return (
         f'<details class="sambot-status" open><summary>{html_text(title)}</summary>'
         f"<ul>{lines}</ul></details>"
+    )
+
+
+def note_html(sentence: str) -> str:
+    """A sentence between the items."""
+    return f'<p class="sambot-note">{html_text(sentence)}</p>'
+
+
+def apart(tree: FrameTree, first: Selectable, second: Selectable) -> str:
+    """How far two selected items are from each other, in a sentence."""
+    try:
+        distance = distance_between(tree, first.name, second.name)
+    except LookupRefused as refused:
+        return refused.rviz_text
+    return (
+        f"{distance.length:.6g} m from {first.name} to {second.name}: "
+        f"{numbers(distance.offset)} along the axes of {first.name}"
     )
 
 
