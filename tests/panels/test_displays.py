@@ -7,11 +7,10 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from inside import viser_server
+from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.session import Session
 
 ROBOT = """
 <robot name="two">
@@ -44,7 +43,7 @@ class Page:
         self.viz = viz
         self.client = client
         self.config = config
-        self.session: Session = viz._server.sessions()[0]
+        self.session = session_of(viz)
 
     def settle(self) -> None:
         self.client.settle(viser_server(self.viz))
@@ -128,7 +127,8 @@ def test_displays_are_named_copied_moved_and_removed(page: Page) -> None:
     page.press("Down")
     assert page.names() == ["Robot", "TF", "Ground", "Radar"]
     page.press("Duplicate")
-    assert page.names() == ["Robot", "TF", "TF", "Ground", "Radar"]
+    assert page.names() == ["Robot", "TF", "TF (2)", "Ground", "Radar"]
+    page.set("Display", "TF (2)")
     page.press("Remove")
     assert page.names() == ["Robot", "TF", "Ground", "Radar"]
 

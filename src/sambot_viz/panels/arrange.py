@@ -102,15 +102,12 @@ class Arrange:
 
     def _add(self, kind: str) -> None:
         with self._session.change():
-            self.chosen = self._session.config.add_display(kind)
-            self._session.show_config()
+            self._session.add_display(kind)
 
     def _rename(self, name: str) -> None:
         chosen = self.chosen
-        if chosen is not None and name.strip() and name != chosen.name:
-            with self._session.change():
-                chosen.rename(name.strip())
-                self._session.show_config()
+        if chosen is not None:
+            self._session.rename_display(chosen, name)
 
     def _act(self, button: str) -> None:
         chosen, config = self.chosen, self._session.config
@@ -120,14 +117,12 @@ class Arrange:
             siblings = chosen.parent.members if chosen.parent else config.displays
             at = list(siblings).index(chosen)
             if button == DUPLICATE:
-                self.chosen = config.duplicate(chosen)
+                self._session.duplicate_display(chosen)
             elif button == REMOVE:
-                config.remove(chosen)
-            elif button == UP:
-                config.move(chosen, max(0, at - 1), chosen.parent)
+                self._session.remove_display(chosen)
             else:
-                config.move(chosen, at + 1, chosen.parent)
-            self._session.show_config()
+                to = max(0, at - 1) if button == UP else at + 1
+                self._session.move_display(chosen, to, chosen.parent)
 
     def _regroup(self, group: DisplayConfig | None) -> None:
         chosen = self.chosen
@@ -136,8 +131,7 @@ class Arrange:
         with self._session.change():
             members = group.members if group else self._session.config.displays
             # A group cannot go into itself: the error refuses the browser's choice.
-            self._session.config.move(chosen, len(members), group)
-            self._session.show_config()
+            self._session.move_display(chosen, len(members), group)
 
 
 def labelled(

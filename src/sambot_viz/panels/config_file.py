@@ -62,7 +62,7 @@ class ConfigFile:
         self._session.listeners.remove(self._hear)
 
     def _hear(self, event: Event) -> None:
-        if event in ("config", "status", "view"):
+        if event in ("config", "edits"):
             self._write()
 
     @property
@@ -105,6 +105,7 @@ class ConfigFile:
     def _write_file(self, path: Path) -> None:
         try:
             self._session.config.save(path)
+            self._session.edits.saved()
         except ConfigError as error:
             self._say("error", error.problems[0].message)
         else:
@@ -148,7 +149,7 @@ class ConfigFile:
 
     def _write(self) -> None:
         config, target = self._session.config, self.target
-        star = " *" if config.modified else ""
+        star = " *" if self._session.edits.modified else ""
         name = "no file yet" if target is None else target.name
         if target is None and config.file is not None:
             name = f"{Path(config.file).name} (bundled)"

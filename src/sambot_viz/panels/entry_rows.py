@@ -142,9 +142,7 @@ class EntryRows:
         found = self._entries()
         if found is None or self._chosen is None:
             return
-        with self._session.change("status"):
-            found.set(self._chosen, row, value)
-            self._display.property_changed(f"{found.title}/{row}")
+        self._session.set_entry(self._display, found.title, self._chosen, row, value)
 
     def _follow(self) -> None:
         with self._session.change():

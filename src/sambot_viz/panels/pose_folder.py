@@ -48,12 +48,8 @@ class PoseFolder:
         if name == START:
             self._session.center_joints()
             return
-        joints = self._session.joints
-        pose = self._session.poses.get(name)
-        free = joints.free if joints else ()
-        self._session.set_joint_positions({n: pose[n] for n in pose if n in free})
-        left_out = [n for n in pose if n not in free]
-        self._say(f"without {', '.join(left_out)}, which cannot be set", left_out != [])
+        left_out = self._session.use_pose(name)
+        self._say(f"without {', '.join(left_out)}, which cannot be set", bool(left_out))
 
     def _save(self) -> None:
         name, joints = text(self._name.value, 60).strip(), self._session.joints
