@@ -94,16 +94,16 @@ ROOMS: Mapping[str, Row] = {
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
     "session": Row(
-        "bundled checks displays drive frames joints meshes options robot rviz tools "
-        "views viser_private",
+        "bundled checks displays drive frames joints meshes options problem_groups "
+        "robot rviz tools views viser_private",
         "numpy viser",
         "asyncio concurrent",
     ),
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "bundled displays drive frames joints options page problem_text robot rviz "
-        "session tools views viser_private",
+        "bundled displays drive frames joints options page problem_groups problem_text "
+        "robot rviz session tools views viser_private",
         "PIL numpy viser",
         "asyncio",
     ),
@@ -138,7 +138,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     "open_config": Row("displays rviz tools views"),
     "options": Row("frames joints robot rviz", "yourdfpy"),
-    "problem_text": Row(),
+    "problem_groups": Row(),
+    "problem_text": Row("problem_groups"),
     "text": Row(),
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "visualizer": Row(

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 Severity = Literal["error", "warning", "info"]
@@ -64,6 +64,8 @@ class Problem:
         file: path of the file as the user wrote it, or None.
         line: line in that file, counted from 1, or None.
         column: column in that line, counted from 1, or None.
+        cause: what several problems of one code may have in common, such as "package
+            arm"; `problem_groups` joins them. No part of the JSON output.
     """
 
     severity: Severity
@@ -73,6 +75,7 @@ class Problem:
     file: str | None = None
     line: int | None = None
     column: int | None = None
+    cause: str | None = field(default=None, compare=False, repr=False)
 
     @classmethod
     def at(
@@ -82,13 +85,15 @@ class Problem:
         code: str,
         message: str,
         hint: str = "",
+        *,
+        cause: str | None = None,
     ) -> Problem:
         """A problem at a place, in a file as a whole, or without a file."""
         if isinstance(where, Place):
             file, line, column = where.file, where.line, where.column
         else:
             file, line, column = where, None, None
-        return cls(severity, code, message, hint, file, line, column)
+        return cls(severity, code, message, hint, file, line, column, cause)
 
     @property
     def place(self) -> str:
@@ -126,6 +131,7 @@ class Findings:
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
+        self._known: set[Problem] = set()
 
     def add(
         self,
@@ -134,18 +140,21 @@ class Findings:
         message: str,
         hint: str = "",
         at: Place | str | None = None,
+        *,
+        cause: str | None = None,
     ) -> None:
         """Add a problem, unless the same one is there already.
 
         Sentences are cut at 2000 characters: a file may make up names of any length.
         """
-        self.note(Problem.at(at, severity, code, message, hint))
+        self.note(Problem.at(at, severity, code, message, hint, cause=cause))
 
     def note(self, problem: Problem) -> None:
         """Add a problem that is made already, by the rules of `add`."""
         message, hint = _cut(problem.message), _cut(problem.hint)
         problem = replace(problem, message=message, hint=hint)
-        if problem not in self.problems:
+        if problem not in self._known:
+            self._known.add(problem)
             self.problems.append(problem)
 
 

@@ -1,38 +1,55 @@
-"""Problems as text for people: clickable place, cause, fix, and the line itself."""
+"""Problems as text for people: clickable place, cause, fix, and the lines around."""
 
 from __future__ import annotations
 
 import os
 import shlex
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 from typing import TextIO
 
 from sambot_viz.errors import Problem
+from sambot_viz.problem_groups import ProblemGroup, group_problems, in_order
 
 MOST = 10
-"""A terminal gets at most so many problems; ``sambot-viz check`` prints all."""
+"""A terminal gets at most so many groups; ``sambot-viz check`` prints each problem."""
 
 _COLORS = {"error": "\033[1;31m", "warning": "\033[1;33m", "info": "\033[1;36m"}
 _BOLD, _DIM, _END = "\033[1m", "\033[2m", "\033[0m"
-_LONGEST_EXCERPT = 160
-_ORDER = ("error", "warning", "info")
+_PLAIN = ("", "", "")
+_LONGEST_LINE = 160
 
 
-def excerpt(problem: Problem) -> str | None:
-    """The line of the file a problem points at, or None when it cannot be read."""
+def problem_lines(problem: Problem, context: int = 2) -> list[tuple[int, str]]:
+    """The lines of the file around the place of a problem.
+
+    Args:
+        problem: its `line` is the marked one, its `column` is right in that line: a
+            tab is one blank here.
+        context: how many lines before and after it.
+
+    Returns:
+        (number of the line, its text), at most 160 characters of each; empty when the
+        problem has no line or the file cannot be read.
+    """
     if problem.file is None or problem.line is None:
-        return None
+        return []
     try:
         stat = os.stat(problem.file)
         lines = _lines(problem.file, stat.st_mtime_ns, stat.st_size)
     except (OSError, ValueError):
-        return None
+        return []
     if not 1 <= problem.line <= len(lines):
-        return None
-    return lines[problem.line - 1].expandtabs(1).rstrip()[:_LONGEST_EXCERPT]
+        return []
+    first = max(1, problem.line - context)
+    around = lines[first - 1 : problem.line + context]
+    return [(number, _shown(line)) for number, line in enumerate(around, first)]
+
+
+def _shown(line: str) -> str:
+    return line[:_LONGEST_LINE].expandtabs(1).rstrip()
 
 
 @lru_cache(maxsize=4)
@@ -48,21 +65,24 @@ def in_words(problem: Problem, color: bool = False) -> str:
         problem: what to print.
         color: with the escape codes of a terminal.
     """
-    paint = _COLORS[problem.severity] if color else ""
-    bold, dim, end = (_BOLD, _DIM, _END) if color else ("", "", "")
+    paint, dim, end = (_COLORS[problem.severity], _DIM, _END) if color else _PLAIN
+    lines = [_sentence(problem, problem.message, color)]
+    for number, line in problem_lines(problem, context=0):
+        if not line.strip():
+            continue
+        margin = f"{number:>5} | "
+        lines.append(f"{dim}{margin}{end}{line}")
+        if problem.column is not None and problem.column <= len(line) + 1:
+            lines.append(f"{' ' * (len(margin) + problem.column - 1)}{paint}^{end}")
+    return "\n".join(lines)
+
+
+def _sentence(problem: Problem, message: str, color: bool) -> str:
+    """Place, severity and code of a problem with a message, and the hint."""
+    paint, bold, end = (_COLORS[problem.severity], _BOLD, _END) if color else _PLAIN
     place = f"{bold}{problem.place}:{end} " if problem.place else ""
     hint = f"; {problem.hint}" if problem.hint else ""
-    lines = [
-        f"{place}{paint}{problem.severity}[{problem.code}]:{end} "
-        f"{problem.message}{hint}"
-    ]
-    line = excerpt(problem)
-    if line is not None and line.strip():
-        number = f"{problem.line:>5} | "
-        lines.append(f"{dim}{number}{end}{line}")
-        if problem.column is not None and problem.column <= len(line) + 1:
-            lines.append(f"{' ' * (len(number) + problem.column - 1)}{paint}^{end}")
-    return "\n".join(lines)
+    return f"{place}{paint}{problem.severity}[{problem.code}]:{end} {message}{hint}"
 
 
 def write(
@@ -77,21 +97,30 @@ def write(
     Args:
         problems: what to write.
         stream: where to; default standard error.
-        most: after so many only the number of the others is written, and the command
-            that prints all; None writes all.
+        most: problems of one cause are written as one; after so many only the number of
+            the others is written, and the command that prints each. None writes each.
         model: the model as the user wrote it, for that command.
     """
     out: TextIO = stream or sys.stderr
     color = out.isatty() and "NO_COLOR" not in os.environ
-    listed = sorted(problems, key=lambda p: _ORDER.index(p.severity))
-    for problem in listed[:most]:
-        out.write(in_words(problem, color) + "\n")
-    if most is not None and len(listed) > most:
-        out.write(_rest(listed[most:], model))
+    if most is None:
+        texts = [in_words(problem, color) for problem in in_order(problems)]
+    else:
+        groups = group_problems(problems)
+        texts = [_group_in_words(group, color) for group in groups[:most]]
+        rest = sum(len(group.problems) for group in groups[most:])
+        name = "MODEL" if model is None else shlex.quote(str(model))
+        if rest:
+            texts.append(f"{rest} more; to see all of them: sambot-viz check {name}")
+        elif any(len(group.problems) > 1 for group in groups):
+            texts.append(f"to see each of them: sambot-viz check {name}")
+    for text in texts:
+        out.write(f"{text}\n")
     out.flush()
 
 
-def _rest(problems: Sequence[Problem], model: object) -> str:
-    """The last line when not all problems are written."""
-    name = "MODEL" if model is None else shlex.quote(str(model))
-    return f"{len(problems)} more; to see all of them: sambot-viz check {name}\n"
+def _group_in_words(group: ProblemGroup, color: bool) -> str:
+    """Several problems in one line, at the place of the first; one in full."""
+    if len(group.problems) == 1:
+        return in_words(group.first, color)
+    return _sentence(group.first, group.message, color)

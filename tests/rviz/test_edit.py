@@ -115,6 +115,23 @@ def test_a_group_is_saved_without_a_value(parse: Parse):
     assert list(group.raw) == ["Class", "Displays", "Enabled", "Name"]
 
 
+def test_a_removed_display_is_put_back_where_it_was(parse: Parse) -> None:
+    config = parse(TREE)
+    group = config.displays[1]
+    first, inner = config.displays[0], group.displays[0]
+    for display in (inner, group, first):
+        removed = config.remove(display)
+        assert not config.holds(display)
+        config.put_back(removed)
+        assert config.holds(display)
+        assert not config.modified
+        assert config.to_yaml() == TREE
+    of_inner = config.remove(inner)
+    config.remove(group)
+    with pytest.raises(UsageError, match="is not in this config any more"):
+        config.put_back(of_inner)
+
+
 def test_a_removed_display_takes_its_lines_and_comment_with_it(
     parse: Parse, declarations: Declarations
 ):

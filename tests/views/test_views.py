@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -297,3 +298,63 @@ def test_a_nearer_camera_has_a_smaller_distance(make_view: MakeView, name: str) 
         assert read["Position"] == pytest.approx(nearer.position)
     else:
         assert read["Distance"] == pytest.approx(9.0)
+
+
+# Showing a box whole.
+
+
+def filled(
+    view: View, low: Any, high: Any, width: int, height: int, target: Target = WORLD
+) -> tuple[float, float, np.ndarray]:
+    """How much of the width and of the height a box fills, and where its middle is,
+    from −1 to 1 of the picture."""
+    camera = view.camera(target)
+    corners = np.array([(x, y, z) for x, y, z in product(*zip(low, high, strict=True))])
+    middle = np.append(corners, [corners.mean(axis=0)], axis=0) - camera.position
+    depth = middle @ camera.forward
+    assert (depth > camera.near).all()
+    if camera.scale is None:
+        half = depth * math.tan(camera.fov / 2)
+    else:
+        half = np.full(len(depth), height / (2 * camera.scale))
+    at = np.stack(
+        [
+            middle @ camera.right / (half * width / height),
+            middle @ camera.image_up / half,
+        ]
+    )
+    across, up = np.abs(at[:, :-1]).max(axis=1)
+    return float(across), float(up), at[:, -1]
+
+
+@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (390, 844)])
+def test_a_box_is_shown_whole_in_the_middle_of_the_picture(
+    make_view: MakeView, name: str, width: int, height: int
+) -> None:
+    low, high = vector(1.0, 2.0, -0.1), vector(1.4, 2.3, 1.5)
+    target = Target(vector(3.0, -1.0, 0.5), 0.7)
+    view = make_view(name)
+    before = view.camera(target)
+    put(view, view.fit(low, high, width, height, target))
+    camera = view.camera(target)
+    assert camera.forward == pytest.approx(before.forward, abs=1e-9)
+    assert camera.image_up == pytest.approx(before.image_up, abs=1e-9)
+    across, up, middle = filled(view, low, high, width, height, target)
+    assert middle == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert across <= 0.9 + 1e-9
+    assert up <= 0.7 + 1e-9
+    assert across == pytest.approx(0.9) or up == pytest.approx(0.7)
+
+
+def test_a_view_from_below_and_one_of_a_point_are_fitted_too(
+    make_view: MakeView,
+) -> None:
+    view = make_view("Orbit", Invert_Z_Axis=True, Pitch=1.2)
+    low, high = vector(-1.0, -1.0, -1.0), vector(1.0, 1.0, 1.0)
+    put(view, view.fit(low, high, 800, 600))
+    assert view.camera().position[2] < -1.0
+    assert filled(view, low, high, 800, 600)[1] == pytest.approx(0.7)
+    put(view, view.fit(high, high, 800, 600))
+    assert 0.01 < value(view, "Distance") < 0.1
+    assert value(view, "Focal Point") == pytest.approx((1.0, 1.0, 1.0))

@@ -73,32 +73,26 @@ def meshes_of(robot: Robot) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
 
 
 def unusable_meshes(subject: Subject) -> Iterator[Problem]:
-    """Problems of the mesh files; files with the same problem are one finding."""
+    """Problems of the mesh files, each at the first shape that uses the file."""
     users: dict[Path, tuple[Link, Shape]] = {}
     for link, shape, _, path in meshes_of(subject.robot):
         users.setdefault(path, (link, shape))
-    same: dict[tuple[str, str, str], list[tuple[Path, Problem]]] = {}
     skipped: list[Path] = []
-    for path in users:
+    for path, (link, shape) in users.items():
         found = subject.mesh(path)
         if found is None:
             skipped.append(path)
             continue
         problems = (found,) if isinstance(found, Problem) else found.problems
         for problem in problems:
-            key = (problem.code, problem.message, problem.hint)
-            same.setdefault(key, []).append((path, problem))
-    for found_in in same.values():
-        first, problem = found_in[0]
-        link, shape = users[first]
-        names = [path.name for path, _ in found_in]
-        yield Problem.at(
-            shape.geometry_place or shape.place,
-            _severity(problem),
-            problem.code,
-            f"{_owner(link, names)}: {problem.message}",
-            problem.hint or "export the mesh again",
-        )
+            yield Problem.at(
+                shape.geometry_place or shape.place,
+                _severity(problem),
+                problem.code,
+                f"link {link.name}: the mesh {path.name}: {problem.message}",
+                problem.hint or "export the mesh again",
+                cause=problem.cause,
+            )
     if skipped:
         yield _not_read(skipped)
 
@@ -110,12 +104,6 @@ def _severity(problem: Problem) -> Severity:
         return "warning"
     # What is not an error is drawn, as RViz draws it.
     return "error" if problem.severity == "error" else "info"
-
-
-def _owner(link: Link, names: Sequence[str]) -> str:
-    if len(names) == 1:
-        return f"link {link.name}: the mesh {names[0]}"
-    return f"{len(names)} meshes ({listed(names)})"
 
 
 def _not_read(paths: Sequence[Path]) -> Problem:

@@ -150,6 +150,11 @@ class Display:
         if self.shown:
             self.draw()
 
+    def values_put_back(self) -> None:
+        """Some of its values were put back by undo, those of its entries too."""
+        if self.shown:
+            self.draw()
+
     def publish(self) -> bool:
         """Set transforms that come with the display; whether there were any new."""
         return False

@@ -110,7 +110,8 @@ class MeshError(RobotError):
 
 def mesh_error(path: Path, code: str, message: str, hint: str = "") -> MeshError:
     """A `MeshError` about a file."""
-    return MeshError(Problem("error", code, message, hint, str(path)))
+    problem = Problem.at(str(path), "error", code, message, hint, cause=message)
+    return MeshError(problem)
 
 
 _FARTHEST = 1e30

@@ -106,7 +106,8 @@ class MeshSource:
 
     def warn(self, code: str, message: str, hint: str = "") -> None:
         """Note something doubtful, unless the same is noted already."""
-        self.findings.add("warning", code, message, hint, str(self.path))
+        file = str(self.path)
+        self.findings.add("warning", code, message, hint, file, cause=message)
 
     def broken(
         self,

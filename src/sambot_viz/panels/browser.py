@@ -113,7 +113,7 @@ class UndoPanel(Panel):
     """What can be undone and done again."""
 
     name = "edit"
-    remade_by = frozenset({"config", "status", "joints", "frames", "view", "tools"})
+    remade_by = frozenset({"edits"})
 
     def __init__(self, session: Session, browser: Browser) -> None:
         self._edits, self._id = session.edits, browser.client_id

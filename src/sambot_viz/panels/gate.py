@@ -25,7 +25,7 @@ _MOST_PARTS = 4000
 
 
 @dataclass(frozen=True, slots=True)
-class Edit:
+class NewValue:
     """A value that a browser wants a row to have.
 
     Attributes:
@@ -43,7 +43,7 @@ class ValueRefused(UsageError):
     """A value that a row cannot have."""
 
 
-def read(message: object) -> Edit | None:
+def read(message: object) -> NewValue | None:
     """What a browser has sent; None when it is not an edit."""
     if not isinstance(message, list) or not 2 <= len(cast("list[Any]", message)) <= 3:
         return None
@@ -53,7 +53,7 @@ def read(message: object) -> Edit | None:
         return None
     if isinstance(gesture, bool) or not isinstance(gesture, int | None):
         return None
-    return Edit(parts[0], parts[1], gesture)
+    return NewValue(parts[0], parts[1], gesture)
 
 
 def checked(row: Row, value: Json) -> Any:

@@ -85,7 +85,7 @@ class Window:
         take = partial(self._take, client_id, edit)
         self._session.worker.post(take, latest_of=latest_of)
 
-    def _take(self, client_id: int, edit: gate.Edit) -> None:
+    def _take(self, client_id: int, edit: gate.NewValue) -> None:
         """Check an edit and do it; a refused one is answered in its browser."""
         browser = self._browsers.get(client_id)
         if browser is None:

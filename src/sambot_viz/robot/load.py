@@ -133,7 +133,6 @@ class _Loader:
         urdf = read_urdf(
             root, findings, files.mesh, files.texture, expanded is not None
         )
-        files.report()
         problems += findings.problems
         if urdf is None or findings.rejected:
             raise RobotError(

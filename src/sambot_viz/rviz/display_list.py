@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_items import DisplayConfig, new_map
 from sambot_viz.rviz.class_name import GROUP, kind_of, short_name, written_in_ros1
 from sambot_viz.rviz.visualization_manager import VisualizationManager
 from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
+
+
+@dataclass(frozen=True, slots=True)
+class Removed:
+    """A display that was taken out of the document.
+
+    Attributes:
+        display: with all its members.
+        entry: its entry in the document.
+        group: the group that it was in; None at the top.
+        index: its place there, from 0.
+    """
+
+    display: DisplayConfig
+    entry: Entry
+    group: DisplayConfig | None
+    index: int
 
 
 class DisplayList(VisualizationManager):
@@ -80,9 +99,34 @@ class DisplayList(VisualizationManager):
         self._insert(copy, Entry(None, node), group, self._index(group, display))
         return copy
 
-    def remove(self, display: DisplayConfig) -> None:
-        """Take a display out; a group with all its members."""
-        self._take_out(display)
+    def remove(self, display: DisplayConfig) -> Removed:
+        """Take a display out; a group with all its members.
+
+        Returns:
+            What `put_back` takes.
+        """
+        group = display.parent
+        members = self._members(group)
+        index = members.index(display) if display in members else 0
+        return Removed(display, self._take_out(display), group, index)
+
+    def put_back(self, removed: Removed) -> None:
+        """Put a display that was taken out where it was.
+
+        Raises:
+            UsageError: its group is not in this config any more.
+        """
+        group = removed.group
+        if group is not None and not self.holds(group):
+            raise UsageError(f"{group.label} is not in this config any more")
+        removed.display.parent = group
+        self._insert(removed.display, removed.entry, group, removed.index)
+
+    def holds(self, display: DisplayConfig) -> bool:
+        """Whether a display is in this config."""
+        if display not in self._members(display.parent):
+            return False
+        return display.parent is None or self.holds(display.parent)
 
     def move(
         self,

@@ -63,4 +63,9 @@ class EntryItem(ConfigItem):
     def map_at(self, keys: Sequence[str]) -> Map:
         """The map at some keys of the entry, made in the document if missing."""
         # The owner finds the place again: another entry may have made it meanwhile.
-        return self._owner.map_at((*self._keys, *keys))
+        owner, place = self.rooted(keys)
+        return owner.map_at(place)
+
+    def rooted(self, keys: Sequence[str]) -> tuple[ConfigItem, Sequence[str]]:
+        """The item whose map is in the document, and a place of this one in it."""
+        return self._owner.rooted((*self._keys, *keys))

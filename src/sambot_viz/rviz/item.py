@@ -6,8 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from sambot_viz.rviz.changes import PutBack, note
 from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declared import Declared, UnknownPropertyError
+from sambot_viz.rviz.item_map import ItemMap
 from sambot_viz.rviz.new_nodes import NewNodes, parts_map
 from sambot_viz.rviz.properties.kinds import (
     EnumProperty,
@@ -15,12 +17,11 @@ from sambot_viz.rviz.properties.kinds import (
 )
 from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.unknown_keys import unknown_keys
-from sambot_viz.rviz.yaml.nodes import Map, Node, Plain, plain
+from sambot_viz.rviz.written_value import WrittenValue
+from sambot_viz.rviz.yaml.nodes import Map, Node
 
-Path = str | Sequence[str]
 
-
-class ConfigItem:
+class ConfigItem(ItemMap):
     """Typed values of one map: Global Options, a display, a view, a tool.
 
     Values are read once, kept typed, and written into the document when they are set.
@@ -48,7 +49,7 @@ class ConfigItem:
             ros1: the map is written in ROS 1's names, whose defaults differ.
             attach: puts the map into the document.
         """
-        self._node = node
+        super().__init__(node)
         self._attach = attach
         self._ros1 = ros1
         self._findings = findings
@@ -102,11 +103,6 @@ class ConfigItem:
 
     def _report(self, node: Node, message: str, hint: str) -> None:
         self._findings.warn("config-value", node, message, hint)
-
-    @property
-    def node(self) -> Map:
-        """Its map in the document."""
-        return self._node
 
     @property
     def findings(self) -> ConfigFindings:
@@ -169,11 +165,36 @@ class ConfigItem:
         if prop.agrees(new, self._values[path]) and path not in self._unreadable:
             self._values[path] = new
             return new
+        note(self, path)
         self._write(declared, new)
         self._values[path] = new
         self._given.add(path)
         self._unreadable.discard(path)
         return new
+
+    def remember(self, path: str) -> PutBack:
+        """A function that puts a property back, here and in the document.
+
+        Args:
+            path: the property; it has a value.
+        """
+        declared, value = self._declared[path], self._values[path]
+        given, unreadable = path in self._given, path in self._unreadable
+        parts = declared.property.components(value) or ("Value",)
+        item, keys = self.rooted(declared.keys)
+        written = WrittenValue(item, keys, tuple(parts))
+
+        def put_back() -> None:
+            written.put_back()
+            self._values[path] = value
+            for mark, holds in (self._given, given), (self._unreadable, unreadable):
+                (mark.add if holds else mark.discard)(path)
+
+        return put_back
+
+    def rooted(self, keys: Sequence[str]) -> tuple[ConfigItem, Sequence[str]]:
+        """The item whose map is in the document, and a place of this one in it."""
+        return self, keys
 
     def assume(self, path: str, value: Any) -> None:
         """Use another default for a property that the file does not give.
@@ -258,39 +279,10 @@ class ConfigItem:
                 self._node.put(prop.name, self._fresh.node(prop.name))
 
     @property
-    def raw(self) -> dict[str, Plain]:
-        """All of the map as text: dicts, lists, str, None."""
-        found = plain(self._node)
-        return found if isinstance(found, dict) else {}
-
-    def dynamic(self, path: Path) -> dict[str, Plain]:
-        """What is below a key, declared or not, such as "Links" or "Frames".
-
-        Args:
-            path: one key, or a sequence of keys (which may contain slashes).
-
-        Returns:
-            Nested dicts of text; empty when nothing is there.
-        """
-        found = plain(self.node_at(_keys(path)))
-        return found if isinstance(found, dict) else {}
-
-    def node_at(self, keys: Sequence[str]) -> Node | None:
-        """The node below some keys, declared or not; None when there is none."""
-        node: Node | None = self._node
-        for key in keys:
-            node = node.get(key) if isinstance(node, Map) else None
-        return node
-
-    @property
     def unknown_keys(self) -> tuple[str, ...]:
         """Paths in the file that nothing declares, in the order of the file."""
         known = {declared.keys: declared for declared in self._declared.values()}
         return tuple(unknown_keys(self._node, known, self._own_keys))
-
-
-def _keys(path: Path) -> tuple[str, ...]:
-    return (path,) if isinstance(path, str) else tuple(path)
 
 
 def _kept(prop: Property) -> KeptProperty:

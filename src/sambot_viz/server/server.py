@@ -310,6 +310,8 @@ class Server:
         if self.shared is not None:
             leave = partial(self.shared.views.leave, client.client_id)
             self.shared.worker.post(leave)
+            forget = partial(self.shared.leave_browser, client.client_id)
+            self.shared.worker.post(forget)
             return
         worker = self._workers.pop(client.client_id, None)
         if worker is not None:

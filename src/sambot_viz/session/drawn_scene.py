@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -68,13 +67,6 @@ class DrawnScene:
         """Show the displays that are enabled, with all groups above them."""
         for display in self.displays:
             display.show(display.config.active)
-
-    def set_option(self, name: str, value: Any) -> bool:
-        """Set one of the Global Options; returns whether the fixed frame changed."""
-        self.config.global_options.set(name, value)
-        before = self.context.fixed_frame
-        self.take_options()
-        return self.context.fixed_frame != before
 
     @property
     def period(self) -> float:

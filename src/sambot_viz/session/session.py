@@ -8,16 +8,15 @@ streams at the config's Frame Rate.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Mapping
+from functools import partial
 
-from sambot_viz.displays.display import Display, DisplayContext
+import viser
+
 from sambot_viz.displays.model_reader import ModelReader
-from sambot_viz.displays.scene.frame_nodes import FrameNodes
-from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
-from sambot_viz.errors import UsageError
-from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.displays.scene.session_assets import Reader
+from sambot_viz.frames import Transform
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
@@ -26,19 +25,20 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.drawn_scene import DrawnScene
+from sambot_viz.session.browser import Browser
+from sambot_viz.session.display_edits import DisplayEdits
 from sambot_viz.session.motion import Motion
 from sambot_viz.session.problem_list import ProblemList
 from sambot_viz.session.robot_state import RobotState
-from sambot_viz.session.shared_state import Audience, SharedState
+from sambot_viz.session.shared_state import Audience
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.tool_control import ToolControl
-from sambot_viz.session.user_frames import UserFrames
+from sambot_viz.session.user_frames import UserFrame, UserFrames
 from sambot_viz.session.view_control import ViewControl
 from sambot_viz.session.worker import Worker
 
 
-class Session(SharedState):
+class Session(DisplayEdits):
     """One robot and its displays, shown to one audience.
 
     Args:
@@ -67,49 +67,34 @@ class Session(SharedState):
         options: Options | None = None,
         poses: Presets | None = None,
     ) -> None:
-        super().__init__(audience, worker)
+        super().__init__(audience, worker, config, meshes, models, reader)
         self.options = options or Options()
-        self.tree = FrameTree()
         self.problems = ProblemList(self)
         worker.on_error = self.problems.report_error
         self.poses = poses or Presets()
         self.added = UserFrames(self.tree)
         self._posed = RobotState(self.tree, self.added)
-        self.context = DisplayContext(
-            scene=audience.scene,
-            tree=self.tree,
-            nodes=FrameNodes(audience.scene),
-            assets=SessionAssets(meshes, reader, self._assets_read),
-            models=models,
-            apply=self._apply,
-        )
-        self.drawn = DrawnScene(self.context, config)
         self._pacer = Throttle(worker, self.period, self._draw_moved)
         self.views = ViewControl(self)
         self.motion = Motion(self)
         self.tools = ToolControl(self)
-        from sambot_viz.session.browser import Browser, Edits
-
-        self.browsers = {}
-        self.browser_listeners = []
-        self.edits = Edits()
+        self.browsers: dict[int, Browser] = {}
+        self.browser_listeners: list[Callable[[Browser, bool], None]] = []
         for added in self.options.transforms:
             self.add_frame(added.parent, added.child, added.transform)
 
-    @property
-    def config(self) -> RvizConfig:
-        """The document that is shown."""
-        return self.drawn.config
+    def join_browser(self, client: viser.ClientHandle) -> None:
+        """A browser has opened the page."""
+        browser = self.browsers[client.client_id] = Browser(self, client)
+        for listener in self.browser_listeners:
+            listener(browser, True)
 
-    @property
-    def displays(self) -> list[Display]:
-        """The supported displays of the document, in its order."""
-        return self.drawn.displays
-
-    @property
-    def period(self) -> float:
-        """Shortest time between two pictures of a stream [s]."""
-        return self.drawn.period
+    def leave_browser(self, client_id: int) -> None:
+        """A browser has closed the page."""
+        browser = self.browsers.pop(client_id, None)
+        if browser is not None:
+            for listener in self.browser_listeners:
+                listener(browser, False)
 
     @property
     def robot(self) -> Robot | None:
@@ -120,39 +105,6 @@ class Session(SharedState):
     def joints(self) -> JointState | None:
         """The positions of its joints; move them with the methods of the session."""
         return self._posed.joints
-
-    def join_browser(self, client):
-        from sambot_viz.session.browser import Browser
-
-        b = self.browsers[client.client_id] = Browser(self, client)
-        for f in self.browser_listeners:
-            f(b, True)
-
-    def leave_browser(self, client_id):
-        b = self.browsers.pop(client_id, None)
-        for f in self.browser_listeners:
-            if b:
-                f(b, False)
-
-    def set_entry(self, display, title, name, path, value):
-        with self.change("status"):
-            found = next(f for f in display.entries() if f.title == title)
-            found.set(name, path, value)
-            display.property_changed(f"{title}/{path}")
-
-    def show_config(self) -> None:
-        """Make the displays of the document and draw them; existing ones are kept."""
-        with self.change("config"):
-            self.drawn.make_displays()
-
-    def set_config(self, config: RvizConfig) -> None:
-        """Show another document: its displays and options; cameras stay."""
-        with self.change():
-            self.drawn.take_config(config)
-            self._pacer.period = self.period
-            self.context.nodes.sync(self.tree, self.context.fixed_frame)
-            self.show_config()
-            self._frames_changed()
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot, or the same after an edit: joints keep their values."""
@@ -172,8 +124,25 @@ class Session(SharedState):
             self._frames_changed()
 
     def set_joint_positions(self, positions: Mapping[str, float]) -> None:
-        """Move some joints; see `move`."""
-        self.move(positions, {})
+        """Move some joints, as an edit that can be undone; see `move`."""
+        names = tuple(positions)
+        label = f"Move {names[0]}" if len(names) == 1 else "Move joints"
+        self._move_joints(label, partial(self._posed.move, positions, {}), names)
+
+    def use_pose(self, name: str) -> tuple[str, ...]:
+        """Move the joints to a named pose.
+
+        Returns:
+            The joints of the pose that cannot be set in this robot.
+
+        Raises:
+            JointError: an unknown pose.
+        """
+        pose = self.poses.get(name)
+        free = self.joints.free if self.joints is not None else ()
+        known = {joint: pose[joint] for joint in pose if joint in free}
+        self._move_joints(f"Pose {name}", partial(self._posed.move, known, {}))
+        return tuple(joint for joint in pose if joint not in known)
 
     def move(
         self, positions: Mapping[str, float], frames: Mapping[str, Matrix]
@@ -193,15 +162,32 @@ class Session(SharedState):
 
     def center_joints(self) -> None:
         """Move all joints to their start values."""
-        with self.lock:
-            self._posed.center()
-        self._pacer.request()
+        self._move_joints("Center the joints", self._posed.center)
 
     def randomize_joints(self, seed: int | None = None) -> None:
         """Move all joints to random values of their ranges."""
+        self._move_joints("Randomize the joints", lambda: self._posed.randomize(seed))
+
+    def _move_joints(
+        self, label: str, move: Callable[[], None], merge: tuple[str, ...] | None = None
+    ) -> None:
+        """Move joints; where they were is noted only for a browser that may undo it."""
+        recording, joints = self.edits.recording, self.joints
+        before = dict(joints.positions) if recording and joints is not None else {}
         with self.lock:
-            self._posed.randomize(seed)
+            move()
         self._pacer.request()
+        if recording and joints is not None:
+            after = {n: q for n, q in joints.positions.items() if before.get(n) != q}
+            before = {name: before[name] for name in after}
+            if after:
+                self.edits.record(
+                    label,
+                    partial(self.move, before, {}),
+                    partial(self.move, after, {}),
+                    merge and ("joints", *merge),
+                    of_document=False,
+                )
 
     def add_frame(
         self, parent: str, child: str, transform: Transform, *, static: bool = True
@@ -217,10 +203,10 @@ class Session(SharedState):
         Raises:
             FrameError: parent and child are the same, or would form a ring.
         """
-        with self.change("frames"):
-            self.added.set(parent, child, transform, static=static)
-            self._posed.forget_pose(child)
-            self._frames_changed()
+        before = self.added.all.get(plain_name(child))
+        self._set_frame(child, UserFrame(parent, transform, static))
+        if static:
+            self._record_frame(f"Add frame {child}", child, before)
 
     def remove_frame(self, child: str) -> None:
         """Remove an added frame.
@@ -228,63 +214,34 @@ class Session(SharedState):
         Raises:
             FrameError: that frame was not added.
         """
+        before = self.added.all.get(plain_name(child))
+        self._set_frame(child, None)
+        self._record_frame(f"Remove frame {child}", child, before)
+
+    def _record_frame(self, label: str, child: str, before: UserFrame | None) -> None:
+        after = self.added.all.get(plain_name(child))
+        self.edits.record(
+            label,
+            lambda: self._set_frame(child, before),
+            lambda: self._set_frame(child, after),
+            ("frame", plain_name(child)),
+            of_document=False,
+        )
+
+    def _set_frame(self, child: str, frame: UserFrame | None) -> None:
+        """Add a frame, or change it; None removes it."""
         with self.change("frames"):
-            self.added.forget(child)
-            self._posed.forget_pose(child)
-            # A joint of the robot may hold that frame again.
-            self._posed.build_tree()
-            self.drawn.publish()
+            if frame is not None:
+                parent, transform = frame.parent, frame.transform
+                self.added.set(parent, child, transform, static=frame.static)
+                self._posed.forget_pose(child)
+            else:
+                self.added.forget(child)
+                self._posed.forget_pose(child)
+                # A joint of the robot may hold that frame again.
+                self._posed.build_tree()
+                self.drawn.publish()
             self._frames_changed()
-
-    def set_global(self, name: str, value: Any) -> None:
-        """Set one of the Global Options."""
-        with self.change("config"):
-            fixed_frame_changed = self.drawn.set_option(name, value)
-            self._pacer.period = self.period
-            if fixed_frame_changed:
-                self._frames_changed()
-            elif name == "Background Color":
-                self._redraw()
-
-    def set_property(self, display: Display, path: str, value: Any) -> None:
-        """Set one property of a display and draw what changes.
-
-        Raises:
-            UsageError: the value cannot be meant, or the display refuses it.
-        """
-        with self.change("status"):
-            refusal = display.refusal(path, value)
-            if refusal is None:
-                display.config.set(path, value)
-                display.property_changed(path)
-        # Raised after the listeners were notified: the panel shows the old value again.
-        if refusal is not None:
-            raise UsageError(refusal)
-
-    def set_enabled(self, display: Display, enabled: bool) -> None:
-        """Enable or disable a display."""
-        with self.change("status"):
-            display.config.set_enabled(enabled)
-            self.drawn.apply_enabled()
-
-    def refresh(self) -> None:
-        """Draw what has changed in the files; what has not is not sent again."""
-        with self.change():
-            self.context.assets.look_again()
-            self._redraw()
-
-    def files_saved(self, files: Set[Path]) -> None:
-        """Read again the robots that displays have from some of these files."""
-        with self.change("status"):
-            self.drawn.read_again(files)
-
-    def _apply(self, action: Callable[[], None]) -> None:
-        with self.change("config", "status"):
-            action()
-
-    def _assets_read(self) -> None:
-        with self.change("status"):
-            self.drawn.assets_read()
 
     def close(self) -> None:
         """Send nothing any more."""
@@ -307,16 +264,5 @@ class Session(SharedState):
             self.audience.flush()
             self.notify("joints")
 
-    def _before_sending(self) -> None:
-        if self.drawn.outdated:
-            # A display has set frames of its own.
-            self._frames_changed()
-
-    def _frames_changed(self) -> None:
-        self.drawn.draw_frames()
-        self.notify("status")
-        self.notify("frames")
-
-    def _redraw(self) -> None:
-        self.drawn.redraw()
-        self.notify("status")
+    def _period_changed(self) -> None:
+        self._pacer.period = self.period

@@ -11,7 +11,15 @@ import viser
 from sambot_viz.session.worker import Worker
 
 Event = Literal[
-    "robot", "config", "frames", "joints", "status", "problems", "view", "tools"
+    "robot",
+    "config",
+    "frames",
+    "joints",
+    "status",
+    "problems",
+    "edits",
+    "view",
+    "tools",
 ]
 """What has changed."""
 Listener = Callable[[Event], None]

@@ -10,6 +10,8 @@ import numpy.typing as npt
 
 Vector = npt.NDArray[np.float64]
 """A point or a direction, (3,) float64 [m]; never changed in place."""
+Vectors = npt.NDArray[np.float64]
+"""Some points, (N, 3) float64 [m]."""
 
 FIELD_OF_VIEW = math.pi / 4
 """Vertical field of view of every perspective view of RViz [rad]."""
@@ -19,6 +21,8 @@ ORTHO_HEIGHT = 500.0
 """Height of RViz's orthographic camera above its target [m]."""
 ORTHO_FIELD_OF_VIEW = math.radians(0.5)
 """Field of view with which a page draws an orthographic view [rad]."""
+FILLED_HEIGHT, FILLED_WIDTH = 0.7, 0.9
+"""Parts of the picture that what is to be seen may fill."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,6 +75,26 @@ class Camera:
     def placed(self, position: Vector, look_at: Vector, up: Vector) -> Camera:
         """The same camera at another place."""
         return replace(self, position=position, look_at=look_at, up=up)
+
+    def distance_to_show(self, points: Vectors, aspect: float) -> float:
+        """How far from the middle of some points the whole of them is in the picture.
+
+        Args:
+            points: (N, 3) [m].
+            aspect: width of the picture by its height.
+
+        Returns:
+            The distance of a camera that looks at their middle in the direction of
+            this one, and sees them in `FILLED_HEIGHT` of the height and
+            `FILLED_WIDTH` of the width [m].
+        """
+        around = points - points.mean(axis=0)
+        half = math.tan(self.fov / 2.0)
+        aside = np.abs(around @ self.right) / (FILLED_WIDTH * half * aspect)
+        above = np.abs(around @ self.image_up) / (FILLED_HEIGHT * half)
+        behind = around @ self.forward
+        away = np.maximum(aside, above) - behind
+        return float(max(away.max(), self.near - behind.min()))
 
     def as_perspective(self, height: int, fov: float | None = None) -> Camera:
         """The nearest that a renderer without an orthographic camera can draw.

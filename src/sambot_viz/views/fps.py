@@ -7,6 +7,7 @@ from sambot_viz.views.camera import (
     UP,
     Camera,
     Vector,
+    Vectors,
     angles_of,
     components,
     on_sphere,
@@ -66,6 +67,12 @@ class FPSView(View):
     def look_at_local(self, point: Vector) -> Values:
         """The position stays."""
         return _looking(point - self.position)
+
+    def fit_local(self, points: Vectors, width: int, height: int) -> Values:
+        """The camera moves, to where it has the points in front of it."""
+        camera = self.local_camera()
+        away = camera.distance_to_show(points, width / height) * camera.forward
+        return {"Position": components(points.mean(axis=0) - away)}
 
     def mimic(self, old: View) -> Values:
         """Takes over the camera of the old view."""

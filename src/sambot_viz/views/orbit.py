@@ -8,6 +8,7 @@ from sambot_viz.rviz import BoolProperty, FloatProperty, Property, VectorPropert
 from sambot_viz.views.camera import (
     Camera,
     Vector,
+    Vectors,
     angles_of,
     components,
     length,
@@ -98,6 +99,14 @@ class OrbitView(View):
     def look_at_local(self, point: Vector) -> Values:
         """The camera turns in place, as in RViz."""
         return self._around(self.local_camera().position, point)
+
+    def fit_local(self, points: Vectors, width: int, height: int) -> Values:
+        """The middle of the points becomes the focal point."""
+        camera = self.local_camera()
+        return {
+            "Distance": camera.distance_to_show(points, width / height),
+            "Focal Point": components(points.mean(axis=0)),
+        }
 
     def mimic(self, old: View) -> Values:
         """Keeps the picture; from above it looks down from 100 m, as in RViz."""

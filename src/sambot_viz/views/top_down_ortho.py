@@ -4,8 +4,18 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from sambot_viz.rviz import FloatProperty, Property
-from sambot_viz.views.camera import ORTHO_HEIGHT, Camera, Vector, vector
+from sambot_viz.views.camera import (
+    FILLED_HEIGHT,
+    FILLED_WIDTH,
+    ORTHO_HEIGHT,
+    Camera,
+    Vector,
+    Vectors,
+    vector,
+)
 from sambot_viz.views.common import COMMON_PROPERTIES
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.view import Values, View
@@ -59,6 +69,17 @@ class TopDownOrthoView(View):
     def look_at_local(self, point: Vector) -> Values:
         """Scale and angle stay."""
         return {"X": float(point[0]), "Y": float(point[1])}
+
+    def fit_local(self, points: Vectors, width: int, height: int) -> Values:
+        """The middle of the points is in the middle of the picture."""
+        camera, middle = self.local_camera(), points.mean(axis=0)
+        across = float(np.ptp(points @ camera.right))
+        upwards = float(np.ptp(points @ camera.image_up))
+        scales = (
+            FILLED_WIDTH * width / across,
+            FILLED_HEIGHT * height / upwards,
+        )
+        return {"Scale": min(scales), **self.look_at_local(middle)}
 
     def mimic(self, old: View) -> Values:
         """Comes to the focal point or the camera of the old view."""

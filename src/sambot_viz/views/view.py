@@ -10,18 +10,21 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import Any, ClassVar
 
 import numpy as np
 
 from sambot_viz.rviz import Property, ViewConfig
-from sambot_viz.views.camera import Camera, Vector, turned, vector
+from sambot_viz.views.camera import Camera, Vector, Vectors, turned, vector
 
 Values = Mapping[str, Any]
 """Property → value, for those that are to be set."""
 
 STEEPEST = math.pi / 2 - 0.001
 """Largest pitch of all views [rad]."""
+SMALLEST_SIZE = 0.01
+"""What is smaller is shown as if it had this size [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,6 +96,18 @@ class View:
         """The properties of the same picture when the target jumps by −offset [m]."""
         raise NotImplementedError
 
+    def fit_local(self, points: Vectors, width: int, height: int) -> Values:
+        """The properties with which it shows some points of the target frame whole.
+
+        The direction stays.
+
+        Args:
+            points: (N, 3) [m].
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+        """
+        raise NotImplementedError
+
     # The same in the fixed frame.
 
     def camera(self, target: Target = WORLD) -> Camera:
@@ -108,6 +123,31 @@ class View:
         target = self._turned(target)
         local = turned(point - target.position, -target.yaw)
         return self.look_at_local(local)
+
+    def fit(
+        self,
+        low: Vector,
+        high: Vector,
+        width: int,
+        height: int,
+        target: Target = WORLD,
+    ) -> Values:
+        """The properties with which it shows a box of the fixed frame whole.
+
+        Args:
+            low: lowest corner of the box [m].
+            high: highest corner of the box [m].
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+            target: what the view follows.
+        """
+        target = self._turned(target)
+        middle, half = (low + high) / 2.0, np.maximum(high - low, SMALLEST_SIZE) / 2.0
+        corners = [
+            turned(middle + half * sides - target.position, -target.yaw)
+            for sides in product((-1.0, 1.0), repeat=3)
+        ]
+        return self.fit_local(np.array(corners), width, height)
 
     def moved(self, camera: Camera, before: Target, now: Target) -> Camera:
         """A camera of the fixed frame after its target has moved."""

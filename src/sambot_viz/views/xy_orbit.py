@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.views.camera import Camera, Vector, length
+from sambot_viz.views.camera import Camera, Vector, Vectors, components, length
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.view import Values, View
 
@@ -36,6 +36,13 @@ class XYOrbitView(OrbitView):
         """The new focal point is on the ground."""
         on_ground = point * (1.0, 1.0, 0.0)
         return self._around(self.local_camera().position, on_ground)
+
+    def fit_local(self, points: Vectors, width: int, height: int) -> Values:
+        """The middle of the points is in the middle of the picture."""
+        camera, middle = self.local_camera(), points.mean(axis=0)
+        distance = camera.distance_to_show(points, width / height)
+        focal = middle - RAISED * distance * camera.image_up
+        return {"Distance": distance, "Focal Point": components(focal)}
 
     def mimic(self, old: View) -> Values:
         """Keeps the picture where its middle and the camera are above the ground."""

@@ -1,4 +1,4 @@
-"""Files that are not found are reported by cause, not one by one."""
+"""Files that are not found are reported, each once and with its cause."""
 
 from __future__ import annotations
 
@@ -22,40 +22,48 @@ def problems_with(folder: Path, *meshes: str) -> tuple[Problem, ...]:
     return load_robot(file).problems
 
 
-def test_all_meshes_of_a_missing_package_are_one_problem(tmp_path: Path) -> None:
+def test_each_mesh_of_a_missing_package_is_reported_once_with_its_line(
+    tmp_path: Path,
+) -> None:
     meshes = [f"package://arm/meshes/{n}.stl" for n in range(52)]
 
-    (problem,) = problems_with(tmp_path, *meshes, meshes[0])
+    found = problems_with(tmp_path, *meshes, meshes[0])
 
-    assert problem.code == "mesh-not-found"
-    assert problem.line == 2
-    assert problem.message.startswith(
-        "52 meshes of arm (0.stl, 1.stl, 2.stl, 3.stl, 4.stl, 5.stl and 46 more) "
-        "were not found: the package arm is not known (searched: "
+    assert [problem.line for problem in found] == list(range(2, 54))
+    assert {(p.code, p.cause, p.hint) for p in found} == {
+        ("mesh-not-found", "package arm", "add --package-path FOLDER-THAT-HOLDS-arm")
+    }
+    assert found[0].message.startswith(
+        "the mesh package://arm/meshes/0.stl was not found: the package arm is not "
+        "known (searched: "
     )
-    assert problem.hint == "add --package-path FOLDER, the folder that contains arm"
 
 
-def test_two_causes_are_two_problems(tmp_path: Path) -> None:
-    found = problems_with(tmp_path, "package://arm/a.stl", "b.stl", "c.stl")
+def test_files_of_one_folder_have_one_cause(tmp_path: Path) -> None:
+    found = problems_with(
+        tmp_path, "package://arm/a.stl", "b.stl", "c.stl", "../meshes/d.stl"
+    )
 
-    assert [problem.line for problem in found] == [2, 3]
-    assert found[0].message.startswith("the mesh package://arm/a.stl was not found: ")
-    assert found[1].message.startswith("2 meshes (b.stl, c.stl) were not found: ")
+    assert [problem.cause for problem in found] == [
+        "package arm",
+        "the model's folder",
+        "the model's folder",
+        "folder ../meshes",
+    ]
     assert all(p.message.endswith("; a placeholder is drawn") for p in found)
 
 
-def test_files_found_by_the_end_of_their_path_are_one_problem(tmp_path: Path) -> None:
+def test_files_found_by_the_end_of_their_path_have_one_cause(tmp_path: Path) -> None:
     (tmp_path / "meshes").mkdir()
     for name in "ab":
         (tmp_path / "meshes" / f"{name}.obj").write_text(CUBE)
 
-    (problem,) = problems_with(
+    found = problems_with(
         tmp_path, "package://arm/meshes/a.obj", "package://arm/meshes/b.obj"
     )
 
-    assert problem.code == "file-by-path-only"
-    assert problem.message.startswith("2 meshes of arm (a.obj, b.obj): not found by ")
+    assert {(p.code, p.cause) for p in found} == {("file-by-path-only", "package arm")}
+    assert len(found) == 2
 
 
 def test_three_slashes_are_explained_and_the_file_is_found(tmp_path: Path) -> None:

@@ -209,6 +209,11 @@ class RobotModelDisplay(Display):
             self.entries_of(robot).set_all(bool(self.config.get(ALL_ENABLED)))
         super().property_changed(path)
 
+    def values_put_back(self) -> None:
+        """Read the links and joints again, and draw them."""
+        self._entries = None
+        super().values_put_back()
+
     def entries(self) -> tuple[EntryList, ...]:
         """The links and the joints."""
         robot = self._source.robot

@@ -251,6 +251,11 @@ class TfDisplay(Display):
             self._entries.set_all(bool(self.config.get(ALL_ENABLED)))
         super().property_changed(path)
 
+    def values_put_back(self) -> None:
+        """Read the frames again, and draw them."""
+        self._entries = FrameEntries(self.config)
+        super().values_put_back()
+
     def entries(self) -> tuple[EntryList, ...]:
         """The frames."""
         return (frame_list(self.context, self._entries),)

@@ -24,10 +24,12 @@ class UrdfFindings(Findings):
         hint: str,
         at: Element,
         attribute: str | None = None,
+        *,
+        cause: str | None = None,
     ) -> None:
         """An error for which ROS refuses the whole model."""
         self.rejected = True
-        self._add("error", code, message, hint, at, attribute)
+        self._add("error", code, message, hint, at, attribute, cause)
 
     def error(
         self,
@@ -36,9 +38,11 @@ class UrdfFindings(Findings):
         hint: str,
         at: Element,
         attribute: str | None = None,
+        *,
+        cause: str | None = None,
     ) -> None:
         """An error that ROS does not report, or that affects only part of the robot."""
-        self._add("error", code, message, hint, at, attribute)
+        self._add("error", code, message, hint, at, attribute, cause)
 
     def warn(
         self,
@@ -47,9 +51,11 @@ class UrdfFindings(Findings):
         hint: str,
         at: Element,
         attribute: str | None = None,
+        *,
+        cause: str | None = None,
     ) -> None:
         """A doubtful part of the model, which is drawn anyway."""
-        self._add("warning", code, message, hint, at, attribute)
+        self._add("warning", code, message, hint, at, attribute, cause)
 
     def _add(
         self,
@@ -59,6 +65,7 @@ class UrdfFindings(Findings):
         hint: str,
         at: Element,
         attribute: str | None,
+        cause: str | None,
     ) -> None:
         if at.call is not None:
             here = at.call.file == at.place.file
@@ -66,7 +73,8 @@ class UrdfFindings(Findings):
             message = f"{message}, from the macro call on {where}"
         line = at.line_of(attribute)
         column = at.place.column if line == at.place.line else None
-        self.add(severity, code, message, hint, Place(at.place.file, line, column))
+        place = Place(at.place.file, line, column)
+        self.add(severity, code, message, hint, place, cause=cause)
 
 
 def tag_text(element: Element) -> str:

@@ -99,6 +99,7 @@ def _check_ends(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
             f'correct the name, or add <link name="{link}"/>',
             element.find(tag) or element,
             "link",
+            cause=f"link {link}",
         )
     if any(tag == "child" for _, tag, _ in unknown):
         return replace(parts, excused=parts.excused | parts.links.keys())

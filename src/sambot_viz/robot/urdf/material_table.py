@@ -105,6 +105,7 @@ class MaterialTable:
             f"{known.element.place.line}; ROS uses the first definition everywhere",
             "give one of the two another name",
             element,
+            cause=f"material '{name}'",
         )
 
     def _report_undefined(self, name: str, element: Element) -> None:

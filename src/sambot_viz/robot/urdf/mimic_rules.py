@@ -30,6 +30,7 @@ def check_mimics(
                 "correct the name, or delete <mimic>",
                 element,
                 "joint",
+                cause=f"joint {joint.mimic.joint}",
             )
         elif not leader.movable:
             findings.warn(

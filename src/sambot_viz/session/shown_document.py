@@ -1,0 +1,125 @@
+"""The document of a session, and what is drawn of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Set
+from pathlib import Path
+
+from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.model_reader import ModelReader
+from sambot_viz.displays.scene.frame_nodes import FrameNodes
+from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
+from sambot_viz.frames import FrameTree
+from sambot_viz.meshes.cache import MeshCache
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.drawn_scene import DrawnScene
+from sambot_viz.session.history import EditHistory
+from sambot_viz.session.shared_state import Audience, SharedState
+from sambot_viz.session.worker import Worker
+
+
+class ShownDocument(SharedState):
+    """Base of `Session`: the .rviz document, its displays, and the edits of both.
+
+    Args:
+        audience: where to draw.
+        worker: the thread that browsers, timers and files act in.
+        config: the .rviz document; the session changes it as the user does.
+        meshes: mesh files that are read already (shared by all sessions).
+        models: reads other models, for a RobotModel from a file.
+        reader: reads mesh files in the background; None reads them while drawing.
+
+    Attributes:
+        tree: the frames.
+        context: what displays draw with.
+        drawn: the displays and the background.
+        edits: what browsers can undo, and whether the document is saved.
+    """
+
+    def __init__(
+        self,
+        audience: Audience,
+        worker: Worker,
+        config: RvizConfig,
+        meshes: MeshCache,
+        models: ModelReader | None,
+        reader: Reader | None,
+    ) -> None:
+        super().__init__(audience, worker)
+        self.tree = FrameTree()
+        self.context = DisplayContext(
+            scene=audience.scene,
+            tree=self.tree,
+            nodes=FrameNodes(audience.scene),
+            assets=SessionAssets(meshes, reader, self._assets_read),
+            models=models,
+            apply=self._apply,
+        )
+        self.drawn = DrawnScene(self.context, config)
+        self.edits = EditHistory(self)
+
+    @property
+    def config(self) -> RvizConfig:
+        """The document that is shown."""
+        return self.drawn.config
+
+    @property
+    def displays(self) -> list[Display]:
+        """The supported displays of the document, in its order."""
+        return self.drawn.displays
+
+    @property
+    def period(self) -> float:
+        """Shortest time between two pictures of a stream [s]."""
+        return self.drawn.period
+
+    def show_config(self) -> None:
+        """Make the displays of the document and draw them; existing ones are kept."""
+        with self.change("config"):
+            self.drawn.make_displays()
+
+    def set_config(self, config: RvizConfig) -> None:
+        """Show another document: its displays and options; cameras stay."""
+        with self.change():
+            self.edits.clear()
+            self.drawn.take_config(config)
+            self._period_changed()
+            self.context.nodes.sync(self.tree, self.context.fixed_frame)
+            self.show_config()
+            self._frames_changed()
+
+    def refresh(self) -> None:
+        """Draw what has changed in the files; what has not is not sent again."""
+        with self.change():
+            self.context.assets.look_again()
+            self._redraw()
+
+    def files_saved(self, files: Set[Path]) -> None:
+        """Read again the robots that displays have from some of these files."""
+        with self.change("status"):
+            self.drawn.read_again(files)
+
+    def _apply(self, action: Callable[[], None]) -> None:
+        with self.change("config", "status"):
+            action()
+
+    def _assets_read(self) -> None:
+        with self.change("status"):
+            self.drawn.assets_read()
+
+    def _period_changed(self) -> None:
+        """The document may have another Frame Rate; `Session` takes it."""
+
+    def _before_sending(self) -> None:
+        if self.drawn.outdated:
+            # A display has set frames of its own.
+            self._frames_changed()
+
+    def _frames_changed(self) -> None:
+        self.drawn.draw_frames()
+        self.notify("status")
+        self.notify("frames")
+
+    def _redraw(self) -> None:
+        self.drawn.redraw()
+        self.notify("status")

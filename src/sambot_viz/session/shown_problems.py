@@ -1,0 +1,35 @@
+"""What a page shows of a session's problems, as plain values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sambot_viz.errors import Problem
+from sambot_viz.problem_groups import in_order
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Session
+
+
+def problems_of(session: Session) -> list[Problem]:
+    """The problems to show, each once, errors first, then in the order of the files.
+
+    While the saved model has a mistake, its problems take the place of those of the
+    version that is shown, whose line numbers are out of date.
+    """
+    saved = session.problems.of_saves
+    shapes = (p for display in session.displays for p in display.problems)
+    model = saved.get("model", ()) or (*session.problems.of_model, *shapes)
+    config = saved.get("config", ()) or session.config.problems
+    others = (*saved.get("fault", ()), *saved.get("watch", ()))
+    return in_order((*model, *config, *others))
+
+
+def last_good_note(session: Session) -> str:
+    """A sentence that says that the picture is not what the file says, or nothing."""
+    faults = session.problems.of_saves.get("model", ())
+    if not any(fault.severity == "error" for fault in faults):
+        return ""
+    if session.robot is None:
+        return "The model has a mistake: the robot appears as soon as it is fixed."
+    return "Showing the last good version: what was saved has a mistake."

@@ -1,0 +1,473 @@
+"""Undo and redo: each browser its own edits, and whether the document is saved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from inside import session_of
+
+from sambot_viz import UsageError, Visualizer, bundled, load_config
+from sambot_viz.displays.display import Display
+from sambot_viz.frames import Transform
+from sambot_viz.rviz import DisplayConfig
+from sambot_viz.session import Session
+from sambot_viz.session.history import LIMIT
+
+A, B = 1, 2
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+UNKNOWN = {"Class": "somewhere/Unknown", "Name": "Odd", "Enabled": "true", "X": "1"}
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    document = yaml.safe_load(bundled.config_path().read_text("utf-8"))
+    manager = document["Visualization Manager"]
+    group = {"Class": "rviz_common/Group", "Name": "Both", "Enabled": True}
+    manager["Displays"] += [UNKNOWN, {**group, "Displays": []}]
+    path = tmp_path / "test.rviz"
+    path.write_text(yaml.safe_dump(document), "utf-8")
+    return path
+
+
+@pytest.fixture
+def viz(config: Path) -> Iterator[Visualizer]:
+    with Visualizer(config=config, port=0, watch=False) as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    return session_of(viz)
+
+
+def named(session: Session, name: str) -> DisplayConfig:
+    return next(d for d in session.config.displays if d.name == name)
+
+
+def display(session: Session, name: str) -> Display:
+    found = session.display_of(named(session, name))
+    assert found is not None
+    return found
+
+
+def names(session: Session) -> list[str]:
+    return [d.name for d in session.config.displays]
+
+
+def act(
+    session: Session, browser: int | None, *actions: Callable[[], Any], by: Any = None
+) -> None:
+    """One action of a browser."""
+    with session.edits.acting(browser, by):
+        for action in actions:
+            action()
+
+
+def alpha(session: Session) -> float:
+    return float(display(session, "RobotModel").config.get("Alpha"))
+
+
+def set_alpha(session: Session, value: float) -> Callable[[], None]:
+    return lambda: session.set_property(display(session, "RobotModel"), "Alpha", value)
+
+
+# One browser
+
+
+def test_ten_changes_undone_give_the_first_value_and_the_file_is_not_modified(
+    session: Session,
+) -> None:
+    before, text = alpha(session), session.config.to_yaml()
+    for step in range(10):
+        act(session, A, set_alpha(session, 0.05 * (step + 1)))
+    assert session.edits.modified
+    assert session.edits.undo_label(A) == "RobotModel: Alpha"
+    for _ in range(10):
+        assert session.edits.undo(A) == "RobotModel: Alpha"
+    assert session.edits.undo(A) is None
+    assert (alpha(session), session.config.to_yaml()) == (before, text)
+    assert not session.edits.modified
+    assert session.edits.redo(A) == "RobotModel: Alpha"
+    assert alpha(session) == 0.05
+    assert session.edits.modified
+
+
+def test_a_new_edit_ends_what_could_be_done_again(session: Session) -> None:
+    act(session, A, set_alpha(session, 0.5))
+    session.edits.undo(A)
+    assert session.edits.redo_label(A) == "RobotModel: Alpha"
+    act(session, A, lambda: session.set_global("Frame Rate", 12))
+    assert session.edits.redo_label(A) is None
+    assert session.edits.redo(A) is None
+
+
+def test_a_drag_is_one_edit_and_the_next_drag_another(session: Session) -> None:
+    before = alpha(session)
+    for drag in ("first", "second"):
+        for step in (0.2, 0.4, 0.6):
+            value = step if drag == "first" else step + 0.1
+            act(session, A, set_alpha(session, value), by=drag)
+    session.edits.undo(A)
+    assert alpha(session) == pytest.approx(0.6)
+    session.edits.redo(A)
+    assert alpha(session) == pytest.approx(0.7)
+    session.edits.undo(A)
+    session.edits.undo(A)
+    assert alpha(session) == before
+    assert session.edits.undo_label(A) is None
+
+
+def test_a_gesture_over_two_values_is_two_edits(session: Session) -> None:
+    grid = display(session, "Grid")
+    for path, value in (("Alpha", 0.1), ("Cell Size", 2.0), ("Alpha", 0.2)):
+        act(session, A, partial(session.set_property, grid, path, value), by="one")
+    session.edits.undo(A)
+    assert grid.config.get("Alpha") == pytest.approx(0.1)
+    session.edits.undo(A)
+    assert grid.config.get("Cell Size") == 1.0
+
+
+def test_what_one_action_changes_is_undone_together(session: Session) -> None:
+    before, rate = alpha(session), session.config.global_options.get("Frame Rate")
+    act(
+        session,
+        A,
+        set_alpha(session, 0.5),
+        lambda: session.set_global("Frame Rate", 7),
+        set_alpha(session, 0.25),
+    )
+    session.edits.undo(A)
+    assert alpha(session) == before
+    assert session.config.global_options.get("Frame Rate") == rate
+    assert session.edits.undo_label(A) is None
+    session.edits.redo(A)
+    assert alpha(session) == 0.25
+
+
+def test_the_oldest_edits_are_forgotten(session: Session) -> None:
+    for step in range(LIMIT + 5):
+        act(session, A, set_alpha(session, 0.001 * (step + 1)))
+    count = 0
+    while session.edits.undo(A) is not None:
+        count += 1
+    assert count == LIMIT
+    assert alpha(session) == pytest.approx(0.005)
+    assert session.edits.modified
+
+
+# Several browsers, and programs
+
+
+def test_each_browser_undoes_its_own_edits_only(session: Session) -> None:
+    grid = display(session, "Grid")
+    act(session, A, set_alpha(session, 0.5))
+    act(session, B, lambda: session.set_property(grid, "Cell Size", 2.0))
+    session.edits.undo(A)
+    assert (alpha(session), grid.config.get("Cell Size")) == (0.6, 2.0)
+    assert session.edits.undo(A) is None
+    session.edits.undo(B)
+    assert grid.config.get("Cell Size") == 1.0
+    assert not session.edits.modified
+
+
+def test_an_edit_whose_display_is_gone_is_dropped_with_a_sentence(
+    session: Session,
+) -> None:
+    rate = session.config.global_options.get("Frame Rate")
+    act(session, A, lambda: session.set_global("Frame Rate", 8))
+    act(
+        session,
+        A,
+        set_alpha(session, 0.5),
+        lambda: session.set_global("Frame Rate", 12),
+    )
+    robot = named(session, "RobotModel")
+    act(session, B, lambda: session.remove_display(robot))
+    with pytest.raises(
+        UsageError,
+        match="'RobotModel: Alpha' cannot be undone: the display 'RobotModel' was ",
+    ):
+        session.edits.undo(A)
+    assert session.config.global_options.get("Frame Rate") == 12, "all or nothing"
+    assert session.edits.undo(A) == "Global Options: Frame Rate"
+    assert session.config.global_options.get("Frame Rate") == rate
+    session.edits.undo(B)
+    assert alpha(session) == 0.5
+
+
+def test_a_browser_that_leaves_loses_its_history_but_not_its_edits(
+    session: Session,
+) -> None:
+    act(session, A, set_alpha(session, 0.5))
+    session.edits.leave(A)
+    assert session.edits.undo(A) is None
+    assert alpha(session) == 0.5
+    assert session.edits.modified
+
+
+def test_edits_of_a_program_count_but_cannot_be_undone(session: Session) -> None:
+    act(session, None, set_alpha(session, 0.5))
+    assert session.edits.modified
+    session.edits.saved()
+    assert not session.edits.modified
+    set_alpha(session, 0.6)()
+    assert session.edits.modified
+    assert session.edits.undo(A) is None
+
+
+# Saved or not
+
+
+def test_modified_is_about_what_was_saved_last(session: Session) -> None:
+    act(session, A, set_alpha(session, 0.5))
+    session.edits.saved()
+    assert not session.edits.modified
+    session.edits.undo(A)
+    assert session.edits.modified
+    session.edits.redo(A)
+    assert not session.edits.modified
+
+
+def test_a_drag_that_goes_on_after_a_save_is_not_saved(session: Session) -> None:
+    act(session, A, set_alpha(session, 0.5), by="drag")
+    session.edits.saved()
+    act(session, A, set_alpha(session, 0.6), by="drag")
+    assert session.edits.modified
+
+
+def test_joints_frames_and_values_that_stay_are_no_edits_of_the_document(
+    session: Session,
+) -> None:
+    act(session, A, lambda: session.set_joint_positions({LEFT: 1.0}))
+    act(session, A, session.center_joints, set_alpha(session, alpha(session)))
+    T = Transform.from_xyz_rpy((0.1, 0, 0))
+    act(session, A, lambda: session.add_frame("base_link", "laser", T))
+    assert not session.edits.modified
+
+
+def test_another_document_starts_with_an_empty_history(
+    session: Session, config: Path
+) -> None:
+    act(session, A, set_alpha(session, 0.5))
+    session.set_config(load_config(config))
+    assert not session.edits.modified
+    assert session.edits.undo(A) is None
+
+
+# What can be undone
+
+
+def test_one_box_that_switches_all_links_is_undone_with_all_of_them(
+    session: Session,
+) -> None:
+    robot = display(session, "RobotModel")
+    links = "Links"
+
+    def box(link: str) -> bool:
+        entries = next(e for e in robot.entries() if e.title == links)
+        return bool(entries.item(link).get("Value"))
+
+    act(
+        session,
+        A,
+        lambda: session.set_entry(robot, links, "base_link", "Value", False),
+    )
+    text = session.config.to_yaml()
+    for on in (False, True):
+        act(
+            session,
+            A,
+            partial(session.set_property, robot, "Links/All Links Enabled", on),
+        )
+    assert box("base_link")
+    session.edits.undo(A)
+    session.edits.undo(A)
+    assert session.config.to_yaml() == text
+    assert (box("base_link"), box("drivewhl_l_link")) == (False, True)
+    assert session.edits.undo(A) == "RobotModel: base_link/Value"
+    assert box("base_link")
+    session.edits.redo(A)
+    assert not box("base_link")
+
+
+def test_the_box_of_a_frame_is_undone(session: Session) -> None:
+    tf = display(session, "TF")
+
+    def on() -> bool:
+        (frames,) = tf.entries()
+        return bool(frames.item("base_link").get("Value"))
+
+    act(
+        session, A, lambda: session.set_entry(tf, "Frames", "base_link", "Value", False)
+    )
+    assert not on()
+    session.edits.undo(A)
+    assert on()
+    assert "base_link" not in tf.config.dynamic("Frames")
+
+
+def test_an_entry_that_does_not_exist_is_refused(session: Session) -> None:
+    robot = display(session, "RobotModel")
+    with pytest.raises(UsageError, match="'RobotModel' has no link 'x'"):
+        session.set_entry(robot, "Links", "x", "Alpha", 1.0)
+    with pytest.raises(UsageError, match="'RobotModel' has no Frames"):
+        session.set_entry(robot, "Frames", "x", "Value", True)
+
+
+def test_the_fixed_frame_and_the_background_are_undone(session: Session) -> None:
+    frame, color = session.context.fixed_frame, session.context.background
+    act(session, A, lambda: session.set_global("Fixed Frame", "drivewhl_l_link"))
+    act(session, A, lambda: session.set_global("Background Color", (1, 2, 3)))
+    assert session.context.background == (1, 2, 3)
+    session.edits.undo(A)
+    session.edits.undo(A)
+    assert (session.context.fixed_frame, session.context.background) == (frame, color)
+
+
+def test_displays_are_added_copied_named_moved_removed_and_all_that_is_undone(
+    session: Session,
+) -> None:
+    before, text = names(session), session.config.to_yaml()
+    grid, group = named(session, "Grid"), named(session, "Both")
+    act(session, A, lambda: session.add_display("rviz_default_plugins/Axes", grid))
+    assert names(session).index("Axes") == before.index("Grid") + 1
+    act(session, A, lambda: session.duplicate_display(grid))
+    act(session, A, lambda: session.duplicate_display(named(session, "Grid (2)")))
+    assert {"Grid", "Grid (2)", "Grid (3)"} <= set(names(session))
+    act(session, A, lambda: session.rename_display(grid, " Floor "))
+    act(session, A, lambda: session.move_display(grid, 0, group))
+    assert [d.name for d in group.displays] == ["Floor"]
+    act(session, A, lambda: session.remove_display(group))
+    assert session.display_of(grid) is None
+    for label in (
+        "Remove Both",
+        "Move Floor",
+        "Rename Grid to Floor",
+        "Duplicate Grid (2)",
+        "Duplicate Grid",
+        "Add Axes",
+    ):
+        assert session.edits.undo(A) == label
+    assert names(session) == before
+    assert session.config.to_yaml() == text
+    assert named(session, "Grid") is grid, "the same display is put back"
+    while session.edits.redo(A) is not None:
+        pass
+    assert {"Axes", "Grid (2)", "Grid (3)"} <= set(names(session))
+    assert not {"Floor", "Grid", "Both"} & set(names(session))
+
+
+def test_an_unsupported_display_is_moved_named_switched_and_removed(
+    session: Session,
+) -> None:
+    odd, text = named(session, "Odd"), session.config.to_yaml()
+    act(session, A, lambda: session.set_enabled(odd, False))
+    act(session, A, lambda: session.rename_display(odd, "Strange"))
+    act(session, A, lambda: session.move_display(odd, 0, None))
+    assert names(session)[0] == "Strange"
+    assert not odd.enabled
+    act(session, A, lambda: session.remove_display(odd))
+    for _ in range(4):
+        session.edits.undo(A)
+    assert odd.enabled
+    assert session.config.to_yaml() == text
+
+
+def test_what_goes_nowhere_is_no_edit(session: Session) -> None:
+    grid = named(session, "Grid")
+    act(session, A, lambda: session.rename_display(grid, "  "))
+    act(session, A, lambda: session.rename_display(grid, "Grid"))
+    act(
+        session,
+        A,
+        lambda: session.move_display(grid, names(session).index("Grid"), None),
+    )
+    act(session, A, lambda: session.set_enabled(grid, grid.enabled))
+    with pytest.raises(UsageError, match="cannot be moved into itself"):
+        act(
+            session,
+            A,
+            lambda: session.move_display(
+                named(session, "Both"), 0, named(session, "Both")
+            ),
+        )
+    assert session.edits.undo_label(A) is None
+    assert not session.edits.modified
+
+
+def test_a_display_that_was_removed_takes_no_edits(session: Session) -> None:
+    robot = display(session, "RobotModel")
+    session.remove_display(robot.config)
+    for edit in (
+        lambda: session.set_property(robot, "Alpha", 0.5),
+        lambda: session.set_enabled(robot, False),
+        lambda: session.rename_display(robot.config, "x"),
+        lambda: session.move_display(robot.config, 0, None),
+        lambda: session.duplicate_display(robot.config),
+        lambda: session.remove_display(robot.config),
+        lambda: session.add_display("rviz_default_plugins/Grid", robot.config),
+    ):
+        with pytest.raises(UsageError, match="the display 'RobotModel' was removed"):
+            edit()
+
+
+def test_joints_go_back_to_where_they_were(viz: Visualizer, session: Session) -> None:
+    for step in (0.1, 0.2, 0.3):
+        act(session, A, partial(session.set_joint_positions, {LEFT: step}), by="drag")
+    act(session, A, session.randomize_joints)
+    act(session, A, session.center_joints)
+    session.poses.save("turned", {LEFT: 2.0, "gone": 1.0})
+    with session.edits.acting(A):
+        assert session.use_pose("turned") == ("gone",)
+    viz.set_joint_positions({RIGHT: -1.0})
+    assert viz.joint_positions == {LEFT: 2.0, RIGHT: -1.0}
+    labels = [session.edits.undo(A) for _ in range(4)]
+    assert labels == [
+        "Pose turned",
+        "Center the joints",
+        "Randomize the joints",
+        f"Move {LEFT}",
+    ]
+    assert viz.joint_positions[LEFT] == 0.0
+    session.edits.redo(A)
+    assert viz.joint_positions[LEFT] == 0.3
+
+
+def test_frames_are_added_changed_and_removed_and_all_that_is_undone(
+    viz: Visualizer, session: Session
+) -> None:
+    def x() -> float:
+        return float(viz.frames.lookup("base_link", "laser").translation[0])
+
+    for at in (1.0, 2.0):
+        T = Transform.from_xyz_rpy((at, 0, 0))
+        act(session, A, partial(session.add_frame, "base_link", "laser", T))
+    act(session, A, lambda: session.remove_frame("laser"))
+    assert session.edits.undo(A) == "Remove frame laser"
+    assert x() == 2.0
+    session.edits.undo(A)
+    assert x() == 1.0
+    session.edits.undo(A)
+    assert "laser" not in viz.frames
+    session.edits.redo(A)
+    assert x() == 1.0
+
+
+def test_listeners_hear_of_edits(session: Session) -> None:
+    heard: list[str] = []
+    session.listeners.append(heard.append)
+    for action in (
+        lambda: act(session, A, set_alpha(session, 0.5)),
+        lambda: session.edits.undo(A),
+        lambda: session.edits.redo(A),
+        session.edits.saved,
+        set_alpha(session, 0.7),
+    ):
+        heard.clear()
+        action()
+        assert "edits" in heard
