@@ -8,8 +8,6 @@
 
 import { Rows } from "./rows.js";
 
-/** viser's objects have no types here. @type {any} */
-const page = window;
 export const rows = new Rows();
 export const CHANNEL = "sambot-viz";
 
@@ -23,7 +21,7 @@ export const newGesture = () => ++gestures;
  */
 export function send(id, value, gesture) {
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
-  page.__viserMutable?.sendMessage({ type: "GuiUpdateMessage", uuid: CHANNEL, updates: { value: edit } });
+  window.__viserMutable?.sendMessage({ type: "GuiUpdateMessage", uuid: CHANNEL, updates: { value: edit } });
 }
 
 /** Do what an action row does, if it can be done now. @param {string} id @param {any[]} [args] */

@@ -14,11 +14,9 @@
  */
 (() => {
   "use strict";
-  /** viser's and three.js' objects have no types here. @type {any} */
-  const page = window;
-  if (page.sambotVizLook) return;
+  if (window.sambotVizLook) return;
   const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0, backgrounds: 0 };
-  page.sambotVizLook = look;
+  window.sambotVizLook = look;
 
   const ENCODE = `
 vec3 sambotEncode(vec3 c) {
@@ -97,7 +95,7 @@ vec3 sambotEncode(vec3 c) {
           " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);");
       } else if (material.isMeshToonMaterial) {
         rewrite(material, "unlit", "outgoingLight = sambotEncode(diffuseColor.rgb);");
-      } else if (material === page.__viserMutable.backgroundMaterial) {
+      } else if (material === window.__viserMutable?.backgroundMaterial) {
         adoptBackground(object);
       } else if (material.isShaderMaterial) {
         adoptLabels(material);
@@ -137,7 +135,7 @@ vec3 sambotEncode(vec3 c) {
   const HIGHEST = 500;
   /** @param {any} camera */
   const followZoom = (camera) => {
-    const { camera: main, cameraControl } = page.__viserMutable;
+    const { camera: main, cameraControl } = window.__viserMutable || {};
     if (camera !== main || !cameraControl || !(camera.fov < 1)) return;
     const away = cameraControl.distance;
     const near = Math.max(0.01, away - HIGHEST), far = Math.max(100000, 2 * away);
@@ -150,7 +148,7 @@ vec3 sambotEncode(vec3 c) {
   /** @type {any} */
   let hooked = null;
   const hook = () => {
-    const mutable = page.__viserMutable;
+    const mutable = window.__viserMutable;
     const scene = mutable && mutable.scene;
     if (!scene || scene === hooked) return;
     hooked = scene;

@@ -10,13 +10,11 @@
  */
 (() => {
   "use strict";
-  /** viser's objects have no types here. @type {any} */
-  const globals = window;
-  if (globals.sambotVizMouse) return;
+  if (window.sambotVizMouse) return;
   const state = { kind: "" };
-  globals.sambotVizMouse = state;
-  const page = () => globals.__viserMutable;
-  const controls = () => { const m = page(); return m && m.cameraControl; };
+  window.sambotVizMouse = state;
+  const page = () => window.__viserMutable;
+  const controls = () => page()?.cameraControl;
   /** Set what differs. @param {any} object @param {string} key @param {unknown} value */
   const put = (object, key, value) => { if (object[key] !== value) object[key] = value; };
 
@@ -26,7 +24,7 @@
   let actions = null;
   /** @param {any} c camera-controls */
   const settings = (c) => {
-    const height = page().canvas.clientHeight || 1;
+    const height = page()?.canvas.clientHeight || 1;
     const turn = 0.005 * height / (2 * Math.PI);
     const above = state.kind === "TopDownOrtho", inside = state.kind === "FPS";
     const reach = c.distance * Math.tan(c.camera.fov * Math.PI / 360);
@@ -54,7 +52,7 @@
   setInterval(refresh, 200);
 
   /** @param {Event} event */
-  const onCanvas = (event) => page() && event.target === page().canvas;
+  const onCanvas = (event) => page() !== undefined && event.target === page()?.canvas;
   window.addEventListener("pointerdown", (event) => {
     refresh();
     const c = controls();

@@ -1,0 +1,18 @@
+// What our scripts use of viser's page. viser 1.1 keeps it there for its own tests.
+
+interface Window {
+  __viserMutable?: {
+    sendMessage(message: { type: string, [field: string]: unknown }): void;
+    requestRender?(): void;
+    canvas: HTMLCanvasElement;
+    /** Objects of three.js and camera-controls have no types here. */
+    scene: any;
+    camera: any;
+    cameraControl: any;
+    backgroundMaterial: any;
+  };
+  /** What rviz_look.js has changed, for tests. */
+  sambotVizLook?: Record<string, number>;
+  /** The type of view that rviz_mouse.js follows, for tests. */
+  sambotVizMouse?: { kind: string };
+}

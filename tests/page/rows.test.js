@@ -1,0 +1,73 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Rows } from "../../src/sambot_viz/page/rows.js";
+
+/** @param {string} id @param {any} [more] */
+const row = (id, more = {}) => ({ id, in: "", kind: "float", ...more });
+
+/** Rows of one panel, and what its listeners have heard. */
+function grid() {
+  const rows = new Rows();
+  rows.take("session", "rows", { base: 1, panels: { displays: [row("a", { value: 1 }), row("a/x", { in: "a", value: 2 }), row("b", { value: 3 })] } });
+  /** @type {string[]} */
+  const heard = [];
+  for (const key of ["a", "a/x", "b", "panel:displays"]) rows.listen(key, () => heard.push(key));
+  return { rows, heard };
+}
+
+test("rows are in order below the row that holds them", () => {
+  const { rows } = grid();
+  assert.deepEqual(rows.children("panel:displays"), ["a", "b"]);
+  assert.deepEqual(rows.children("a"), ["a/x"]);
+  assert.deepEqual(rows.children("b"), []);
+});
+
+test("a change of one row is heard by that row alone", () => {
+  const { rows, heard } = grid();
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { "a/x": { value: 5 } } });
+  assert.equal(rows.value("a/x"), 5);
+  assert.deepEqual(heard, ["a/x"]);
+});
+
+test("a change that says what is known already is not heard", () => {
+  const { rows, heard } = grid();
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 1 } } });
+  assert.deepEqual(heard, []);
+});
+
+test("null takes a field away", () => {
+  const { rows } = grid();
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { level: "warn" } } });
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { level: null } } });
+  assert.equal("level" in (rows.get("a") || {}), false);
+});
+
+test("changes of other rows than these are left alone", () => {
+  const { rows } = grid();
+  rows.take("session", "changes", { base: 2, panels: {}, rows: { a: { value: 9 } } });
+  assert.equal(rows.value("a"), 1);
+});
+
+test("a row that moves is heard by its panel, and by no row that stays as it is", () => {
+  const { rows, heard } = grid();
+  const [a, x, b] = ["a", "a/x", "b"].map((id) => /** @type {any} */ (rows.get(id)));
+  rows.take("session", "changes", { base: 1, panels: { displays: [b, a, x] } });
+  assert.deepEqual(rows.children("panel:displays"), ["b", "a"]);
+  assert.deepEqual(heard, ["panel:displays"]);
+});
+
+test("a row that goes is heard, and is not there any more", () => {
+  const { rows, heard } = grid();
+  rows.take("session", "changes", { base: 1, panels: { displays: [/** @type {any} */ (rows.get("b"))] } });
+  assert.equal(rows.get("a/x"), undefined);
+  assert.deepEqual(rows.children("a"), []);
+  assert.deepEqual(heard.sort(), ["a", "a/x", "panel:displays"]);
+});
+
+test("the rows of a session and those of a browser do not touch each other", () => {
+  const { rows } = grid();
+  rows.take("browser", "rows", { base: 7, panels: { tools: [row("tool", { value: 1 })] } });
+  rows.take("browser", "changes", { base: 7, panels: {}, rows: { tool: { value: 2 } } });
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 4 } } });
+  assert.deepEqual([rows.value("tool"), rows.value("a")], [2, 4]);
+});
