@@ -1,77 +1,104 @@
+// What people type as a number, and how a number is written and stepped.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
+
 import { clamped, formatNumber, parseNumber, snapped, stepped } from "../../src/sambot_viz/page/numbers.js";
 
-/** @param {string} typed @param {string} [unit] */
-function read(typed, unit) {
-  const found = parseNumber(typed, unit);
-  assert.ok("value" in found, `${typed}: ${JSON.stringify(found)}`);
-  return found.value;
+/** @param {string} typed @param {number} value @param {string} [unit] */
+function reads(typed, value, unit = "rad") {
+  const read = parseNumber(typed, unit);
+  assert.ok("value" in read, `${typed}: ${JSON.stringify(read)}`);
+  assert.ok(Math.abs(read.value - value) < 1e-12, `${typed}: ${read.value}`);
 }
 
-/** @param {string} typed @param {string} [unit] */
-function refused(typed, unit) {
-  const found = parseNumber(typed, unit);
-  assert.ok("error" in found, `${typed} was read as ${JSON.stringify(found)}`);
-  return found.error;
+/** @param {string} typed @param {RegExp} why @param {string} [unit] */
+function refuses(typed, why, unit = "rad") {
+  const read = parseNumber(typed, unit);
+  assert.ok("error" in read, `${typed}: ${JSON.stringify(read)}`);
+  assert.match(read.error, why);
 }
 
-test("numbers are read as people type them", () => {
-  assert.equal(read("1.5"), 1.5);
-  assert.equal(read(" 1,5 "), 1.5);
-  assert.equal(read("1e-3"), 0.001);
-  assert.equal(read(".5"), 0.5);
-  assert.equal(read("-2"), -2);
-  assert.equal(read("−2"), -2);
-  assert.equal(read("+2"), 2);
+test("plain numbers are read in every common form", () => {
+  reads("1.5", 1.5);
+  reads(" -0.25 ", -0.25);
+  reads("−2", -2);
+  reads("+3", 3);
+  reads(".5", 0.5);
+  reads("5.", 5);
+  reads("1e-3", 0.001);
+  reads("1E3", 1000);
 });
 
-test("sums and products are worked out", () => {
-  assert.equal(read("pi/2"), Math.PI / 2);
-  assert.equal(read("-π/2"), -Math.PI / 2);
-  assert.equal(read("2pi"), 2 * Math.PI);
-  assert.equal(read("(1+2)/4"), 0.75);
-  assert.equal(read("1 - 2 - 3"), -4);
-  assert.equal(read("2*(3-1)"), 4);
+test("a comma is a decimal point", () => {
+  reads("1,5", 1.5);
+  reads(",5", 0.5);
+  refuses("1,234.5", /not a number/);
 });
 
-test("a unit that is typed counts more than that of the row", () => {
-  assert.equal(read("90deg", "rad"), Math.PI / 2);
-  assert.equal(read("90 °", "rad"), Math.PI / 2);
-  assert.equal(read("90", "°"), Math.PI / 2);
-  assert.equal(read("1 rad", "°"), 1);
-  assert.equal(read("15 mm", "m"), 0.015);
+test("sums, products, brackets and pi are worked out", () => {
+  reads("pi/2", Math.PI / 2);
+  reads("-π", -Math.PI);
+  reads("2pi", 2 * Math.PI);
+  reads("2*pi/3", 2 * Math.PI / 3);
+  reads("tau/4", Math.PI / 2);
+  reads("(1+2)/4", 0.75);
+  reads("1-2-3", -4);
 });
 
-test("what is no value is refused with what was typed", () => {
-  for (const typed of ["abc", "1..2", "1/0", "2 +", "(1", "1)", "1 2"]) {
-    assert.ok(refused(typed).includes(typed), typed);
+test("a unit may be typed, and a plain number has the unit that is shown", () => {
+  reads("90deg", Math.PI / 2);
+  reads("90 °", Math.PI / 2);
+  reads("90", Math.PI / 2, "°");
+  reads("1.5 rad", 1.5, "°");
+  reads("15 mm", 0.015, "m");
+  reads("2 cm", 0.02, "m");
+  reads("3", 3, "Hz");
+});
+
+test("a rate is read like an angle or a length per second", () => {
+  reads("90", Math.PI / 2, "°/s");
+  reads("90 deg/s", Math.PI / 2, "rad/s");
+  reads("1.5rad", 1.5, "°/s");
+  reads("20 cm/s", 0.2, "m/s");
+  refuses("1 rad/s", /does not fit/, "rad");
+});
+
+test("what is no number is refused with a reason", () => {
+  for (const typed of ["abc", "1 2", "1..2", "1.5x", "(1", "1)", "e", "--", "2 +", "1..2", "1/0", "1e999", "pi pi ("]) {
+    refuses(typed, /is not a number/);
   }
-  assert.equal(refused(""), "type a number");
-  assert.ok(refused("3 m", "rad").includes("does not fit an angle"));
-  assert.ok(refused("3 deg", "m").includes("does not fit a length"));
-  assert.ok(refused("3 m", "").includes("no unit 'm'"));
+  refuses("", /type a number/);
+  refuses("   ", /type a number/);
+  refuses("3 m", /'m' does not fit: the unit is rad/);
+  refuses("90deg", /'deg' does not fit: the unit is m/, "m");
+  refuses("5 mm", /the unit is none/, "");
 });
 
-test("a number is shown with few digits, and never as another number", () => {
+test("a number is written with no more digits than it needs", () => {
   assert.equal(formatNumber(1.5), "1.5");
   assert.equal(formatNumber(0.1 + 0.2), "0.3");
-  assert.equal(formatNumber(1e-9), "1e-9");
+  assert.equal(formatNumber(Math.PI), "3.141593");
   assert.equal(formatNumber(-0), "0");
+  assert.equal(formatNumber(1e-9), "1e-9");
+  assert.equal(formatNumber(2e9), "2000000000");
+  assert.equal(formatNumber(NaN), "");
 });
 
 test("steps end on round numbers", () => {
   assert.equal(stepped(0, 0.01, 1), 0.01);
-  assert.equal(stepped(0.29, 0.01, 1), 0.3);
-  assert.equal(stepped(0.305, 0.01, 1), 0.31);
-  assert.equal(stepped(0.305, 0.01, -1), 0.3);
-  assert.equal(stepped(-0.305, 0.01, 1), -0.3);
-  assert.equal(stepped(0, 0.01, 10), 0.1);
-  assert.equal(snapped(0.123456, 0.01), 0.12);
+  assert.equal(stepped(0.3, 0.01, -1), 0.29);
+  assert.equal(stepped(0.29, 0.01, 10), 0.39);
+  assert.equal(stepped(0.123456, 0.01, 1), 0.13);
+  assert.equal(stepped(0.123456, 0.01, -1), 0.12);
+  assert.equal(stepped(45.5, 1, 1), 46);
+  assert.equal(stepped(-1, 1, 10), 9);
 });
 
-test("a value stays within the limits of its row", () => {
-  assert.equal(clamped(5, { min: -1, max: 1 }), 1);
-  assert.equal(clamped(-5, { min: -1, max: 1 }), -1);
-  assert.equal(clamped(5, {}), 5);
+test("a slider stops at round numbers, and a value stays inside its limits", () => {
+  assert.equal(snapped(0.12345, 0.01), 0.12);
+  assert.equal(snapped(-44.6, 1), -45);
+  assert.equal(clamped(4, { min: -1, max: 1 }), 1);
+  assert.equal(clamped(-4, { min: -1 }), -1);
+  assert.equal(clamped(4, {}), 4);
 });

@@ -2,7 +2,7 @@
 /* The value of a row, and how a hand changes it: one component for each kind. */
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
-import { newGesture, rows, send } from "./channel.js";
+import { act, newGesture, rows, send } from "./channel.js";
 import { Combo } from "./combo.js";
 import { clamped, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
 import { degrees, useRow } from "./state.js";
@@ -11,22 +11,25 @@ import { degrees, useRow } from "./state.js";
 
 const DEGREE = Math.PI / 180;
 
-/** What is shown of a row in radians while angles are in degrees.
+/** How a row's number is shown: its unit, how much of it is one of the row's, and its step.
  * @param {Row} row @returns {{unit: string, factor: number, step: number}} */
 export function shownUnit(row, inDegrees = degrees.value) {
-  const turn = inDegrees && (row.unit === "rad" || row.unit === "rad/s");
   const step = row.step || 0.01;
+  const turn = inDegrees && (row.unit === "rad" || row.unit === "rad/s");
   if (!turn) return { unit: row.unit || "", factor: 1, step };
-  return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: DEGREE };
+  // 0.01 rad is about half a degree; people think in whole ones.
+  return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
 }
 
-/** A refused value, by the id of its row, until the next edit. @type {Map<string, string>} */
+/** Why the last value was refused, by the id of its row, until the next edit. @type {Map<string, string>} */
 export const refusals = new Map();
 
 /** @param {string} id @param {string} [why] */
 export function refuse(id, why) {
-  if (why) refusals.set(id, why); else refusals.delete(id);
-  rows.notify(id);
+  const told = [...refusals.keys()];
+  refusals.clear();
+  if (why) refusals.set(id, why);
+  for (const other of new Set([...told, id])) rows.notify(other);
 }
 
 /**
@@ -56,83 +59,174 @@ export function focusWhole(event) {
 /**
  * A line of text that is accepted by Enter or by leaving it, and put back by Esc.
  * @param {{row: Row, shown: string, accept: (typed: string) => string | void, tab: number,
- *   step?: (count: number) => void, mode?: string, kind?: string}} props
+ *   step?: (count: number) => void, settle?: () => void, grab?: (event: any) => void, mode?: string, kind?: string, title?: string}} props
  *   accept: returns why a text is refused
+ *   step: changes the value by so many steps; settle: the key is up again
+ *   grab: a press that may become a drag
  */
-export function Field({ row, shown, accept, tab, step, mode, kind = "" }) {
+export function Field({ row, shown, accept, tab, step, settle, grab, mode, kind = "", title = row.help || "" }) {
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
   const element = useRef(/** @type {any} */ (null));
   const why = refusals.get(row.id);
-  const putBack = () => { typing.current = false; element.current.value = shown; };
+  const put = () => {
+    const input = element.current;
+    typing.current = false;
+    if (input.value === shown) return;
+    const whole = document.activeElement === input && input.selectionEnd - input.selectionStart === input.value.length;
+    input.value = shown;
+    if (whole) input.select();
+  };
   const done = () => {
     if (!typing.current) return;
     const typed = element.current.value;
     typing.current = false;
     const refused = typed === shown ? undefined : accept(typed) || undefined;
-    if (refused) putBack();
+    if (refused) put();
     refuse(row.id, refused);
   };
-  useLayoutEffect(() => { if (!typing.current) element.current.value = shown; });
+  useLayoutEffect(() => { if (!typing.current) put(); });
   /** @param {any} event */
   const key = (event) => {
+    const ctrl = event.ctrlKey || event.metaKey;
     if (event.key === "Enter") { event.preventDefault(); done(); element.current.select(); }
     else if (event.key === "Escape" && (typing.current || why)) {
       event.stopPropagation();
-      putBack();
+      put();
       refuse(row.id);
-    } else if (step && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
+    } else if (step && !ctrl && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
       event.preventDefault();
-      putBack();
+      put();
       refuse(row.id);
       step((event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1));
+    } else if (ctrl && event.key.toLowerCase() === "z" && !typing.current) {
+      // Nothing is half typed: what was accepted is meant.
+      event.preventDefault();
+      act(event.shiftKey ? "edit/redo" : "edit/undo");
     }
   };
   return html`<input class=${`field ${kind}`} ref=${element} tabindex=${tab}
-    aria-label=${row.name || ""} aria-invalid=${why ? "true" : undefined} title=${why || row.help || ""}
+    aria-label=${row.name || ""} aria-invalid=${why ? "true" : undefined} title=${why || title}
     inputmode=${mode} spellcheck=${false} autocomplete="off" readonly=${row.fixed} disabled=${row.off}
-    onFocus=${(/** @type {any} */ e) => e.target.select()} onMouseDown=${focusWhole}
+    onFocus=${(/** @type {any} */ e) => e.target.select()} onMouseDown=${focusWhole} onPointerDown=${grab}
     onInput=${() => { typing.current = true; if (why) refuse(row.id); }}
-    onKeyDown=${key} onBlur=${done} />`;
+    onKeyDown=${key} onKeyUp=${settle} onBlur=${() => { done(); settle?.(); }} />`;
 }
 
-/** Refuse a number outside the limits of its row. @param {Row} row @param {number} value */
+/** Why a number is outside the limits of its row. @param {Row} row @param {number} value */
 function outside(row, value) {
   const { unit, factor } = shownUnit(row);
   const low = row.min ?? -Infinity, high = row.max ?? Infinity;
   // A limit typed as it is shown, without all its digits, means the limit.
-  if (value >= low - 1e-6 && value <= high + 1e-6) return "";
-  const ends = [low, high].map((end) => (Number.isFinite(end) ? formatNumber(end * factor, 4) : end < 0 ? "−∞" : "∞"));
-  return `outside ${ends[0]} … ${ends[1]} ${unit}`.trim();
+  const near = 0.6 * 10 ** -LIMIT_DIGITS / factor;
+  if (value >= low - near && value <= high + near) return "";
+  return `${formatNumber(value * factor, LIMIT_DIGITS)} ${unit} is outside ${limits(row)}`;
 }
+
+const LIMIT_DIGITS = 4;
+/** The limits of a row as they are shown. @param {Row} row */
+export function limits(row) {
+  const { unit, factor } = shownUnit(row);
+  const ends = [row.min ?? -Infinity, row.max ?? Infinity].map((end) =>
+    (Number.isFinite(end) ? formatNumber(end * factor, LIMIT_DIGITS) : end < 0 ? "−∞" : "∞").replace("-", "−"));
+  return `${ends[0]} … ${ends[1]} ${unit}`.trim();
+}
+
+/** How long a value that a hand has set is shown without an answer of the server [ms]. */
+const ANSWER = 1000;
+
+/** The value of a row, or the one that a hand has set until the server has it too.
+ * @param {Row} row */
+function useHeld(row) {
+  const held = useRef(/** @type {{value: number, gesture: number, over: boolean} | null} */ (null));
+  const [, again] = useState(0);
+  const draw = () => again((n) => n + 1);
+  if (held.current?.over && (row.value === held.current.value || refusals.has(row.id))) held.current = null;
+  const release = () => {
+    const mine = held.current;
+    if (!mine || mine.over) return;
+    mine.over = true;
+    setTimeout(() => { if (held.current === mine) { held.current = null; draw(); } }, ANSWER);
+    draw();
+  };
+  return {
+    // Keys come faster than the page is drawn, so it is read when it is used.
+    get value() { return held.current ? held.current.value : Number(row.value); },
+    /** One of the values of a movement. @param {number} wanted in the row's unit */
+    move(wanted) {
+      const value = clamped(row.kind === "int" ? Math.round(wanted) : wanted, row);
+      const gesture = held.current && !held.current.over ? held.current.gesture : newGesture();
+      const same = value === (held.current ? held.current.value : row.value);
+      held.current = { value, gesture, over: false };
+      if (!same) send(row.id, value, gesture);
+      draw();
+    },
+    release,
+    /** A value that was typed. @param {number} value */
+    put(value) {
+      held.current = { value, gesture: 0, over: false };
+      send(row.id, value);
+      release();
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof useHeld>} Held */
 
 /** @param {{row: Row, tab: number}} props */
 export function NumberCell({ row, tab }) {
+  return html`<${NumberField} row=${row} tab=${tab} held=${useHeld(row)} title=${row.help || ""} />`;
+}
+
+/** A number that is typed, stepped with the arrow keys or dragged sideways.
+ * @param {{row: Row, tab: number, held: Held, title?: string}} props */
+function NumberField({ row, tab, held, title = "" }) {
   degrees.use();
   const { unit, factor, step } = shownUnit(row);
-  const gesture = useRef(0);
+  const free = !row.fixed && !row.off;
   /** @param {string} typed */
   const accept = (typed) => {
     const read = parseNumber(typed, unit);
     if ("error" in read) return read.error;
     const value = row.kind === "int" ? Math.round(read.value) : read.value;
     const why = outside(row, value);
-    if (!why) send(row.id, clamped(value, row));
+    if (!why) held.put(clamped(value, row));
     return why;
   };
   /** @param {number} count */
   const move = (count) => {
-    gesture.current ||= newGesture();
     const fine = Math.abs(count) < 1 && row.kind !== "int";
-    const next = clamped(stepped(row.value, fine ? step / 10 : step, fine ? Math.sign(count) : Math.sign(count) * Math.max(1, Math.abs(count))), row);
-    rows.patch(row.id, { value: next }, new Set());
-    rows.notify(row.id);
-    send(row.id, next, gesture.current);
+    const times = fine ? Math.sign(count) : Math.sign(count) * Math.max(1, Math.abs(count));
+    held.move(stepped(held.value * factor, fine ? step / 10 : step, times) / factor);
   };
-  return html`<span class="number"
-      onfocusout=${() => { gesture.current = 0; }}>
-    <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept}
-      step=${row.fixed ? undefined : move} shown=${formatNumber(Number(row.value) * factor, 6)} />
+  // The cell is drawn again while it is dragged; the drag keeps to the latest one.
+  const latest = useRef(held);
+  latest.current = held;
+  /** @param {any} event */
+  const grab = (event) => {
+    const input = event.target;
+    if (event.button !== 0 || event.pointerType === "touch" || document.activeElement === input) return;
+    event.preventDefault();
+    input.setPointerCapture(event.pointerId);
+    let at = event.clientX, shown = latest.current.value * factor, moved = false;
+    input.onpointermove = (/** @type {any} */ e) => {
+      if (!moved && Math.abs(e.clientX - at) < 4) return;
+      moved = true;
+      shown += (e.clientX - at) * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
+      shown = clamped(shown / factor, row) * factor;
+      at = e.clientX;
+      latest.current.move(snapped(shown, e.altKey ? step / 10 : step) / factor);
+    };
+    input.onpointerup = input.onpointercancel = (/** @type {any} */ e) => {
+      input.onpointermove = input.onpointerup = input.onpointercancel = null;
+      if (moved) latest.current.release();
+      else if (e.type === "pointerup") input.focus();
+    };
+  };
+  return html`<span class="number">
+    <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept} title=${title}
+      step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined}
+      shown=${formatNumber(held.value * factor, 6)} />
     ${unit && html`<span class="unit">${unit}</span>`}
   </span>`;
 }
@@ -142,34 +236,19 @@ export function SliderCell({ row, tab }) {
   degrees.use();
   const { factor, step, unit } = shownUnit(row);
   const low = row.min ?? 0, high = row.max ?? 1;
-  /** The value under the hand, until the hand lets go. */
-  const held = useRef(/** @type {{value: number, gesture: number} | null} */ (null));
-  const [, again] = useState(0);
-  const value = held.current ? held.current.value : Number(row.value);
-  /** @param {number} raw @param {boolean} [exact] */
-  const move = (raw, exact) => {
-    // The ends are exact, whatever the step.
-    const next = raw <= low ? low : raw >= high ? high : exact ? raw : clamped(snapped(raw, step), row);
-    held.current ||= { value: next, gesture: newGesture() };
-    held.current.value = next;
-    send(row.id, next, held.current.gesture);
-    again((n) => n + 1);
-  };
-  const release = () => {
-    if (!held.current) return;
-    // Until the server's answer is here, the row shows what the hand has set.
-    rows.patch(row.id, { value: held.current.value }, new Set());
-    held.current = null;
-    again((n) => n + 1);
-  };
+  const held = useHeld(row);
+  const value = held.value;
+  // The ends are exact, whatever the step.
+  /** @param {number} raw */
+  const slide = (raw) => held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
   /** @param {any} event */
   const key = (event) => {
     const count = /** @type {Record<string, number>} */ ({
       ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 })[event.key];
-    if (event.ctrlKey || event.metaKey) return;
-    if (count) move(stepped(value, step, count * (event.shiftKey ? 10 : 1)), true);
-    else if (event.key === "Home") move(low);
-    else if (event.key === "End") move(high);
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (count) held.move(stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor);
+    else if (event.key === "Home") held.move(low);
+    else if (event.key === "End") held.move(high);
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -179,10 +258,10 @@ export function SliderCell({ row, tab }) {
     <input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
       aria-label=${row.name || ""} disabled=${row.fixed || row.off} style=${`--part: ${part}`}
       aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
-      onInput=${(/** @type {any} */ e) => move(Number(e.target.value))}
-      onChange=${release} onPointerUp=${release} onPointerCancel=${release}
-      onKeyDown=${key} onKeyUp=${release} onBlur=${release} />
-    <${NumberCell} row=${held.current ? { ...row, value } : row} tab=${tab} />
+      onInput=${(/** @type {any} */ e) => slide(Number(e.target.value))}
+      onChange=${held.release} onPointerUp=${held.release} onPointerCancel=${held.release}
+      onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />
+    <${NumberField} row=${row} tab=${tab} held=${held} />
   </span>`;
 }
 

@@ -1,40 +1,42 @@
 // @ts-check
 /* Numbers as people type and read them. */
 
-const FACTORS = /** @type {Record<string, number>} */ ({
-  "°": Math.PI / 180, deg: Math.PI / 180, degree: Math.PI / 180, degrees: Math.PI / 180,
-  rad: 1, m: 1, cm: 0.01, mm: 0.001, km: 1000,
-});
-const LENGTHS = ["m", "cm", "mm", "km"];
+const DEGREE = Math.PI / 180;
+/** What a unit measures, and how much of rad or m it is. @type {Record<string, ["angle" | "length", number]>} */
+const UNITS = {
+  rad: ["angle", 1], radian: ["angle", 1], radians: ["angle", 1],
+  "°": ["angle", DEGREE], deg: ["angle", DEGREE], degree: ["angle", DEGREE], degrees: ["angle", DEGREE],
+  m: ["length", 1], cm: ["length", 0.01], mm: ["length", 0.001], km: ["length", 1000],
+};
+const SUFFIX = /^(.*?)\s*(°|deg|degrees?|rad|radians?|[ckm]?m)?\s*(\/\s*s)?$/s;
 
 /**
  * Read a number: "0.5", "1,5", "1e-3", "pi/2", "-90deg", "2*pi", "15 mm", "(1+2)/4".
  * @param {string} typed
- * @param {string} unit the unit of a plain number: "rad", "°", "m" or anything else
+ * @param {string} unit the unit of a plain number: "rad", "°", "m", each also with "/s", or anything else
  * @returns {{value: number} | {error: string}} the value in rad or m where that is the unit
  */
 export function parseNumber(typed, unit = "") {
   const text = typed.trim().toLowerCase().replace(/−/g, "-").replace(/π/g, "pi");
   if (!text) return { error: "type a number" };
-  const match = text.match(/^(.*?)\s*(°|deg|degrees?|rad|cm|mm|km|m)?$/s);
-  const [, expression = "", named] = match || [];
-  const angle = unit === "rad" || unit === "°";
-  if (named && angle === LENGTHS.includes(named) && (angle || unit === "m")) {
-    return { error: `'${named}' does not fit ${angle ? "an angle" : "a length"}` };
-  }
-  if (named && !angle && unit !== "m" && unit !== named) return { error: `no unit '${named}' here` };
+  const [, expression = "", named = "", perSecond = ""] = text.match(SUFFIX) || [];
   const value = evaluate(expression);
   if (value === undefined || !Number.isFinite(value)) {
     return { error: `'${typed.trim()}' is not a number` };
   }
-  const factor = FACTORS[named || (angle ? unit : "")] ?? 1;
-  return { value: value * factor };
+  const own = UNITS[unit.replace("/s", "")];
+  if (!named && !perSecond) return { value: value * (own ? own[1] : 1) };
+  const given = UNITS[named];
+  if (!given || !own || given[0] !== own[0] || (perSecond && !unit.endsWith("/s"))) {
+    return { error: `'${named}${perSecond}' does not fit: the unit is ${unit || "none"}` };
+  }
+  return { value: value * given[1] };
 }
 
 /** A sum of products of numbers, pi and brackets. @param {string} text @returns {number | undefined} */
 function evaluate(text) {
   // A comma is a decimal point, as in many countries.
-  const tokens = text.replace(/(\d),(?=\d)/g, "$1.").match(/\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?|pi|tau|[-+*/()]|\S/g);
+  const tokens = text.replace(/,(?=\d)/g, ".").match(/\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?|pi|tau|[-+*/()]|\S/g);
   if (!tokens) return undefined;
   let at = 0;
   const sum = () => {
@@ -76,16 +78,18 @@ function evaluate(text) {
 export function formatNumber(value, digits = 6) {
   if (!Number.isFinite(value)) return "";
   const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e7 || size < 10 ** -digits)) return String(Number(value.toPrecision(6)));
+  // What sums of binary numbers leave over.
+  if (size < 1e-12) return "0";
+  if ( (size >= 1e7 || size < 10 ** -digits)) return String(Number(value.toPrecision(6)));
   return String(Number(value.toFixed(digits)));
 }
 
-/** A value moved by some steps, on round numbers. @param {number} value @param {number} step @param {number} count */
+/** A value moved by some steps, to a round number. @param {number} value @param {number} step @param {number} count */
 export function stepped(value, step, count) {
-  const next = Math.round(value / step) + count;
-  const on = Math.abs(Math.round(value / step) * step - value) < step * 1e-6;
-  const from = on ? next : count > 0 ? Math.floor(value / step) + count : Math.ceil(value / step) + count;
-  return round(from * step, step);
+  const near = Math.round(value / step);
+  const on = Math.abs(near * step - value) < step * 1e-6;
+  const from = on ? near : count > 0 ? Math.floor(value / step) : Math.ceil(value / step);
+  return round((from + count) * step, step);
 }
 
 /** A value on the nearest step. @param {number} value @param {number} step */
