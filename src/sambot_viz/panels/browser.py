@@ -1,12 +1,17 @@
-"""What belongs to one browser alone: tools, undo, and answers to what it sent."""
+"""The panels of one browser alone, and answers to what it sent."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
+from sambot_viz.panels.edits import UndoPanel
+from sambot_viz.panels.frames import FramesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.panels.selection import SelectionPanel
+from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
+from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
 
@@ -25,14 +30,22 @@ class BrowserPanels:
         self._publisher = Publisher(
             browser.client,
             session.worker,
-            [
-                self._notices,
-                ToolsPanel(browser),
-                UndoPanel(session, browser),
-            ],
+            self._panels(session),
             "browser",
         )
         browser.listeners.append(self.hear)
+
+    def _panels(self, session: Session) -> list[Panel]:
+        browser = self._browser
+        return [
+            self._notices,
+            ToolsPanel(session, browser),
+            UndoPanel(session, browser),
+            ViewsPanel(session, browser),
+            SelectionPanel(session, browser),
+            ToolPropertiesPanel(session, browser),
+            FramesPanel(session, browser, self.say),
+        ]
 
     def close(self) -> None:
         """Follow the browser no longer."""
@@ -46,6 +59,11 @@ class BrowserPanels:
     def row(self, row_id: str) -> Row | None:
         """A row of this browser."""
         return self._publisher.row(row_id)
+
+    def say(self, sentence: str, level: Level) -> None:
+        """Show a sentence in this browser."""
+        self._notices.say(sentence, level)
+        self._publisher.remake(self._notices)
 
     def answer(self, row_id: str, sentence: str, row: Row | None) -> None:
         """Say why a value was refused; the page shows the value that holds again."""
@@ -76,68 +94,3 @@ class NoticePanel(Panel):
     def rows(self) -> Sequence[Row]:
         """The last notice."""
         return [Row("notice", "", "names", value=self._notice)]
-
-
-class ToolsPanel(Panel):
-    """The tools, which of them is current, and its hint."""
-
-    name = "tools"
-    remade_by = frozenset({"tools", "config"})
-
-    def __init__(self, browser: Browser) -> None:
-        self._tools = browser.tools
-
-    def rows(self) -> Sequence[Row]:
-        """A row per tool, then the hint."""
-        return [*self._rows()]
-
-    def _rows(self) -> Iterator[Row]:
-        tools = self._tools
-        for tool in tools.tools:
-            yield Row(
-                f"tool/{tool.label}",
-                "",
-                "action",
-                tool.label,
-                value=tool is tools.current,
-                help=tool.help,
-                icon=tool.label,
-                extra={"key": tool.key.lower()},
-                set=lambda _, kind=tool.kind: tools.choose(kind),
-            )
-        yield Row("tools/hint", "", "note", value=tools.status or tools.current.help)
-        yield Row("tools/escape", "", "action", set=lambda _: tools.escape())
-
-
-class UndoPanel(Panel):
-    """What can be undone and done again."""
-
-    name = "edit"
-    remade_by = frozenset({"edits"})
-
-    def __init__(self, session: Session, browser: Browser) -> None:
-        self._edits, self._id = session.edits, browser.client_id
-
-    def rows(self) -> Sequence[Row]:
-        """Undo and Redo, with what they would do."""
-        undo, redo = self._edits.undo_label(self._id), self._edits.redo_label(self._id)
-        return [
-            Row(
-                "edit/undo",
-                "",
-                "action",
-                "Undo",
-                value=undo or "",
-                enabled=undo is not None,
-                set=lambda _: self._edits.undo(self._id),
-            ),
-            Row(
-                "edit/redo",
-                "",
-                "action",
-                "Redo",
-                value=redo or "",
-                enabled=redo is not None,
-                set=lambda _: self._edits.redo(self._id),
-            ),
-        ]

@@ -16,11 +16,13 @@ class Panel:
         name: the panel of the page that shows the rows.
         remade_by: the rows are made again after these events.
         moved_by: only `values` is asked after these.
+        period: shortest time between two times that `values` is asked [s].
     """
 
     name: ClassVar[str]
     remade_by: ClassVar[frozenset[Event]] = frozenset()
     moved_by: ClassVar[frozenset[Event]] = frozenset()
+    period: ClassVar[float] = 0.0
 
     def rows(self) -> Sequence[Row]:
         """All rows in the order of the page; a row comes after the one above it."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Literal, Protocol
 
 import viser
@@ -61,6 +62,11 @@ class Publisher:
         self._remake: set[Panel] = set()
         self._move: set[Panel] = set()
         self._throttle = Throttle(worker, PERIOD, self._publish)
+        self._slow = {
+            panel: Throttle(worker, panel.period, partial(self._moved, panel))
+            for panel in panels
+            if panel.period > PERIOD
+        }
         for panel in self._panels:
             self._make(panel)
         self._all = owner.gui.add_html(self._whole())
@@ -69,6 +75,8 @@ class Publisher:
     def close(self) -> None:
         """Send nothing any more."""
         self._throttle.close()
+        for throttle in self._slow.values():
+            throttle.close()
         for panel in self._panels:
             panel.close()
 
@@ -84,10 +92,16 @@ class Publisher:
         for panel in self._panels:
             if event in panel.remade_by:
                 self._remake.add(panel)
+            elif event in panel.moved_by and panel in self._slow:
+                self._slow[panel].request()
             elif event in panel.moved_by:
                 self._move.add(panel)
         if self._remake or self._move:
             self._throttle.request()
+
+    def _moved(self, panel: Panel) -> None:
+        self._move.add(panel)
+        self._throttle.request()
 
     def remake(self, panel: Panel) -> None:
         """Make the rows of a panel again, soon."""

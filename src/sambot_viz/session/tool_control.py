@@ -23,7 +23,6 @@ from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
-from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
 
 if TYPE_CHECKING:
@@ -100,14 +99,15 @@ class ToolControl:
     def press(self, kind: str) -> None:
         """The key of a tool was pressed: choose the tool, or leave it again.
 
-        As in RViz, Select keeps all keys: only its own key and Esc leave it.
+        In RViz the keys of other tools do nothing while Select is current; here they
+        choose their tool.
 
         Raises:
             UsageError: an unknown tool.
         """
         if self.current.kind == kind:
             self.finish()
-        elif not isinstance(self.current, SelectTool):
+        else:
             self.choose(kind)
 
     def escape(self) -> None:

@@ -1,0 +1,122 @@
+"""The toolbar of one browser, and RViz's Tool Properties panel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.property_rows import property_rows
+from sambot_viz.panels.row import Row
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.tools.tool import Tool
+
+
+class ToolsPanel(Panel):
+    """The tools, which of them is current, its hint, and what keys and buttons do.
+
+    A tool's own action always chooses it. Its key follows RViz's rule for keys: pressed
+    again, it goes back to the default tool ("tools/press").
+
+    Args:
+        session: what is shown.
+        browser: whose tools these are.
+    """
+
+    name = "tools"
+    remade_by = frozenset({"tools", "config"})
+
+    def __init__(self, session: Session, browser: Browser) -> None:
+        self._session = session
+        self._browser = browser
+
+    def rows(self) -> Sequence[Row]:
+        """A row per tool, then the hint and the actions."""
+        return [*map(self._tool, self._browser.tools.tools), *self._others()]
+
+    def _tool(self, tool: Tool) -> Row:
+        current = tool is self._browser.tools.current
+        return Row(
+            f"tool/{tool.label}",
+            "",
+            "action",
+            tool.label,
+            value=current,
+            help=tool.help,
+            icon=tool.label,
+            extra={"key": tool.key.lower()},
+            set=lambda _: self._browser.tools.choose(tool.kind),
+        )
+
+    def _others(self) -> Iterator[Row]:
+        tools, view = self._browser.tools, self._browser.view
+        hint = tools.status or tools.current.help
+        yield Row("tools/hint", "", "note", value=hint)
+        yield _action("tools/escape", lambda _: tools.escape())
+        yield Row("tools/press", "", "action", takes=(str,), set=self._press)
+        number = (float, int, type(None))
+        yield Row("tools/focus", "", "action", takes=(number, number), set=self._focus)
+        yield _action("tools/zero", lambda _: view.zero())
+        yield _action("tools/reset", lambda _: self._session.refresh())
+
+    def _press(self, arguments: tuple[str]) -> None:
+        (label,) = arguments
+        for tool in self._browser.tools.tools:
+            if tool.label == label:
+                self._browser.tools.press(tool.kind)
+                return
+        raise UsageError(f"there is no tool '{label}'")
+
+    def _focus(self, point: tuple[float | None, float | None]) -> None:
+        del point
+        self._browser.tools.focus(self._browser.client_id)
+
+
+class ToolPropertiesPanel(Panel):
+    """The settings of the tools that the document lists, as in RViz.
+
+    Args:
+        session: whose document it is.
+        browser: whose tools these are.
+    """
+
+    name = "tool_properties"
+    remade_by = frozenset({"tools", "config"})
+
+    def __init__(self, session: Session, browser: Browser) -> None:
+        self._session = session
+        self._browser = browser
+
+    def rows(self) -> Sequence[Row]:
+        """A group per tool that has settings."""
+        made: list[Row] = []
+        for tool in self._browser.tools.tools:
+            if tool.config is None or not tool.properties:
+                continue
+            group = f"tool_properties/{tool.label}"
+            change = partial(self._browser.tools.set_property, tool.kind)
+            below = [*property_rows(tool.config, group, change)]
+            if below:
+                help_text, icon = tool.help, tool.label
+                made.append(
+                    Row(
+                        group,
+                        "",
+                        "group",
+                        tool.label,
+                        icon=icon,
+                        help=help_text,
+                        expanded=True,
+                    )
+                )
+                made.extend(below)
+        return made or [Row("tool_properties/none", "", "note", value=_NO_SETTINGS)]
+
+
+def _action(row_id: str, act: Callable[[object], object]) -> Row:
+    return Row(row_id, "", "action", set=act)
+
+
+_NO_SETTINGS = "No tool of this config has settings."

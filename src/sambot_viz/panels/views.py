@@ -1,0 +1,172 @@
+"""The Views panel of one browser: its camera, and the saved views of the document."""
+
+from __future__ import annotations
+
+import itertools
+import weakref
+from collections.abc import Iterator, Sequence
+
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.property_rows import property_rows
+from sambot_viz.panels.row import Json, Row
+from sambot_viz.rviz import ViewConfig
+from sambot_viz.rviz.class_name import row_text
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.views.registry import VIEWS
+
+CURRENT = "view"
+
+
+class ViewsPanel(Panel):
+    """The type of the view, its numbers, and the saved views.
+
+    The numbers are those of this browser's camera: they follow its mouse, and what is
+    typed moves only this camera. The saved views belong to the document.
+
+    Args:
+        session: whose document it is.
+        browser: whose camera it is.
+    """
+
+    name = "views"
+    remade_by = frozenset({"view", "config"})
+
+    def __init__(self, session: Session, browser: Browser) -> None:
+        self._session = session
+        self._browser = browser
+        self._numbers: weakref.WeakKeyDictionary[ViewConfig, int] = (
+            weakref.WeakKeyDictionary()
+        )
+        self._count = itertools.count(1)
+
+    def rows(self) -> Sequence[Row]:
+        """The type, the current view, then the saved ones."""
+        return [
+            self._type(),
+            *self._current(),
+            *map(self._saved, self._session.config.saved_views),
+            *self._actions(),
+        ]
+
+    def _type(self) -> Row:
+        kinds = {row_text(kind): kind for kind in VIEWS}
+        view = self._browser.view.view
+        return Row(
+            "view/type",
+            "",
+            "enum",
+            "Type",
+            value=row_text(view.kind),
+            options=tuple(kinds),
+            help=view.help,
+            extra={"apart": True},
+            set=lambda label: self._browser.view.set_kind(kinds[label]),
+        )
+
+    def _current(self) -> Iterator[Row]:
+        view = self._browser.view.view
+        unknown = self._unknown()
+        yield Row(
+            CURRENT,
+            "",
+            "fact",
+            "Current View",
+            value=row_text(view.kind),
+            help=view.help,
+            expanded=True,
+            bold=True,
+        )
+        if unknown is not None:
+            yield Row("view/:unknown", CURRENT, "note", value=unknown, level="warn")
+        yield from property_rows(view.config, CURRENT, self._browser.view.set)
+        yield Row(
+            "view/:follow",
+            CURRENT,
+            "bool",
+            "Follow the presenter",
+            value=self._session.views.follow_presenter,
+            help="All browsers show what the camera shows that moved last.",
+            set=self._follow,
+        )
+        yield Row("view/shown", "", "names", value=self._shown())
+
+    def _unknown(self) -> str | None:
+        """Why the view is not the one that the document asks for."""
+        asked = self._session.config.view
+        if asked.kind in VIEWS:
+            return None
+        return (
+            f"The config asks for a view of type {asked.class_id}, which is not known "
+            "here: shown as Orbit, and kept as it is in the file."
+        )
+
+    def _shown(self) -> Json:
+        """What the page's own mouse handling has to know of the view."""
+        view = self._browser.view.view
+        config = view.config
+        known = config.declared
+        return {
+            "kind": view.kind.rpartition("/")[2],
+            "focalSize": (
+                config.get("Focal Shape Size") if "Focal Shape Size" in known else 0.0
+            ),
+            "focalFixed": (
+                "Focal Shape Fixed Size" in known
+                and config.get("Focal Shape Fixed Size")
+            ),
+        }
+
+    def _follow(self, on: bool) -> None:
+        with self._session.change("view"):
+            self._session.views.follow_presenter = on
+
+    # The saved views
+
+    def _saved(self, saved: ViewConfig) -> Row:
+        if saved not in self._numbers:
+            self._numbers[saved] = next(self._count)
+        name = saved.name or saved.kind.rpartition("/")[2]
+        return Row(
+            f"saved{self._numbers[saved]}",
+            "",
+            "fact",
+            name,
+            value=row_text(saved.kind),
+            icon="view",
+            help="A saved view. A double click or Enter shows it.",
+            extra={"saved": True},
+        )
+
+    def _saved_view(self, row_id: str) -> ViewConfig:
+        for saved in self._session.config.saved_views:
+            if f"saved{self._numbers.get(saved)}" == row_id:
+                return saved
+        raise UsageError("this saved view is not there any more")
+
+    def _actions(self) -> Iterator[Row]:
+        view = self._browser.view
+
+        def rename(arguments: tuple[str, str]) -> None:
+            row_id, name = arguments
+            if not name.strip():
+                raise UsageError("a saved view needs a name")
+            view.rename(self._saved_view(row_id), name.strip())
+
+        yield Row("views/save", "", "action", set=lambda _: view.save())
+        yield Row(
+            "views/use",
+            "",
+            "action",
+            takes=(str,),
+            set=lambda arguments: view.use(self._saved_view(arguments[0])),
+        )
+        yield Row("views/rename", "", "action", takes=(str, str), set=rename)
+        yield Row(
+            "views/remove",
+            "",
+            "action",
+            takes=(str,),
+            set=lambda arguments: view.remove(self._saved_view(arguments[0])),
+        )

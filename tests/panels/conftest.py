@@ -1,0 +1,45 @@
+"""A session with one browser, for the tests of its panels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from urllib.parse import urlsplit
+
+import pytest
+from inside import session_of, viser_server
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    return session_of(viz)
+
+
+@pytest.fixture
+def join(
+    viz: Visualizer, session: Session, protocol: Callable[..., ProtocolClient]
+) -> Callable[[], Browser]:
+    """Open the page in one more browser."""
+
+    def open_page() -> Browser:
+        before = set(session.browsers)
+        protocol(urlsplit(viz.url).port or 0).settle(viser_server(viz))
+        (new,) = session.browsers.keys() - before
+        return session.browsers[new]
+
+    return open_page
+
+
+@pytest.fixture
+def browser(join: Callable[[], Browser]) -> Browser:
+    return join()

@@ -1,0 +1,105 @@
+"""The Selection panel of one browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from panel_rows import edit, row_named, rows_of
+
+from sambot_viz import Visualizer, load_robot
+from sambot_viz.panels.selection import SHOWN, SelectionPanel
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.tools.picking.hit import Selectable
+
+POST = """<robot name="post">
+  <link name="foot">
+    <inertial>
+      <mass value="2.5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+  </link>
+  <link name="post"/>
+  <joint name="stands" type="fixed"><parent link="foot"/><child link="post"/></joint>
+</robot>"""
+LEFT = Selectable("link", "drivewhl_l_link")
+RIGHT = Selectable("link", "drivewhl_r_link")
+
+
+@pytest.fixture
+def panel(session: Session, browser: Browser) -> SelectionPanel:
+    return SelectionPanel(session, browser)
+
+
+def facts(panel: SelectionPanel) -> dict[str, str]:
+    return {row.name: row.value for row in panel.rows() if row.kind == "fact"}
+
+
+def test_nothing_is_selected_at_first(panel: SelectionPanel) -> None:
+    (row,) = panel.rows()
+    assert "Choose Select" in row.value
+
+
+def test_a_link_has_its_facts(panel: SelectionPanel, browser: Browser) -> None:
+    browser.tools.select({LEFT}, None)
+    found = facts(panel)
+    assert found["Position"] == "-0.12; 0.18; -0.05 m"
+    assert found["Parent"] == "base_link"
+    assert found["Joint"].startswith("drivewhl_l_joint (continuous)")
+    assert found["Visual"].startswith("Cylinder of radius 0.1 m")
+    assert found["Orientation"].endswith("(xyzw)")
+    assert ".xacro:" in found["Written at"]
+
+
+def test_a_motion_changes_the_values_only(
+    panel: SelectionPanel, browser: Browser, viz: Visualizer, session: Session
+) -> None:
+    browser.tools.select({LEFT}, None)
+    before = rows_of(panel)
+    viz.set_joint_positions({"drivewhl_l_joint": 1.0})
+    values = panel.values()
+    joint = row_named(panel, "Joint position").id
+    assert values[joint].startswith("1 rad")
+    assert values[joint] != before[joint].value
+    assert set(values) <= set(before)
+
+
+def test_poses_are_shown_in_a_chosen_frame(
+    panel: SelectionPanel, browser: Browser
+) -> None:
+    browser.tools.select({LEFT}, None)
+    edit(panel, "selection/frame", "drivewhl_l_link")
+    assert facts(panel)["Position"] == "0; 0; 0 m"
+    edit(panel, "selection/frame", "nowhere")
+    assert "nowhere" in facts(panel)["Pose"]
+
+
+def test_two_items_are_so_far_apart(panel: SelectionPanel, browser: Browser) -> None:
+    browser.tools.select({LEFT, RIGHT}, None)
+    found = facts(panel)
+    assert found["Distance"].startswith("0.36 m, from ")
+    assert "along the axes of" in found["Offset"]
+    browser.tools.select({Selectable("link", "base_link")}, "shift")
+    assert "Distance" not in facts(panel)
+
+
+def test_a_long_selection_says_how_many_more_there_are(
+    panel: SelectionPanel, browser: Browser
+) -> None:
+    many = {Selectable("frame", f"f{number}") for number in range(SHOWN + 2)}
+    browser.tools.select(many, None)
+    assert rows_of(panel)["selection/more"].value == "and 2 more"
+
+
+def test_the_body_has_a_mass_and_children(
+    panel: SelectionPanel, browser: Browser, session: Session, tmp_path: Path
+) -> None:
+    model = tmp_path / "post.urdf"
+    model.write_text(POST, "utf-8")
+    session.show_robot(load_robot(model))
+    browser.tools.select({Selectable("link", "foot")}, None)
+    found = facts(panel)
+    assert found["Mass"] == "2.5 kg"
+    assert found["Children"] == "post"
+    assert found["Joints to its children"] == "stands"
+    assert found["Written at"] == "post.urdf:2"

@@ -1,0 +1,85 @@
+"""The Views panel of one browser."""
+
+from __future__ import annotations
+
+import pytest
+from panel_rows import edit, row_named, rows_of
+
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.gate import ValueRefused
+from sambot_viz.panels.views import ViewsPanel
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+
+ORBIT, ABOVE = "Orbit (rviz_default_plugins)", "TopDownOrtho (rviz_default_plugins)"
+
+
+@pytest.fixture
+def panel(session: Session, browser: Browser) -> ViewsPanel:
+    return ViewsPanel(session, browser)
+
+
+def test_the_numbers_are_those_of_the_current_view(panel: ViewsPanel) -> None:
+    rows = rows_of(panel)
+    assert rows["view"].name == "Current View"
+    assert rows["view"].value == ORBIT
+    assert rows["view/Distance"].above == "view"
+    edit(panel, "view/Distance", 2.5)
+    edit(panel, "view/Focal Point", [0.1, 0.0, 0.3])
+    rows = rows_of(panel)
+    assert rows["view/Distance"].value == 2.5
+    assert tuple(rows["view/Focal Point"].value) == (0.1, 0.0, 0.3)
+
+
+def test_a_number_outside_its_limits_is_refused(panel: ViewsPanel) -> None:
+    with pytest.raises(ValueRefused, match="its limits are"):
+        edit(panel, "view/Pitch", 2.0)
+
+
+def test_another_type_has_its_own_numbers(panel: ViewsPanel) -> None:
+    assert rows_of(panel)["view/type"].value == ORBIT
+    edit(panel, "view/type", ABOVE)
+    rows = rows_of(panel)
+    assert rows["view/type"].value == ABOVE
+    assert "view/Scale" in rows
+    assert "view/Distance" not in rows
+    assert rows["view/shown"].value["kind"] == "TopDownOrtho"
+
+
+def test_zero_goes_back_to_where_rviz_begins(
+    panel: ViewsPanel, browser: Browser
+) -> None:
+    edit(panel, "view/Distance", 2.5)
+    browser.view.zero()
+    assert rows_of(panel)["view/Distance"].value == 10.0
+
+
+def test_a_view_is_saved_renamed_used_and_removed(panel: ViewsPanel) -> None:
+    edit(panel, "view/Distance", 2.5)
+    edit(panel, "views/save", [])
+    edit(panel, "views/save", [])
+    first, second = (row for row in panel.rows() if row.extra == {"saved": True})
+    assert (first.name, second.name) == ("Orbit", "Orbit")
+    edit(panel, "views/rename", [first.id, " From the left "])
+    assert row_named(panel, "From the left").id == first.id
+    edit(panel, "view/Distance", 7.0)
+    edit(panel, "views/use", [first.id])
+    assert rows_of(panel)["view/Distance"].value == 2.5
+    edit(panel, "views/remove", [first.id])
+    assert second.id in rows_of(panel)
+    with pytest.raises(UsageError, match="not there any more"):
+        edit(panel, "views/use", [first.id])
+
+
+def test_a_saved_view_needs_a_name(panel: ViewsPanel) -> None:
+    edit(panel, "views/save", [])
+    with pytest.raises(UsageError, match="needs a name"):
+        edit(panel, "views/rename", [row_named(panel, "Orbit").id, "  "])
+
+
+def test_the_page_is_told_what_its_mouse_has_to_know(panel: ViewsPanel) -> None:
+    assert rows_of(panel)["view/shown"].value == {
+        "kind": "Orbit",
+        "focalSize": 0.05,
+        "focalFixed": True,
+    }
