@@ -49,7 +49,7 @@ def run(words: list[str]) -> int:
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)
-    server = listen(options.host, options.port, options.allowed_origins)
+    server = listen(options.host, options.port, options.allowed_origins, options.panels)
     try:
         _announce(url_of(server), given.open)
         if not only_this_machine(options.host):

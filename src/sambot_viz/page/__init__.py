@@ -1,35 +1,57 @@
-"""The page's own files: scripts, style sheets and the HTML page that loads them."""
+"""The page's own files: scripts, style sheets, and the HTML page with them in it.
+
+The scripts are plain modules that import each other by relative paths. In the HTML page
+each is a data address in an import map, so that one request brings all of them: while
+the program starts, every further request would wait for it.
+"""
 
 from __future__ import annotations
 
-from functools import cache
-from importlib import resources
-from pathlib import PurePosixPath
+import base64
+import json
+import posixpath
+import re
+from pathlib import Path
 
-FOLDER = "sambot"
-"""Below the address of the page."""
-_TYPES = {".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8"}
-_HEAD = (
-    f'<link rel="stylesheet" href="./{FOLDER}/window.css">'
-    f'<script type="module" src="./{FOLDER}/main.js"></script>'
-)
+_FOLDER = Path(__file__).parent
+_PREFIX = "sambot/"
+"""What the names of the modules begin with in the import map."""
+_IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
+_STYLES = ("window.css",)
 
 
-@cache
-def file(path: str) -> tuple[bytes, str] | None:
-    """A file of the page and its media type; None when there is no such file.
+def with_scripts(html: bytes, panels: bool) -> bytes:
+    """The page of viser with our scripts and style sheets in its head.
+
+    The script is `async`: viser's own script must not wait for ours.
 
     Args:
-        path: below this folder, such as "main.js".
+        html: the page of viser.
+        panels: whether there are panels round the view, or the view fills the page.
     """
-    pure = PurePosixPath(path)
-    media_type = _TYPES.get(pure.suffix)
-    if media_type is None or pure.is_absolute() or ".." in pure.parts:
-        return None
-    found = resources.files(__name__).joinpath(*pure.parts)
-    return (found.read_bytes(), media_type) if found.is_file() else None
+    modules = {
+        _PREFIX + path.relative_to(_FOLDER).as_posix(): _address(path)
+        for path in sorted(_FOLDER.rglob("*.js"))
+    }
+    styles = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in _STYLES)
+    first = "main.js" if panels else "bare.js"
+    head = (
+        f'<script type="importmap">{json.dumps({"imports": modules})}</script>'
+        f'<script type="module" async>import "{_PREFIX}{first}";</script>'
+        f"<style>{styles}</style>"
+    )
+    return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
 
-def with_scripts(html: bytes) -> bytes:
-    """Viser's page with our scripts and style sheet in its head."""
-    return html.replace(b"</head>", _HEAD.encode() + b"</head>", 1)
+def _address(path: Path) -> str:
+    """A script as a data address; what it imports is named as in the import map."""
+    folder = path.parent.relative_to(_FOLDER).as_posix()
+
+    def absolute(found: re.Match[str]) -> str:
+        name = posixpath.normpath(posixpath.join(_PREFIX, folder, found[3]))
+        return f'{found[1]}"{name}"'
+
+    source = _IMPORT.sub(absolute, path.read_text("utf-8"))
+    name = _PREFIX + path.relative_to(_FOLDER).as_posix()
+    packed = base64.b64encode(f"{source}\n//# sourceURL={name}\n".encode())
+    return "data:text/javascript;charset=utf-8;base64," + packed.decode()

@@ -99,9 +99,8 @@ function Right() {
   const away = hidden.use(), chosen = tab.use();
   for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
   const names = Object.keys(TABS).filter((name) => rows.panels.get(name)?.length);
-  if (!names.length) return null;
   if (away.right) return html`<${Tab} side="right" />`;
-  const current = names.includes(chosen) ? chosen : names[0];
+  const current = names.includes(chosen) ? chosen : names[0] || "joints";
   return html`<aside class="right">
     <${Tabs} names=${names} of=${TABS} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}><${TABS[current].content} /></div>
@@ -115,7 +114,7 @@ function Sheet() {
   const of = SHEET;
   for (const name of Object.keys(of)) useRow(`panel:${name}`);
   const names = Object.keys(of).filter((name) => rows.panels.get(name)?.length);
-  const current = names.includes(chosen) ? chosen : names[0];
+  const current = names.includes(chosen) ? chosen : names[0] || "joints";
   return html`<aside class="sheet">
     <${Tabs} names=${names} of=${of} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}><${of[current].content} /></div>

@@ -102,7 +102,9 @@ def _hostname(netloc: str) -> str:
 
 
 @contextlib.contextmanager
-def checked(listening_on: str, allowed: Sequence[str] = ()) -> Generator[None]:
+def checked(
+    listening_on: str, allowed: Sequence[str] = (), panels: bool = True
+) -> Generator[None]:
     """Servers that are started in here check every request before viser answers it.
 
     viser gives no way to look at a request, so the function with which it starts its
@@ -125,7 +127,7 @@ def checked(listening_on: str, allowed: Sequence[str] = ()) -> Generator[None]:
                 sentence = "This page may not use this server; see --allow-origin."
                 return _refusal(http.HTTPStatus.FORBIDDEN, sentence)
             try:
-                response = page_files.answer(request)
+                response = page_files.answer(request, panels)
                 if response is None and answer:
                     response = answer(connection, request)
             except (OSError, ValueError):

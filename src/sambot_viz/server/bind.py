@@ -29,7 +29,7 @@ def url_of(server: viser.ViserServer) -> str:
 
 
 def listen(
-    host: str, port: int, allowed_origins: Sequence[str] = ()
+    host: str, port: int, allowed_origins: Sequence[str] = (), panels: bool = True
 ) -> viser.ViserServer:
     """A viser server on exactly this address.
 
@@ -41,6 +41,7 @@ def listen(
         port: 0 takes a free one.
         allowed_origins: web pages of other origins that may use the server, such as
             "https://lab.example.org" for one behind a proxy.
+        panels: whether the page has panels round its view.
 
     Raises:
         ServerError: the address cannot be listened on, with what to do about it.
@@ -48,7 +49,7 @@ def listen(
     _try_to_bind(host, port)
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
-    with viser_private.without_banner(), access.checked(host, allowed_origins):
+    with viser_private.without_banner(), access.checked(host, allowed_origins, panels):
         server = viser.ViserServer(host=host, port=port, verbose=False)
     if port not in (0, server.get_port()):
         close(server)

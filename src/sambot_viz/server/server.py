@@ -75,7 +75,7 @@ class Server:
         self._private: dict[int, Session] = {}
         self._workers: dict[int | None, Worker] = {}
         self._viser = listening or listen(
-            options.host, options.port, options.allowed_origins
+            options.host, options.port, options.allowed_origins, options.panels
         )
         self._stopped = threading.Event()
         guard(self._viser)
