@@ -11,14 +11,16 @@ from sambot_viz.displays.entries import numbers
 from sambot_viz.errors import Place
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.frames.distance import distance_between
+from sambot_viz.panels.tools import follow_browsers
 from sambot_viz.panels.widgets import Input, add_property, frame_choices
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
-from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty
+from sambot_viz.rviz import FIXED_FRAME, ColorProperty, TfFrameProperty, ToolConfig
 from sambot_viz.session import Event, Session
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.text import html_text, text
 from sambot_viz.tools.picking.hit import Selectable
+from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.tool import Tool
 
 REFRESH = 0.2
@@ -58,17 +60,23 @@ class SelectionPanel:
             self._list = gui.add_html(NOTHING)
             self._settings = [
                 _ColorSetting(session, tool, prop)
-                for tool in session.tools.tools
+                for tool in TOOLS.values()
                 for prop in tool.properties
                 if isinstance(prop, ColorProperty)
             ]
         self._pacer = Throttle(session.worker, REFRESH, self._write)
         session.listeners.append(self._hear)
+        follow_browsers(session, self._hear)
 
     def close(self) -> None:
         """Stop following the session."""
         self._session.listeners.remove(self._hear)
         self._pacer.close()
+
+    def _selection(self) -> list[Selectable]:
+        # The panels of one browser are rows of its own soon; until then, the first.
+        browser = next(iter(self._session.browsers.values()), None)
+        return [] if browser is None else list(browser.tools.selection)
 
     def _frames(self) -> Sequence[str]:
         return sorted(self._session.tree.frames)
@@ -89,13 +97,13 @@ class SelectionPanel:
             for setting in self._settings:
                 setting.show()
         if event == "tools" or (
-            self._session.tools.selection and event in ("joints", "frames", "robot")
+            self._selection() and event in ("joints", "frames", "robot")
         ):
             self._pacer.request()
 
     def _write(self) -> None:
         with self._session.lock:
-            items = list(self._session.tools.selection)
+            items = self._selection()
             content = NOTHING if not items else ""
             for item in items[:SHOWN]:
                 content += item_html(item, facts(self._session, item, self._frame))
@@ -110,8 +118,8 @@ class SelectionPanel:
 class _ColorSetting:
     """A colour of a tool; hidden while the document does not list the tool."""
 
-    def __init__(self, session: Session, tool: Tool, prop: ColorProperty) -> None:
-        self._tools, self._kind, self._prop = session.tools, tool.kind, prop
+    def __init__(self, session: Session, tool: type[Tool], prop: ColorProperty) -> None:
+        self._session, self._kind, self._prop = session, tool.kind, prop
         gui = session.audience.gui
         self._folder = gui.add_folder(tool.label, expand_by_default=False)
         with self._folder:
@@ -122,19 +130,24 @@ class _ColorSetting:
 
     def show(self) -> None:
         """Show the value that holds; the document may be another one now."""
-        listed = self._tools.tool(self._kind).config is not None
+        listed = self._config is not None
         if self._folder.visible != listed:
             self._folder.visible = listed
         if self._input.value != self._value:
             self._input.value = self._value
 
     @property
+    def _config(self) -> ToolConfig | None:
+        tools = self._session.config.tools
+        return next((tool for tool in tools if tool.kind == self._kind), None)
+
+    @property
     def _value(self) -> Any:
-        config = self._tools.tool(self._kind).config
+        config = self._config
         return self._prop.default if config is None else config.get(self._prop.name)
 
     def _set(self, value: Any) -> None:
-        self._tools.set_property(self._kind, self._prop.name, value)
+        self._session.set_tool_property(self._kind, self._prop.name, value)
 
 
 def item_html(item: Selectable, rows: Sequence[Fact]) -> str:

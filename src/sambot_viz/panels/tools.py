@@ -7,15 +7,17 @@ button always chooses it, its key follows RViz's rules for keys.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, Literal
 
 import viser
 
 from sambot_viz import page, viser_private
-from sambot_viz.session import Event, Session
+from sambot_viz.session import Browser, Event, Session
+from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.text import html_text
+from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.tool import Key, Tool
 from sambot_viz.views.registry import VIEWS
 
@@ -46,6 +48,7 @@ class ToolBar:
             self._bar = self._gui.add_html(self._html())
             self._mark = self._gui.add_html(self._mark_html())
         session.listeners.append(self._hear)
+        follow_browsers(session, self._hear)
 
     def close(self) -> None:
         """Stop following the session."""
@@ -62,9 +65,16 @@ class ToolBar:
                 self._mark.content = content
 
     def _html(self) -> str:
-        tools = self._session.tools
-        buttons = "".join(self._tool_button(tool) for tool in tools.tools)
-        said = html_text(tools.status or tools.current.help)
+        # The panels of one browser are rows of its own soon; until then, the first.
+        browser = next(iter(self._session.browsers.values()), None)
+        tools: Sequence[Tool | type[Tool]] = tuple(TOOLS.values())
+        said = current = ""
+        if browser is not None:
+            tools, current = browser.tools.tools, browser.tools.current.kind
+            said = html_text(browser.tools.status or browser.tools.current.help)
+        buttons = "".join(
+            self._tool_button(tool, tool.kind == current) for tool in tools
+        )
         return (
             f'<div class="sambot-tools">{buttons}'
             f'<button title="Zero the view (Z)" {self._triggers(ZERO)}>Zero</button>'
@@ -80,8 +90,8 @@ class ToolBar:
     def _mark_html(self) -> str:
         return page.mouse_element(self._session.views.view.kind.rpartition("/")[2])
 
-    def _tool_button(self, tool: Tool) -> str:
-        pressed = "true" if tool is self._session.tools.current else "false"
+    def _tool_button(self, tool: Tool | type[Tool], current: bool) -> str:
+        pressed = "true" if current else "false"
         return (
             f'<button aria-pressed="{pressed}" title="{html_text(tool.label)} '
             f'({tool.key}): {html_text(tool.help)}" {self._triggers(tool.label)}>'
@@ -98,17 +108,24 @@ class ToolBar:
 
     def _add_commands(self) -> dict[str, viser.CommandHandle]:
         """All commands, by their labels."""
-        session, tools, views = self._session, self._session.tools, self._session.views
+        session, views = self._session, self._session.views
+
+        def of_browser(act: Callable[[ToolControl], None], client_id: int) -> None:
+            browser = session.browsers.get(client_id)
+            if browser is not None:
+                act(browser.tools)
+
         actions: list[tuple[str, CommandKey | None, Action]] = []
-        for tool in tools.tools:
-            choose = partial(_ignore, tools.choose, tool.kind)
-            press = partial(_ignore, tools.press, tool.kind)
+        for tool in TOOLS.values():
+            choose = partial(of_browser, partial(_choose, tool.kind))
+            press = partial(of_browser, partial(_press, tool.kind))
             actions.append((tool.label, None, choose))
             actions.append((f"{tool.label}, as key {tool.key}", tool.key, press))
-        actions.append((FOCUS, "F", tools.focus))
+        actions.append((FOCUS, "F", partial(of_browser, ToolControl.focus)))
         actions.append((ZERO, "Z", partial(_ignore, views.zero)))
         actions.append((RESET, "R", partial(_ignore, session.refresh)))
-        actions.append(("Default tool", "escape", partial(_ignore, tools.escape)))
+        escape = partial(of_browser, ToolControl.escape)
+        actions.append(("Default tool", "escape", escape))
         for kind in VIEWS:
             label = f"View: {kind.rpartition('/')[2]}"
             actions.append((label, None, partial(_ignore, views.set_kind, kind)))
@@ -125,6 +142,28 @@ class ToolBar:
 
         command.on_trigger(triggered)
         return command
+
+
+def _choose(kind: str, tools: ToolControl) -> None:
+    tools.choose(kind)
+
+
+def _press(kind: str, tools: ToolControl) -> None:
+    tools.press(kind)
+
+
+def follow_browsers(session: Session, hear: Callable[[Event], None]) -> None:
+    """Hear what changes in any browser of a session."""
+
+    def joined(browser: Browser, here: bool) -> None:
+        if here:
+            browser.listeners.append(hear)
+        hear("tools")
+        hear("view")
+
+    session.browser_listeners.append(joined)
+    for browser in session.browsers.values():
+        browser.listeners.append(hear)
 
 
 def _ignore(act: Callable[..., Any], *arguments: object) -> None:
