@@ -256,13 +256,35 @@ def test_a_grid_hides_nothing_that_is_behind_it(browser: Browser) -> None:
     assert browser.selected == ["base_link"]
 
 
-def test_a_click_into_a_frame_selects_it_around_its_origin(
+def test_a_frame_is_selected_by_its_axes_and_a_link_beside_them(
     open_browser: Callable[..., Browser],
 ) -> None:
-    browser = open_browser("TF")
+    browser = open_browser("RobotModel", "TF")
     browser.trigger("Select")
-    browser.click((-0.12, 0.19, 5.0))
-    assert browser.tools.selection.keys() == {Selectable("frame", "drivewhl_l_link")}
+    wheel = "drivewhl_l_link"
+    # From the side, the wheel's y axis sticks out of its middle.
+    browser.click((-0.12, 5.0, -0.05), (0.0, -1.0, 0.0))
+    assert list(browser.tools.selection) == [Selectable("frame", wheel)]
+    browser.click((-0.12, 5.0, -0.12), (0.0, -1.0, 0.0))
+    assert list(browser.tools.selection) == [Selectable("link", wheel)]
+
+
+def test_frames_and_links_that_are_not_drawn_are_not_selected(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("RobotModel", "TF")
+    tf, model = browser.session.displays
+    if tf.kind.endswith("RobotModel"):
+        tf, model = model, tf
+    browser.trigger("Select")
+    browser.look_down()
+    browser.rectangle((0.0, 0.0), (1.0, 1.0))
+    kinds = {item.kind for item in browser.tools.selection}
+    assert kinds == {"link", "frame"}
+    browser.session.set_property(tf, "Frames/All Enabled", False)
+    browser.session.set_property(model, "Alpha", 0.0)
+    browser.rectangle((0.0, 0.0), (1.0, 1.0))
+    assert browser.selected == []
 
 
 @pytest.mark.parametrize(

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
 from sambot_viz.tools.picking.hit import Selectable
-from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
-from sambot_viz.tools.picking.rays import Array
+from sambot_viz.tools.picking.pick_scene import Corners, PickScene, PickSnapshot
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session
@@ -50,9 +49,17 @@ class PickRays:
 
         self._thread.submit(rays, snapshot).add_done_callback(followed)
 
-    def box_of(self, item: Selectable) -> tuple[Array, Array] | None:
-        """The corners of the box around a link's shapes or a frame's axes [m]."""
-        return self._scene.box_of(item)
+    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, Corners]:
+        """The boxes around the shapes of links and the axes of frames.
+
+        Args:
+            items: which; one that is not drawn now has no box.
+        """
+        return self._scene.boxes_of(items)
+
+    def robot_box(self) -> Corners | None:
+        """The box around all links, or else around all that is drawn."""
+        return self._scene.robot_box()
 
     def close(self) -> None:
         """Follow no more rays."""

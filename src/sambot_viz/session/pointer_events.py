@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 import viser
 
-from sambot_viz.geometry import rotation_from_xyzw
+from sambot_viz.tools.picking.picture import Picture
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.tool import Click
-
-SAMPLES = 24
-"""Rays across a rectangle in each direction: what is thinner may be missed."""
 
 
 def click_of(event: viser.SceneClickEvent) -> Click | None:
@@ -25,31 +22,11 @@ def click_of(event: viser.SceneClickEvent) -> Click | None:
 
 
 def rays_of(event: viser.SceneRectSelectEvent) -> RayGrid | None:
-    """Rays through a rectangle of the picture, given from 0 to 1 of its size.
-
-    Returns:
-        The rays; None when the browser's numbers are not a rectangle or a camera.
-    """
-    camera = event.client.camera
-    corners = _numbers((event.screen_min, event.screen_max))
-    lens = _numbers((camera.fov, camera.aspect))
-    wxyz, position = _numbers(camera.wxyz), _numbers(camera.position)
-    shapes = [values.shape for values in (corners, wxyz, position)]
-    if shapes != [(2, 2), (4,), (3,)]:
+    """The rays of a rectangle; None when its numbers or the camera's are nonsense."""
+    picture = Picture.of(event.client.camera)
+    if picture is None:
         return None
-    if not all(np.isfinite(v).all() for v in (corners, lens, wxyz, position)):
-        return None
-    corners = np.minimum(np.maximum(np.sort(corners, axis=0), 0.0), 1.0)
-    (left, top), (right, bottom) = corners.tolist()
-    half = float(np.tan(lens[0] / 2))
-    steps = np.arange(SAMPLES) / (SAMPLES - 1)
-    columns = (2 * (left + (right - left) * steps) - 1) * half * float(lens[1])
-    rows = (2 * (top + (bottom - top) * steps) - 1) * half
-    if not (half > 0.0 and lens[1] > 0.0 and wxyz.any()):
-        return None
-    w, x, y, z = wxyz.tolist()
-    R = np.array(rotation_from_xyzw((x, y, z, w)))
-    return RayGrid(position, R, columns, rows)
+    return picture.pixels(event.screen_min, event.screen_max)
 
 
 def _numbers(values: object) -> Array:

@@ -117,12 +117,11 @@ class ToolControl:
         """F: look at the selection, or at what is in the middle of the picture."""
         rays = self._session.rays
         with self._session.lock:
-            boxes = [rays.box_of(item) for item in self.selection]
+            boxes = rays.boxes_of(self.selection).values()
             camera = self._browser.camera
-        known = [box for box in boxes if box is not None]
-        if known:
-            low = np.min([box[0] for box in known], axis=0)
-            high = np.max([box[1] for box in known], axis=0)
+        if boxes:
+            low = np.min([box[0] for box in boxes], axis=0)
+            high = np.max([box[1] for box in boxes], axis=0)
             self.look_at((low + high) / 2)
             return
 
@@ -258,5 +257,4 @@ class ToolControl:
                     self._draw_boxes()
 
     def _draw_boxes(self) -> None:
-        boxes = {item: self._session.rays.box_of(item) for item in self.selection}
-        self._boxes.draw({i: box for i, box in boxes.items() if box is not None})
+        self._boxes.draw(self._session.rays.boxes_of(self.selection))
