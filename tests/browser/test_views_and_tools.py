@@ -16,6 +16,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
+from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.views.view import STEEPEST
 
 pytestmark = pytest.mark.browser
@@ -75,10 +76,16 @@ def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
         viewer.wait_for_frames()
 
 
+def tools_of(session: Session) -> ToolControl:
+    """Those of the only browser."""
+    (browser,) = session.browsers.values()
+    return browser.tools
+
+
 def chosen(session: Session, viewer: ViewerPage, label: str) -> None:
     """Wait until a tool is current, on the server and in the page: a click that comes
     before the page has heard what to do with clicks is lost."""
-    tools = session.tools
+    tools = tools_of(session)
     until(viewer, lambda: tools.current.label == label)
     said = json.dumps((tools.status or tools.current.help)[:30])
     viewer.wait_for(f"document.body.innerText.includes({said})")
@@ -146,7 +153,7 @@ def test_another_type_of_view_has_its_own_mouse(
 def test_keys_choose_tools_and_clicks_select_and_measure(
     session: Session, viewer: ViewerPage
 ) -> None:
-    keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, session.tools
+    keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, tools_of(session)
     keyboard.press("s")
     chosen(session, viewer, "Select")
     mouse.click(*place(viewer, (0.0, 0.0, 0.09)))

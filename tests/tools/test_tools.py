@@ -13,13 +13,14 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 import yaml
-from inside import viser_server
+from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
-from sambot_viz.session.tool_control import INLINE
+from sambot_viz.session.pick_rays import INLINE
+from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.tools.registry import TOOLS
 
@@ -103,12 +104,18 @@ class Browser:
         self.trigger(f"{label}, as key {key}")
 
     @property
+    def tools(self) -> ToolControl:
+        """Those of the browser, which is the only one."""
+        (browser,) = self.session.browsers.values()
+        return browser.tools
+
+    @property
     def current(self) -> str:
-        return self.session.tools.current.label
+        return self.tools.current.label
 
     @property
     def selected(self) -> list[str]:
-        return [item.name for item in self.session.tools.selection]
+        return [item.name for item in self.tools.selection]
 
 
 def document(path: Path, *displays: str, color: str = "1; 2; 3") -> Path:
@@ -138,8 +145,7 @@ def open_browser(
     def start(*displays: str, camera: bool = True) -> Browser:
         viz = Visualizer(config=document(tmp_path / "t.rviz", *displays), port=0)
         opened.append(viz)
-        session = viz._server.shared  # pyright: ignore[reportPrivateUsage]
-        assert session is not None
+        session = session_of(viz)
         client = protocol(urlsplit(viz.url).port or 0, camera=camera)
         browser = Browser(viz, session, client)
         if camera:
@@ -162,7 +168,7 @@ def browser(open_browser: Callable[..., Browser]) -> Browser:
 
 def test_the_first_tool_of_the_file_is_current(browser: Browser) -> None:
     assert browser.current == "Move Camera"
-    assert len(browser.session.tools.tools) == len(TOOLS)
+    assert len(browser.tools.tools) == len(TOOLS)
 
 
 @pytest.mark.parametrize("before", LABELS)
@@ -205,7 +211,7 @@ def test_the_buttons_of_the_toolbar_trigger_the_commands(browser: Browser) -> No
 
 
 def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
-    for act in (browser.session.tools.choose, browser.session.tools.press):
+    for act in (browser.tools.choose, browser.tools.press):
         with pytest.raises(UsageError, match=r"there is no tool 'x/Y'; there are "):
             act("x/Y")
     with pytest.raises(UsageError, match=r"there is no view type 'x/Y'; there are "):
@@ -218,7 +224,7 @@ def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
 def test_a_click_selects_adds_and_removes(browser: Browser) -> None:
     browser.trigger("Select")
     browser.click_down(0.0, 0.0)
-    assert list(browser.session.tools.selection) == [Selectable("link", "base_link")]
+    assert list(browser.tools.selection) == [Selectable("link", "base_link")]
     browser.click_down(-0.12, 0.18, "shift")
     assert browser.selected == ["base_link", "drivewhl_l_link"]
     browser.click_down(0.0, 0.0, "shift")
@@ -250,15 +256,35 @@ def test_a_grid_hides_nothing_that_is_behind_it(browser: Browser) -> None:
     assert browser.selected == ["base_link"]
 
 
-def test_a_click_into_a_frame_selects_it_around_its_origin(
+def test_a_frame_is_selected_by_its_axes_and_a_link_beside_them(
     open_browser: Callable[..., Browser],
 ) -> None:
-    browser = open_browser("TF")
+    browser = open_browser("RobotModel", "TF")
     browser.trigger("Select")
-    browser.click((-0.12, 0.19, 5.0))
-    assert browser.session.tools.selection.keys() == {
-        Selectable("frame", "drivewhl_l_link")
-    }
+    wheel = "drivewhl_l_link"
+    # From the side, the wheel's y axis sticks out of its middle.
+    browser.click((-0.12, 5.0, -0.05), (0.0, -1.0, 0.0))
+    assert list(browser.tools.selection) == [Selectable("frame", wheel)]
+    browser.click((-0.12, 5.0, -0.12), (0.0, -1.0, 0.0))
+    assert list(browser.tools.selection) == [Selectable("link", wheel)]
+
+
+def test_frames_and_links_that_are_not_drawn_are_not_selected(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("RobotModel", "TF")
+    tf, model = browser.session.displays
+    if tf.kind.endswith("RobotModel"):
+        tf, model = model, tf
+    browser.trigger("Select")
+    browser.look_down()
+    browser.rectangle((0.0, 0.0), (1.0, 1.0))
+    kinds = {item.kind for item in browser.tools.selection}
+    assert kinds == {"link", "frame"}
+    browser.session.set_property(tf, "Frames/All Enabled", False)
+    browser.session.set_property(model, "Alpha", 0.0)
+    browser.rectangle((0.0, 0.0), (1.0, 1.0))
+    assert browser.selected == []
 
 
 @pytest.mark.parametrize(
@@ -312,7 +338,7 @@ def test_selection_boxes_move_with_their_links(browser: Browser) -> None:
 
 
 def test_measure_shows_the_distance_of_two_points(browser: Browser) -> None:
-    tools = browser.session.tools
+    tools = browser.tools
     browser.trigger("Measure")
     browser.click_down(1.0, 1.0)
     assert tools.status == "Click on the second point."
@@ -337,7 +363,7 @@ def test_measure_is_the_same_with_and_without_a_grid_in_between(
         # Two points of the base's front, the second below the plane of the grid.
         browser.click((1.0, 0.0, 0.5), (-0.79, 0.0, -0.45))
         browser.click((1.0, 0.0, 0.5), (-0.79, 0.0, -0.55))
-        lengths.append(browser.session.tools.status)
+        lengths.append(browser.tools.status)
     assert lengths[0] == lengths[1] != ""
     assert lengths[0].startswith("[Length: 0.1")
 
@@ -350,7 +376,7 @@ def test_measure_takes_points_of_what_is_drawn_near_a_frame(
     # Beside the axes of the wheel, though within the sphere that selects the frame.
     browser.click((-0.12 + 0.03, 0.18 + 0.03, 5.0))
     browser.click((-0.12 + 0.03, 2.21, 5.0))
-    assert browser.session.tools.status == "[Length: 2m]"
+    assert browser.tools.status == "[Length: 2m]"
 
 
 def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
@@ -384,11 +410,11 @@ def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
 
 
 def test_settings_come_from_the_file_and_go_back(browser: Browser) -> None:
-    tools = browser.session.tools
-    tools.set_property(f"{PREFIX}Measure", "Line color", (4, 5, 6))
+    session = browser.session
+    session.set_tool_property(f"{PREFIX}Measure", "Line color", (4, 5, 6))
     assert "4; 5; 6" in browser.session.config.to_yaml()
     with pytest.raises(UsageError, match="the config has no tool"):
-        tools.set_property(f"{PREFIX}Interact", "Hide Inactive Objects", False)
+        session.set_tool_property(f"{PREFIX}Interact", "Hide Inactive Objects", False)
 
 
 def test_settings_go_into_the_document_that_was_read_last(
@@ -414,7 +440,7 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
         "utf-8",
     )
     browser.session.show_robot(load_robot(model))
-    browser.viz._server.wait_for_meshes(30.0)  # pyright: ignore[reportPrivateUsage]
+    browser.viz.server.wait_for_meshes(30.0)
     browser.trigger("Select")
     browser.click_down(0.0, 0.0)
     assert browser.selected == ["base_link"]
@@ -436,7 +462,7 @@ def test_a_click_into_a_large_mesh_is_followed_in_a_thread(
         "utf-8",
     )
     browser.session.show_robot(load_robot(model))
-    browser.viz._server.wait_for_meshes(30.0)  # pyright: ignore[reportPrivateUsage]
+    browser.viz.server.wait_for_meshes(30.0)
     browser.trigger("Select")
     browser.click_down(0.1, 0.2)
     browser.client.wait_until(lambda: browser.selected == ["base_link"])

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import numpy as np
+
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.scene.kept_nodes import KeptNodes
-from sambot_viz.displays.scene.solids import add_axes
+from sambot_viz.displays.scene.solids import add_axes, axes_triangles
 from sambot_viz.rviz import (
     FIXED_FRAME,
     DisplayConfig,
@@ -66,6 +71,15 @@ class AxesDisplay(Display):
             (name, length, diameter),
             lambda: (add_axes(self.context.scene, name, length, diameter),),
         )
+
+    def drawn_shapes(self) -> Iterator[DrawnShape]:
+        """The axes, which are not selectable, as in RViz."""
+        get = self.config.get
+        if self._nodes.handles:
+            axes = axes_triangles(float(get("Length")), float(get("Radius")))
+            yield DrawnShape(
+                axes, np.eye(4), self.context.frame(get("Reference Frame"))
+            )
 
     def clear(self) -> None:
         """Take the axes out of the scene."""

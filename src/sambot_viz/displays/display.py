@@ -7,13 +7,14 @@ in the `DisplayConfig` of the document, so what is on the screen is what a save 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
 import viser
 
+from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.model_reader import ModelReader
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
@@ -158,6 +159,10 @@ class Display:
     def publish(self) -> bool:
         """Set transforms that come with the display; whether there were any new."""
         return False
+
+    def drawn_shapes(self) -> Iterator[DrawnShape]:
+        """What it has drawn; only called while it is shown."""
+        yield from ()
 
     def entries(self) -> tuple[EntryList, ...]:
         """The links, joints or frames that have rows of their own."""

@@ -71,7 +71,7 @@ class ToolsPanel(Panel):
 
     def _focus(self, point: tuple[float | None, float | None]) -> None:
         del point
-        self._browser.tools.focus(self._browser.client_id)
+        self._browser.tools.focus()
 
 
 class ToolPropertiesPanel(Panel):
@@ -96,7 +96,7 @@ class ToolPropertiesPanel(Panel):
             if tool.config is None or not tool.properties:
                 continue
             group = f"tool_properties/{tool.label}"
-            change = partial(self._browser.tools.set_property, tool.kind)
+            change = partial(self._session.set_tool_property, tool.kind)
             below = [*property_rows(tool.config, group, change)]
             if below:
                 help_text, icon = tool.help, tool.label

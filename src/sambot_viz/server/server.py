@@ -281,7 +281,6 @@ class Server:
         return worker
 
     def _give_view(self, session: Session, client: viser.ClientHandle) -> None:
-        session.views.join(client)
         session.join_browser(client)
         with self._joined:
             self._joined.notify_all()
@@ -308,10 +307,8 @@ class Server:
 
     async def _leave(self, client: viser.ClientHandle) -> None:
         if self.shared is not None:
-            leave = partial(self.shared.views.leave, client.client_id)
+            leave = partial(self.shared.leave_browser, client.client_id)
             self.shared.worker.post(leave)
-            forget = partial(self.shared.leave_browser, client.client_id)
-            self.shared.worker.post(forget)
             return
         worker = self._workers.pop(client.client_id, None)
         if worker is not None:

@@ -1,12 +1,13 @@
 """One robot, config, joints, frames and displays, shown to one audience.
 
 `Session` owns the state. Its parts have modules of their own: what is drawn, the
-robot's state, frames that users add, motion and driving, views, tools, problems.
+robot's state, frames that users add, motion and driving, browsers, edits, problems.
 """
 
+from sambot_viz.session.browser import Browser
 from sambot_viz.session.drawn_scene import walk
 from sambot_viz.session.problem_list import Reloaded
 from sambot_viz.session.session import Session
 from sambot_viz.session.shared_state import Audience, Event
 
-__all__ = ["Audience", "Event", "Reloaded", "Session", "walk"]
+__all__ = ["Audience", "Browser", "Event", "Reloaded", "Session", "walk"]

@@ -137,6 +137,20 @@ class DisplayEdits(ShownDocument):
                 merge=(id(config), "enabled"),
             )
 
+    def set_tool_property(self, kind: str, path: str, value: Any) -> None:
+        """Set a property of a tool that the document lists, for all browsers.
+
+        Raises:
+            UsageError: the document does not list the tool, or the value cannot be
+                meant.
+        """
+        config = next((tool for tool in self.config.tools if tool.kind == kind), None)
+        if config is None:
+            raise UsageError(f"the config has no tool '{kind}'")
+        label = f"{short_name(kind)}: {path}"
+        with self.edits.setting(label, self._apply, merge=("tool", kind, path)):
+            self._apply(lambda: config.set(path, value))
+
     # The tree of displays
 
     def add_display(

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from types import MappingProxyType
 
 import viser
 
@@ -28,11 +29,11 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.browser import Browser
 from sambot_viz.session.display_edits import DisplayEdits
 from sambot_viz.session.motion import Motion
+from sambot_viz.session.pick_rays import PickRays
 from sambot_viz.session.problem_list import ProblemList
 from sambot_viz.session.robot_state import RobotState
 from sambot_viz.session.shared_state import Audience
 from sambot_viz.session.throttle import Throttle
-from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.session.user_frames import UserFrame, UserFrames
 from sambot_viz.session.view_control import ViewControl
 from sambot_viz.session.worker import Worker
@@ -51,6 +52,10 @@ class Session(DisplayEdits):
         reader: reads mesh files in the background; None reads them while drawing.
         options: the start pose, the static transforms and the wheels.
         poses: the named poses; None keeps new ones in memory.
+
+    Attributes:
+        browser_listeners: called with a browser that joined (True) or left (False),
+            with the session locked.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -77,24 +82,11 @@ class Session(DisplayEdits):
         self._pacer = Throttle(worker, self.period, self._draw_moved)
         self.views = ViewControl(self)
         self.motion = Motion(self)
-        self.tools = ToolControl(self)
-        self.browsers: dict[int, Browser] = {}
+        self.rays = PickRays(self)
+        self._browsers: dict[int, Browser] = {}
         self.browser_listeners: list[Callable[[Browser, bool], None]] = []
         for added in self.options.transforms:
             self.add_frame(added.parent, added.child, added.transform)
-
-    def join_browser(self, client: viser.ClientHandle) -> None:
-        """A browser has opened the page."""
-        browser = self.browsers[client.client_id] = Browser(self, client)
-        for listener in self.browser_listeners:
-            listener(browser, True)
-
-    def leave_browser(self, client_id: int) -> None:
-        """A browser has closed the page."""
-        browser = self.browsers.pop(client_id, None)
-        if browser is not None:
-            for listener in self.browser_listeners:
-                listener(browser, False)
 
     @property
     def robot(self) -> Robot | None:
@@ -105,6 +97,35 @@ class Session(DisplayEdits):
     def joints(self) -> JointState | None:
         """The positions of its joints; move them with the methods of the session."""
         return self._posed.joints
+
+    # Browsers
+
+    @property
+    def browsers(self) -> Mapping[int, Browser]:
+        """The browsers that see the session, by their numbers; read-only."""
+        return MappingProxyType(self._browsers)
+
+    def join_browser(self, client: viser.ClientHandle) -> Browser:
+        """A browser has opened the page."""
+        with self.lock:
+            self.views.join(client)
+            browser = self._browsers[client.client_id] = Browser(self, client)
+            for listener in tuple(self.browser_listeners):
+                listener(browser, True)
+            return browser
+
+    def leave_browser(self, client_id: int) -> None:
+        """A browser has closed the page: what belongs to it alone is forgotten."""
+        with self.lock:
+            self.views.leave(client_id)
+            browser = self._browsers.pop(client_id, None)
+            if browser is not None:
+                browser.close()
+                self.edits.leave(client_id)
+                for listener in tuple(self.browser_listeners):
+                    listener(browser, False)
+
+    # Robot, joints and frames
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot, or the same after an edit: joints keep their values."""
@@ -248,7 +269,9 @@ class Session(DisplayEdits):
         self.context.apply = lambda action: None
         self.motion.close()
         self.views.close()
-        self.tools.close()
+        for browser in self._browsers.values():
+            browser.close()
+        self.rays.close()
         self._pacer.close()
         self.worker.close()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from typing import Any, Literal, Protocol
 
@@ -21,7 +21,7 @@ Event = Literal[
     "view",
     "tools",
 ]
-"""What has changed."""
+"""What has changed; "view" and "tools" are events of one browser."""
 Listener = Callable[[Event], None]
 """Called after a change, with the lock held."""
 
@@ -70,7 +70,11 @@ class SharedState:
 
     def notify(self, event: Event) -> None:
         """Call the listeners; one that fails does not stop the others."""
-        for listener in tuple(self.listeners):
+        self.call(self.listeners, event)
+
+    def call(self, listeners: Sequence[Listener], event: Event) -> None:
+        """Call some listeners; one that fails does not stop the others."""
+        for listener in tuple(listeners):
             try:
                 listener(event)
             except Exception as error:

@@ -99,7 +99,7 @@ class ShownDocument(SharedState):
         with self.change("status"):
             self.drawn.read_again(files)
 
-    def _apply(self, action: Callable[[], None]) -> None:
+    def _apply(self, action: Callable[[], object]) -> None:
         with self.change("config", "status"):
             action()
 

@@ -1,25 +1,22 @@
-"""The tools of a session: the current one, its clicks and keys, and the selection.
+"""The tools of one browser: the current one, its clicks and keys, and the selection.
 
-A tool is current for all browsers of the session, as the robot is. Only the current
-tool gets clicks, and only one that uses them: with any other, a press of the mouse
-moves the camera.
+Only the current tool gets clicks, and only one that uses them: with any other, a press
+of the mouse moves the camera. What tools draw is drawn for their own browser alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import viser
 
 from sambot_viz.errors import UsageError
-from sambot_viz.geometry import rotation_from_xyzw
+from sambot_viz.session.pointer_events import click_of, rays_of
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.hit import Hit, Selectable
-from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
@@ -27,13 +24,8 @@ from sambot_viz.tools.tool import Click, Tool
 
 if TYPE_CHECKING:
     from sambot_viz.session import Event, Session
+    from sambot_viz.session.browser import Browser
 
-T = TypeVar("T")
-
-SAMPLES = 24
-"""Rays across a rectangle in each direction: what is thinner may be missed."""
-INLINE = 100_000
-"""Rays through this many triangles take milliseconds; more are left to a thread."""
 MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
 
 
@@ -43,7 +35,8 @@ class ToolControl:
     Implements `tools.tool.ToolContext`.
 
     Args:
-        session: the session whose tools these are.
+        session: what is shown.
+        browser: whose tools these are.
 
     Attributes:
         status: what the current tool reports; empty shows its help.
@@ -52,18 +45,22 @@ class ToolControl:
         current: the tool that gets clicks.
     """
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, browser: Browser) -> None:
         self.status = ""
         self.selection: dict[Selectable, None] = {}
         self._session = session
-        self._pick_scene = PickScene(session.context, lambda: session.displays)
-        self._boxes = SelectionBoxes(session.audience.scene)
+        self._browser = browser
+        self._boxes = SelectionBoxes(browser.client.scene)
         self._config: object = None
-        self._rays = ThreadPoolExecutor(1, "sambot-viz-rays")
+        self._settings: dict[str, dict[str, Any]] = {}
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
         session.listeners.append(self._hear)
+
+    def close(self) -> None:
+        """The browser has left: follow the session no longer."""
+        self._session.listeners.remove(self._hear)
 
     # The tools
 
@@ -93,7 +90,7 @@ class ToolControl:
         Raises:
             UsageError: an unknown tool.
         """
-        with self._session.change("tools"):
+        with self._browser.change("tools"):
             self._switch(self.tool(kind))
 
     def press(self, kind: str) -> None:
@@ -112,55 +109,38 @@ class ToolControl:
 
     def escape(self) -> None:
         """Esc: stop what the current tool does, and go back to the default tool."""
-        with self._session.change("tools"):
+        with self._browser.change("tools"):
             self.current.cancel()
             self._switch(self.default)
 
-    def focus(self, client_id: int) -> None:
+    def focus(self) -> None:
         """F: look at the selection, or at what is in the middle of the picture."""
+        rays = self._session.rays
         with self._session.lock:
-            boxes = [self._pick_scene.box_of(item) for item in self.selection]
-            camera = self._session.views.camera_of(client_id)
-        known = [box for box in boxes if box is not None]
-        if known:
-            low = np.min([box[0] for box in known], axis=0)
-            high = np.max([box[1] for box in known], axis=0)
-            self.look_at((low + high) / 2, client_id)
+            boxes = rays.boxes_of(self.selection).values()
+            camera = self._browser.camera
+        if boxes:
+            low = np.min([box[0] for box in boxes], axis=0)
+            high = np.max([box[1] for box in boxes], axis=0)
+            self.look_at((low + high) / 2)
             return
 
         def then(hit: Hit) -> None:
             if hit.point is not None:
-                self.look_at(hit.point, client_id)
+                self.look_at(hit.point)
 
-        self._follow(lambda s: s.first_hit(camera.position, camera.forward), then)
-
-    def close(self) -> None:
-        """Follow no more rays."""
-        self._rays.shutdown(wait=False, cancel_futures=True)
-
-    def set_property(self, kind: str, path: str, value: Any) -> None:
-        """Set a property of a tool that the document lists.
-
-        Raises:
-            UsageError: an unknown tool, or the document does not list it.
-        """
-        with self._session.change("tools"):
-            tool = self.tool(kind)
-            if tool.config is None:
-                raise UsageError(f"the config has no tool '{kind}'")
-            tool.config.set(path, value)
-            tool.property_changed()
+        rays.follow(lambda s: s.first_hit(camera.position, camera.forward), then)
 
     # What tools may use (tools.tool.ToolContext)
 
     @property
     def scene(self) -> viser.SceneApi:
         """Where to draw."""
-        return self._session.audience.scene
+        return self._browser.client.scene
 
     def select(self, items: set[Selectable], modifier: str | None) -> None:
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
-        with self._session.change("tools"):
+        with self._browser.change("tools"):
             if modifier == "shift":
                 kept = {**self.selection, **dict.fromkeys(items)}
             elif modifier == "cmd/ctrl":
@@ -170,9 +150,9 @@ class ToolControl:
             self.selection = kept
             self._draw_boxes()
 
-    def look_at(self, point: Array, client_id: int) -> None:
-        """Turn a browser's camera to a point of the fixed frame, (3,) [m]."""
-        self._session.views.look_at(point, client_id)
+    def look_at(self, point: Array) -> None:
+        """Turn the camera to a point of the fixed frame, (3,) [m]."""
+        self._browser.look_at(point)
 
     def finish(self) -> None:
         """Go back to the default tool."""
@@ -180,7 +160,7 @@ class ToolControl:
 
     def show_status(self, status: str) -> None:
         """Show a sentence below the toolbar; an empty one shows the tool's help."""
-        with self._session.change("tools"):
+        with self._browser.change("tools"):
             self.status = status
 
     # Inside
@@ -196,7 +176,18 @@ class ToolControl:
         self.current.cancel()
         self.tools = tuple(TOOLS[kind](self, items.get(kind)) for kind in kinds)
         self.current = self.default
+        self._settings = self._read_settings()
         self._listen()
+
+    def _take_settings(self) -> None:
+        """Let the tools draw with the settings that the document has now."""
+        before, self._settings = self._settings, self._read_settings()
+        for tool in self.tools:
+            if self._settings.get(tool.kind) != before.get(tool.kind):
+                tool.property_changed()
+
+    def _read_settings(self) -> dict[str, dict[str, Any]]:
+        return {t.kind: dict(t.config.properties) for t in self.tools if t.config}
 
     def _switch(self, tool: Tool) -> None:
         if tool is not self.current:
@@ -216,30 +207,11 @@ class ToolControl:
             if tool.rectangles:
                 scene.on_rect_select(modifier=modifier)(self._on_rectangle(tool))
 
-    def _follow(
-        self, rays: Callable[[PickSnapshot], T], then: Callable[[T], None]
-    ) -> None:
-        """Follow rays through what is drawn now, then act; one click after the other.
-
-        Millions of triangles take most of a second. A thread of its own does that, so
-        that neither browsers nor the session wait.
-        """
-        snapshot = self._pick_scene.snapshot()
-        if snapshot.triangles <= INLINE:
-            then(rays(snapshot))
-            return
-
-        def followed(future: Future[T]) -> None:
-            # An exception of the rays is raised, and reported, in the worker.
-            self._session.worker.post(lambda: then(future.result()))
-
-        self._rays.submit(rays, snapshot).add_done_callback(followed)
-
     def _on_click(self, tool: Tool) -> Callable[[viser.SceneClickEvent], Any]:
         worker = self._session.worker
 
         async def clicked(event: viser.SceneClickEvent) -> None:
-            click = _click(event)
+            click = click_of(event)
             if click is not None:
                 worker.post(partial(self._click, tool, click))
 
@@ -247,18 +219,20 @@ class ToolControl:
 
     def _click(self, tool: Tool, click: Click) -> None:
         def then(hit: Hit) -> None:
-            with self._session.change("tools"):
+            with self._browser.change("tools"):
                 # The tool may have changed meanwhile.
                 if self.current is tool:
                     tool.click(click, hit)
 
-        self._follow(lambda s: s.first_hit(click.origin, click.direction), then)
+        self._session.rays.follow(
+            lambda s: s.first_hit(click.origin, click.direction), then
+        )
 
     def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
         worker = self._session.worker
 
         async def drawn(event: viser.SceneRectSelectEvent) -> None:
-            rays = _rays(event)
+            rays = rays_of(event)
             if rays is not None:
                 worker.post(partial(self._rectangle, tool, rays, event.modifier))
 
@@ -266,65 +240,21 @@ class ToolControl:
 
     def _rectangle(self, tool: Tool, rays: RayGrid, modifier: str | None) -> None:
         def then(items: set[Selectable]) -> None:
-            with self._session.change("tools"):
+            with self._browser.change("tools"):
                 if self.current is tool:
                     tool.rectangle(items, modifier)
 
-        self._follow(lambda s: s.items_met(rays), then)
+        self._session.rays.follow(lambda s: s.items_met(rays), then)
 
     def _hear(self, event: Event) -> None:
         if event == "config":
-            self._take_config()
+            with self._browser.change():
+                self._take_config()
+                self._take_settings()
         if event in ("joints", "frames", "robot", "config", "status"):
-            self._draw_boxes()
+            if self.selection:
+                with self._browser.change():
+                    self._draw_boxes()
 
     def _draw_boxes(self) -> None:
-        boxes = {item: self._pick_scene.box_of(item) for item in self.selection}
-        self._boxes.draw({i: box for i, box in boxes.items() if box is not None})
-
-
-def _click(event: viser.SceneClickEvent) -> Click | None:
-    """A click as a browser reports it; None when its numbers are not a ray."""
-    origin, direction = _numbers(event.ray_origin), _numbers(event.ray_direction)
-    if origin.shape != (3,) or direction.shape != (3,):
-        return None
-    length = float(np.linalg.norm(direction))
-    if not (np.isfinite(origin).all() and np.isfinite(length) and length > 0.0):
-        return None
-    return Click(event.client_id, origin, direction / length, event.modifier)
-
-
-def _rays(event: viser.SceneRectSelectEvent) -> RayGrid | None:
-    """Rays through a rectangle of the picture, given from 0 to 1 of its size.
-
-    Returns:
-        The rays; None when the browser's numbers are not a rectangle or a camera.
-    """
-    camera = event.client.camera
-    corners = _numbers((event.screen_min, event.screen_max))
-    lens = _numbers((camera.fov, camera.aspect))
-    wxyz, position = _numbers(camera.wxyz), _numbers(camera.position)
-    shapes = [values.shape for values in (corners, wxyz, position)]
-    if shapes != [(2, 2), (4,), (3,)]:
-        return None
-    if not all(np.isfinite(v).all() for v in (corners, lens, wxyz, position)):
-        return None
-    corners = np.minimum(np.maximum(np.sort(corners, axis=0), 0.0), 1.0)
-    (left, top), (right, bottom) = corners.tolist()
-    half = float(np.tan(lens[0] / 2))
-    steps = np.arange(SAMPLES) / (SAMPLES - 1)
-    columns = (2 * (left + (right - left) * steps) - 1) * half * float(lens[1])
-    rows = (2 * (top + (bottom - top) * steps) - 1) * half
-    if not (half > 0.0 and lens[1] > 0.0 and wxyz.any()):
-        return None
-    w, x, y, z = wxyz.tolist()
-    R = np.array(rotation_from_xyzw((x, y, z, w)))
-    return RayGrid(position, R, columns, rows)
-
-
-def _numbers(values: object) -> Array:
-    """What a browser sent as an array; an empty one for what is not numbers."""
-    try:
-        return np.asarray(values, np.float64)
-    except (TypeError, ValueError):
-        return np.zeros(0)
+        self._boxes.draw(self._session.rays.boxes_of(self.selection))

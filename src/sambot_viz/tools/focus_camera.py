@@ -19,7 +19,7 @@ class FocusCameraTool(Tool):
     clicks = True
 
     def click(self, click: Click, hit: Hit) -> None:
-        """Turn the camera of the browser that clicked."""
+        """Turn the camera to what was clicked on."""
         ahead = click.origin + AHEAD * click.direction
-        self.context.look_at(ahead if hit.point is None else hit.point, click.client_id)
+        self.context.look_at(ahead if hit.point is None else hit.point)
         self.context.finish()

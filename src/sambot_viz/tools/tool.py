@@ -19,20 +19,18 @@ class Click:
     """A click into the 3D view, in the fixed frame.
 
     Attributes:
-        client_id: the browser.
         origin: the position of its camera, (3,) [m].
         direction: from there through the pixel, (3,), of length 1.
         modifier: held keys as viser names them ("shift", "cmd/ctrl"), or None.
     """
 
-    client_id: int
     origin: Array
     direction: Array
     modifier: str | None = None
 
 
 class ToolContext(Protocol):
-    """The services a tool may use; implemented by `session.tool_control`."""
+    """What a tool may use of its browser; implemented by `session.tool_control`."""
 
     @property
     def scene(self) -> viser.SceneApi:
@@ -43,8 +41,8 @@ class ToolContext(Protocol):
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
         ...
 
-    def look_at(self, point: Array, client_id: int) -> None:
-        """Turn a browser's camera to a point of the fixed frame, (3,) [m]."""
+    def look_at(self, point: Array) -> None:
+        """Turn the camera to a point of the fixed frame, (3,) [m]."""
         ...
 
     def finish(self) -> None:

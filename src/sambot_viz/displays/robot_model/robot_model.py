@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
 from sambot_viz.displays.robot_model.link_rows import robot_lists
@@ -232,6 +233,15 @@ class RobotModelDisplay(Display):
         """The shapes hang below their frames; only trails have to follow."""
         if self.shown:
             self._marks.moved()
+
+    def drawn_shapes(self) -> Iterator[DrawnShape]:
+        """The shapes of the links."""
+        for (link, _, _), (_, node) in self._shapes.items():
+            frame = self.frame_of(link)
+            # A link of another robot is found by its frame, not in the opened robot.
+            name = link if self.own_robot is None else frame
+            placed = frame if self.context.nodes.connected(frame) else None
+            yield from node.drawn(placed, ("link", name))
 
     def clear(self) -> None:
         """Take the robot out of the scene."""

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypedDict
 
-import numpy as np
-import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.drawn_shape import DrawnShape, Owner
+from sambot_viz.displays.robot_model.shape_solids import (
+    solids_of,
+    stand_in,
+    stand_in_edges,
+    textured,
+)
 from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import SessionAssets
@@ -19,7 +25,6 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import to_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
-from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.model import (
     Box,
     Capsule,
@@ -34,8 +39,6 @@ DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
 """What a link without a material is drawn in."""
 ERROR_WHITE: Rgb = (255, 255, 255)
 STAND_IN_COLOR: Rgb = (255, 140, 0)
-STAND_IN_SIZE = 0.1
-"""Edge of the wire box drawn in place of a mesh that could not be read [m]."""
 UNLIT = "toon3"
 """The page script draws toon materials unlit; nothing else here uses one."""
 
@@ -183,6 +186,25 @@ class ShapeNode:
         """Whether its nodes went with the frame they hung below."""
         return any_gone(piece.handle for piece in self._pieces)
 
+    def drawn(self, frame: str | None, owner: Owner) -> Iterator[DrawnShape]:
+        """What of it is on the screen.
+
+        Args:
+            frame: the frame of its link, or None for the fixed frame.
+            owner: what it belongs to.
+        """
+        look = self._look
+        if look is None or not look.visible or not self._pieces:
+            return
+        solids = solids_of(self._shape.geometry, self._content)
+        solid = bool(solids)
+        for piece, (triangles, T_shape_solid) in zip(
+            self._pieces, solids or [stand_in()], strict=True
+        ):
+            if look.error or look.alpha * piece.alpha > 0.0:
+                T = self._shape.origin.matrix @ T_shape_solid
+                yield DrawnShape(triangles, T, frame, owner, solid)
+
     def remove(self) -> None:
         """Take the nodes out of the scene."""
         remove_all(piece.handle for piece in self._pieces)
@@ -209,7 +231,7 @@ class ShapeNode:
             return
         part = None
         if isinstance(self._content, Texture) and not look.error:
-            part = _textured(geometry, self._content)
+            part = textured(geometry, self._content)
         if part is not None:
             self._add_part(self._name, part, WHITE, look, pose)
         else:
@@ -308,7 +330,7 @@ class ShapeNode:
         """A box of orange lines where the mesh should be."""
         lines = self._scene.add_line_segments(
             self._name,
-            _box_edges(STAND_IN_SIZE),
+            stand_in_edges(),
             colors=STAND_IN_COLOR,
             thickness=1.5,
             thickness_units="screen",
@@ -331,36 +353,3 @@ def _paint(handle: Painted, piece: _Piece, look: ShapeLook) -> None:
     handle.color = ERROR_WHITE if look.error else piece.color
     handle.opacity = None if look.error else opacity_of(look.alpha * piece.alpha)
     handle.material = UNLIT if look.error else "standard"
-
-
-def _textured(
-    geometry: Box | Cylinder | Sphere | Capsule, texture: Texture
-) -> MeshPart | None:
-    """A primitive with a texture as a mesh; None for a capsule, which has no uv."""
-    if isinstance(geometry, Box):
-        shape, scale = unit_box(), geometry.size
-    elif isinstance(geometry, Sphere):
-        width = 2 * geometry.radius
-        shape, scale = unit_sphere(), (width, width, width)
-    elif isinstance(geometry, Cylinder):
-        width = 2 * geometry.radius
-        shape, scale = unit_cylinder(), (width, width, geometry.length)
-    else:
-        return None
-    part = MeshPart(shape.vertices, shape.faces, uv=shape.uv, texture=texture)
-    return apply_scale(part, scale)
-
-
-def _box_edges(size: float) -> npt.NDArray[np.float32]:
-    """The twelve edges of a cube around the origin, (12, 2, 3) [m]."""
-    half = size / 2
-    edges: list[list[list[float]]] = []
-    for axis in range(3):
-        for one in (-half, half):
-            for two in (-half, half):
-                start = [one, two]
-                start.insert(axis, -half)
-                end = [one, two]
-                end.insert(axis, half)
-                edges.append([start, end])
-    return np.array(edges, dtype=np.float32)

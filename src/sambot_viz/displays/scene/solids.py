@@ -7,15 +7,15 @@ flat shaded; the page script lights it as RViz does.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_z
+from sambot_viz.geometry import Vector3, Wxyz, rotation_from_xyzw, wxyz_from_z
 from sambot_viz.meshes.glb import srgb_to_linear
 from sambot_viz.meshes.primitives import (
     Primitive,
@@ -29,7 +29,11 @@ OPAQUE_FROM = 0.9998
 """RViz blends below this alpha and writes no depth."""
 
 _HALF = math.sqrt(0.5)
-_AXIS_WXYZ = ((_HALF, 0.0, _HALF, 0.0), (_HALF, -_HALF, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+_AXIS_WXYZ: tuple[Wxyz, ...] = (
+    (_HALF, 0.0, _HALF, 0.0),
+    (_HALF, -_HALF, 0.0, 0.0),
+    (1.0, 0.0, 0.0, 0.0),
+)
 _AXIS_COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
@@ -106,6 +110,54 @@ def add_batch(
     )
 
 
+def _placed(
+    shape: Compact, wxyz: Wxyz, position: Vector3, scale: Vector3
+) -> npt.NDArray[np.float32]:
+    """The corners of a copy of a unit shape, (V, 3) [m]."""
+    w, x, y, z = wxyz
+    R = np.array(rotation_from_xyzw((x, y, z, w)))
+    placed = (shape.vertices * scale) @ np.transpose(R) + position
+    return placed.astype(np.float32)
+
+
+def _merged(copies: Iterable[tuple[Compact, Wxyz, Vector3, Vector3]]) -> Compact:
+    """Copies of unit shapes as one, each with its rotation, position and scale."""
+    vertices: list[npt.NDArray[np.float32]] = []
+    faces: list[npt.NDArray[np.uint32]] = []
+    count = 0
+    for shape, wxyz, position, scale in copies:
+        vertices.append(_placed(shape, wxyz, position, scale))
+        faces.append(shape.faces + np.uint32(count))
+        count += len(shape.vertices)
+    return Compact(np.concatenate(vertices), np.concatenate(faces))
+
+
+@lru_cache(maxsize=100)
+def axes_triangles(length: float, diameter: float) -> Compact:
+    """What `add_axes` draws."""
+    return _merged(
+        (cylinder(), wxyz, position, _thick((length, diameter)))
+        for wxyz, position in zip(_AXIS_WXYZ, _middles(length), strict=True)
+    )
+
+
+@lru_cache(maxsize=1000)
+def arrow_triangles(arrows: tuple[Arrow, ...]) -> Compact:
+    """What `add_arrows` draws; there must be at least one."""
+    copies: list[tuple[Compact, Wxyz, Vector3, Vector3]] = []
+    for arrow in arrows:
+        turn, shaft_at, head_at = arrow.parts()
+        copies.append((cylinder(), turn, shaft_at, _thick(arrow.shaft)))
+        copies.append((cone(), turn, head_at, _thick(arrow.head)))
+    return _merged(copies)
+
+
+def _thick(part: tuple[float, float]) -> Vector3:
+    """The scale of a part with a length and a diameter."""
+    length, diameter = part
+    return (diameter, diameter, length)
+
+
 def add_axes(
     scene: viser.SceneApi, name: str, length: float, diameter: float
 ) -> viser.BatchedMeshHandle:
@@ -117,12 +169,16 @@ def add_axes(
         length: [m].
         diameter: what RViz calls "radius" is the diameter of the cylinders [m].
     """
-    half = length / 2
-    positions = [(half, 0.0, 0.0), (0.0, half, 0.0), (0.0, 0.0, half)]
     scales = [(diameter, diameter, length)] * 3
     return add_batch(
-        scene, name, cylinder(), _AXIS_WXYZ, positions, scales, _AXIS_COLORS
+        scene, name, cylinder(), _AXIS_WXYZ, _middles(length), scales, _AXIS_COLORS
     )
+
+
+def _middles(length: float) -> list[Vector3]:
+    """The middles of three axes."""
+    half = length / 2
+    return [(half, 0.0, 0.0), (0.0, half, 0.0), (0.0, 0.0, half)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,8 +220,8 @@ def add_arrows(
     """Several arrows in one frame: one node for the shafts, one for the heads."""
     parts = [arrow.parts() for arrow in arrows]
     turns = [turn for turn, _, _ in parts]
-    shaft_sizes = [(a.shaft[1], a.shaft[1], a.shaft[0]) for a in arrows]
-    head_sizes = [(a.head[1], a.head[1], a.head[0]) for a in arrows]
+    shaft_sizes = [_thick(arrow.shaft) for arrow in arrows]
+    head_sizes = [_thick(arrow.head) for arrow in arrows]
     count = len(arrows)
     shafts = add_batch(
         scene,

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
+import numpy as np
 import viser
 
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.scene.kept_nodes import (
     Handle,
@@ -17,14 +18,20 @@ from sambot_viz.displays.scene.kept_nodes import (
     remove_all,
 )
 from sambot_viz.displays.scene.poses import position_of
-from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes
+from sambot_viz.displays.scene.solids import (
+    Arrow,
+    add_arrows,
+    add_axes,
+    arrow_triangles,
+    axes_triangles,
+)
 from sambot_viz.displays.status import Status
+from sambot_viz.displays.tf.frame_arrow import frame_arrow
 from sambot_viz.displays.tf.frame_rows import (
     ALL_ENABLED,
     FrameEntries,
     frame_list,
 )
-from sambot_viz.geometry import Vector3
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
@@ -36,38 +43,9 @@ from sambot_viz.rviz import (
 from sambot_viz.text import text
 
 AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
-HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
 EM_HEIGHT = 0.0889
 """Height of the em square of names, in a character cell of 0.1 m."""
-SHORTEST_ARROW = 0.001
-"""Frames nearer than this have no arrow [m]."""
-
-
-def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
-    """The arrow from a frame to its parent, in the parent's coordinates.
-
-    Args:
-        at: origin of the frame in its parent [m].
-        scale: Marker Scale.
-
-    Returns:
-        None when the frames are too close for an arrow.
-    """
-    distance = math.sqrt(sum(c * c for c in at))
-    if distance <= SHORTEST_ARROW:
-        return None
-    head = HEAD_LENGTH * scale
-    if distance < head:
-        head *= distance
-    shaft = max(0.0, distance - head)
-    towards_parent = (-at[0], -at[1], -at[2])
-    return Arrow(
-        start=at,
-        direction=towards_parent,
-        shaft=(shaft, SHAFT_DIAMETER * scale),
-        head=(head, HEAD_DIAMETER * scale),
-    )
 
 
 @dataclass
@@ -226,24 +204,42 @@ class TfDisplay(Display):
     def _draw_arrows(self, parent: str) -> None:
         """The arrows of all children of a frame, as two nodes below it."""
         path = self.context.nodes.path(parent)
-        arrows: list[Arrow] = []
-        if bool(self.config.get("Show Arrows")):
-            scale = float(self.config.get("Marker Scale"))
-            for child in self.context.tree.children(parent):
-                T_parent_child = self.context.tree.hop(child).transform.matrix
-                arrow = frame_arrow(position_of(T_parent_child), scale)
-                if arrow is not None and child in self._marks:
-                    arrows.append(arrow)
+        arrows = self._arrows_at(parent)
         if path is None or not arrows:
             self._arrows.pop(parent, KeptNodes()).remove()
             return
         name = f"{path}/{self.key}"
         self._arrows.setdefault(parent, KeptNodes()).show(
-            (name, *arrows),
+            (name, arrows),
             lambda: add_arrows(
                 self.context.scene, name, arrows, SHAFT_COLOR, HEAD_COLOR
             ),
         )
+
+    def _arrows_at(self, parent: str) -> tuple[Arrow, ...]:
+        """The arrows of all children of a frame, in its coordinates."""
+        if not bool(self.config.get("Show Arrows")):
+            return ()
+        tree, scale = self.context.tree, float(self.config.get("Marker Scale"))
+        arrows = (
+            frame_arrow(position_of(tree.hop(child).transform.matrix), scale)
+            for child in tree.children(parent)
+            if child in self._marks
+        )
+        return tuple(arrow for arrow in arrows if arrow is not None)
+
+    def drawn_shapes(self) -> Iterator[DrawnShape]:
+        """The axes, which select their frame, and the arrows, which select nothing."""
+        scale = float(self.config.get("Marker Scale"))
+        axes, T = axes_triangles(AXES_LENGTH, AXES_DIAMETER), np.eye(4)
+        T[:3, :3] *= scale
+        for frame, marks in self._marks.items():
+            if marks.axes is not None:
+                yield DrawnShape(axes, T, frame, ("frame", frame))
+        for parent in self._arrows:
+            arrows = self._arrows_at(parent)
+            if arrows:
+                yield DrawnShape(arrow_triangles(arrows), np.eye(4), parent)
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""

@@ -1,48 +1,39 @@
-"""What is drawn, as shapes that rays can meet: the robot, axes of frames, the grid."""
+"""What the displays have drawn, as triangles that rays can meet, and the grids."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.drawn_shape import DrawnShape, Triangles
 from sambot_viz.displays.grid import GridDisplay
-from sambot_viz.displays.robot_model.robot_entries import BOX
-from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
-from sambot_viz.displays.tf.tf import AXES_DIAMETER, AXES_LENGTH, TfDisplay
 from sambot_viz.geometry import Matrix
-from sambot_viz.meshes.mesh import Mesh
-from sambot_viz.robot.model import Cylinder, MeshFile, Robot, Shape, Sphere
-from sambot_viz.robot.shape_files import asset_of
 from sambot_viz.tools.picking.hit import Hit, Selectable
-from sambot_viz.tools.picking.raycast import Collider, bounds, cast, cast_plane
+from sambot_viz.tools.picking.rasterise import covered, nearness
 from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
 
-FRAME_RADIUS = 0.1
-"""A frame is selected within this part of the Marker Scale around its origin."""
 NORMALS = {"XY": (0.0, 0.0, 1.0), "XZ": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+
+Corners = tuple[Array, Array]
+"""The lowest and the highest corner of a box along the axes, (3,) [m]."""
 
 
 @dataclass(frozen=True, slots=True)
-class PlacedCollider:
-    """A shape with its pose, and the link or frame it belongs to.
+class PlacedMesh:
+    """Triangles with their pose, and the link or frame they belong to.
 
     Attributes:
-        item: the link or frame.
-        collider: the shape.
-        T: (4, 4) from the shape's frame to the fixed frame; it scales a mesh.
-        part: "drawn" is on the screen; "handle" is a larger shape around something
-            thin, so that it is easy to select; "both" is for what is large enough.
+        item: the link or frame; None for what is not selectable.
+        mesh: the triangles.
+        T: (4, 4) from them to the fixed frame; it may scale.
     """
 
-    item: Selectable
-    collider: Collider
+    item: Selectable | None
+    mesh: TriangleMesh
     T: Matrix
-    part: Literal["drawn", "handle", "both"] = "both"
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,13 +54,14 @@ class PlacedGrid:
 
     def cast(self, origin: Array, direction: Array) -> float:
         """How far along a ray the square is, inf beside it."""
-        o = (origin - self.T[:3, 3]) @ self.T[:3, :3]
+        o = (origin - self.T[:3, 3]) @ self.T[:3, :3] - self.offset
         d = direction @ self.T[:3, :3]
-        t = float(cast_plane(o[None], d[None], self.offset, self.normal)[0])
-        if not np.isfinite(t):
+        towards = float(d @ self.normal)
+        if towards == 0.0:
             return np.inf
-        beside = np.abs(o + t * d - self.offset) * (self.normal == 0)
-        return t if np.all(beside <= self.half) else np.inf
+        t = -float(o @ self.normal) / towards
+        beside = np.abs(o + t * d) * (self.normal == 0)
+        return t if t >= 0.0 and np.all(beside <= self.half) else np.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,18 +69,17 @@ class PickSnapshot:
     """What is drawn at one moment; rays can be followed without any lock.
 
     Attributes:
-        placed: what can be selected.
+        placed: what covers what is behind it.
         grids: what can only be pointed at.
     """
 
-    placed: tuple[PlacedCollider, ...]
+    placed: tuple[PlacedMesh, ...]
     grids: tuple[PlacedGrid, ...]
 
     @property
     def triangles(self) -> int:
-        """How many triangles the meshes have together."""
-        meshes = (one.collider for one in self.placed)
-        return sum(len(m.faces) for m in meshes if isinstance(m, TriangleMesh))
+        """How many triangles there are."""
+        return sum(len(placed.mesh.faces) for placed in self.placed)
 
     def first_hit(self, origin: Array, direction: Array) -> Hit:
         """What one ray meets first.
@@ -100,33 +91,45 @@ class PickSnapshot:
             origin: (3,), in the fixed frame [m].
             direction: (3,), of length 1.
         """
-        rays = RayGrid.through(origin, direction)
-        nearest, reach = np.inf, np.inf
-        item: Selectable | None = None
-        for placed in self.placed:
-            t = float(cast(placed.collider, placed.T, rays)[0])
-            if placed.part != "handle":
-                nearest = min(nearest, t)
-            if placed.part != "drawn" and t < reach:
-                reach, item = t, placed.item
+        near, owner = self._draw(RayGrid.through(origin, direction))
+        if near[0, 0] > 0.0:
+            item = self.placed[int(owner[0, 0])].item
+            return Hit(origin + direction / near[0, 0], item)
+        on_grids = (grid.cast(origin, direction) for grid in self.grids)
+        nearest = min(on_grids, default=np.inf)
         if not np.isfinite(nearest):
-            on_grids = (grid.cast(origin, direction) for grid in self.grids)
-            nearest = min(on_grids, default=np.inf)
-        if not np.isfinite(nearest):
-            return Hit(None, item)
-        return Hit(origin + nearest * direction, item)
+            return Hit(None, None)
+        return Hit(origin + nearest * direction, None)
 
-    def items_met(self, rays: RayGrid) -> set[Selectable]:
-        """The links and frames that some of the rays meet first."""
-        nearest = np.full(rays.count, np.inf)
-        owner = np.full(rays.count, -1)
-        for index, placed in enumerate(self.placed):
-            if placed.part == "drawn":
+    def items_met(self, pixels: RayGrid) -> set[Selectable]:
+        """The links and frames that have at least one of some pixels."""
+        _, owner = self._draw(pixels)
+        items = {self.placed[int(i)].item for i in np.unique(owner) if i >= 0}
+        return {item for item in items if item is not None}
+
+    def _draw(self, pixels: RayGrid) -> tuple[Array, Array]:
+        """Which mesh is in front in each pixel, as a renderer with a depth buffer.
+
+        Returns:
+            Both (rows, columns): 1 by the distance, 0 for the background; and the
+            number of the mesh, −1 for the background.
+        """
+        near = np.zeros((pixels.rows, pixels.columns))
+        owner = np.full(near.shape, -1.0)
+        for number, placed in enumerate(self.placed):
+            box = covered(pixels, pixels.seen(placed.mesh.corners, placed.T))
+            if not len(box.index):
                 continue
-            t = cast(placed.collider, placed.T, rays)
-            nearer = t < nearest
-            nearest[nearer], owner[nearer] = t[nearer], index
-        return {self.placed[int(i)].item for i in np.unique(owner) if i >= 0}
+            left, right, top, bottom = (
+                int(end[0]) for end in (box.left, box.right, box.top, box.bottom)
+            )
+            part = pixels.part(left, top, right - left + 1, bottom - top + 1)
+            drawn = nearness(part, placed.mesh, placed.T)
+            window = np.s_[top : bottom + 1, left : right + 1]
+            nearer = drawn > near[window]
+            near[window][nearer] = drawn[nearer]
+            owner[window][nearer] = number
+        return near, owner
 
 
 class PickScene:
@@ -142,95 +145,65 @@ class PickScene:
     ) -> None:
         self._context = context
         self._displays = displays
-        self._meshes: dict[Path, tuple[Mesh, tuple[TriangleMesh, ...]]] = {}
+        self._meshes: dict[int, tuple[Triangles, TriangleMesh]] = {}
 
     def snapshot(self) -> PickSnapshot:
         """Everything that is drawn now; files are not read for it."""
-        placed = tuple(self._placed())
-        kept = {id(one.collider) for one in placed}
-        for path, (_, parts) in list(self._meshes.items()):
-            if not any(id(part) in kept for part in parts):
-                del self._meshes[path]
-        return PickSnapshot(placed, tuple(self._grids()))
+        shapes = [shape for shape in self._drawn() if shape.solid]
+        used = {id(shape.triangles) for shape in shapes}
+        for key in [key for key in self._meshes if key not in used]:
+            del self._meshes[key]
+        return PickSnapshot(tuple(self._placed(shapes)), tuple(self._grids()))
 
-    def box_of(self, item: Selectable) -> tuple[Array, Array] | None:
-        """The corners of the box around a link's shapes or a frame's axes [m]."""
-        boxes = [bounds(one.collider, one.T) for one in self._placed(item)]
-        if not boxes:
-            return None
-        lows, highs = zip(*boxes, strict=True)
-        return np.min(lows, axis=0), np.max(highs, axis=0)
+    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, Corners]:
+        """The boxes around the shapes of links and the axes of frames.
 
-    def _placed(self, only: Selectable | None = None) -> Iterator[PlacedCollider]:
+        Args:
+            items: which; one that is not drawn now has no box.
+        """
+        wanted = set(items)
+        shapes = (s for s in self._drawn() if _item_of(s) in wanted) if wanted else ()
+        boxes: dict[Selectable, Corners] = {}
+        for one in self._placed(shapes):
+            if one.item is not None:
+                boxes[one.item] = _union(one.mesh.box(one.T), boxes.get(one.item))
+        return {item: boxes[item] for item in wanted if item in boxes}
+
+    def robot_box(self) -> Corners | None:
+        """The box around all links that are drawn, or else around all that is drawn.
+
+        Returns:
+            None when nothing is drawn.
+        """
+        shapes = list(self._drawn())
+        links = [s for s in shapes if s.owner is not None and s.owner[0] == "link"]
+        box: Corners | None = None
+        for one in self._placed(links or shapes):
+            box = _union(one.mesh.box(one.T), box)
+        return box
+
+    def _drawn(self) -> Iterator[DrawnShape]:
         for display in self._displays():
-            if not display.shown:
-                continue
-            if isinstance(display, RobotModelDisplay):
-                yield from self._links(display, only)
-            elif isinstance(display, TfDisplay) and display.config.get("Show Axes"):
-                yield from self._frames(display, only)
+            if display.shown:
+                yield from display.drawn_shapes()
 
-    def _links(
-        self, display: RobotModelDisplay, only: Selectable | None
-    ) -> Iterator[PlacedCollider]:
-        robot, get = self._context.robot, display.config.get
-        if robot is None or get("Description Source") == "File":
-            return
-        entries = display.entries_of(robot)
-        for link, shapes in _shapes(
-            robot, get("Visual Enabled"), get("Collision Enabled")
-        ):
-            item = Selectable("link", link)
-            if only not in (None, item):
-                continue
-            own = entries.link(link)
-            T_fixed_link = self._pose(display.frame_of(link))
-            alpha = own.get("Alpha") * get("Alpha")
-            if not own.get(BOX) or alpha == 0 or T_fixed_link is None:
-                continue
-            for shape in shapes:
-                T = T_fixed_link @ shape.origin.matrix
-                yield from self._colliders(item, shape, T)
+    def _placed(self, shapes: Iterable[DrawnShape]) -> Iterator[PlacedMesh]:
+        poses: dict[str | None, Matrix | None] = {None: np.eye(4)}
+        for shape in shapes:
+            if shape.frame not in poses:
+                poses[shape.frame] = self._pose(str(shape.frame))
+            T_fixed_frame = poses[shape.frame]
+            if T_fixed_frame is not None:
+                T = T_fixed_frame @ shape.T_frame_shape
+                yield PlacedMesh(_item_of(shape), self._mesh(shape.triangles), T)
 
-    def _colliders(
-        self, item: Selectable, shape: Shape, T: Matrix
-    ) -> Iterator[PlacedCollider]:
-        geometry = shape.geometry
-        if not isinstance(geometry, MeshFile):
-            yield PlacedCollider(item, geometry, T)
-            return
-        for mesh in self._triangles(shape):
-            yield PlacedCollider(item, mesh, T * (*geometry.scale, 1.0))
-
-    def _triangles(self, shape: Shape) -> tuple[TriangleMesh, ...]:
-        """The parts of a shape's mesh file; none while it is being read."""
-        robot, assets = self._context.robot, self._context.assets
-        asset = None if robot is None else asset_of(shape, robot.file_roots)
-        mesh = None if asset is None else assets.known(asset)
-        if asset is None or not isinstance(mesh, Mesh):
-            return ()
-        known = self._meshes.get(asset.path)
-        if known is None or known[0] is not mesh:
-            parts = (TriangleMesh.of(part.vertices, part.faces) for part in mesh.parts)
-            known = self._meshes[asset.path] = (mesh, tuple(parts))
+    def _mesh(self, triangles: Triangles) -> TriangleMesh:
+        """The same triangles with what is computed of them once."""
+        known = self._meshes.get(id(triangles))
+        if known is None:
+            mesh = TriangleMesh.of(triangles.vertices, triangles.faces)
+            known = self._meshes[id(triangles)] = (triangles, mesh)
         return known[1]
-
-    def _frames(
-        self, display: TfDisplay, only: Selectable | None
-    ) -> Iterator[PlacedCollider]:
-        scale = float(display.config.get("Marker Scale"))
-        axis = Cylinder(AXES_DIAMETER * scale / 2, AXES_LENGTH * scale)
-        for frame in self._context.tree.frames:
-            item = Selectable("frame", frame)
-            if only not in (None, item):
-                continue
-            T = self._pose(frame)
-            if T is None:
-                continue
-            yield PlacedCollider(item, Sphere(FRAME_RADIUS * scale), T, "handle")
-            if only is None:
-                for T_frame_axis in _axes(axis.length):
-                    yield PlacedCollider(item, axis, T @ T_frame_axis, "drawn")
 
     def _grids(self) -> Iterator[PlacedGrid]:
         for display in self._displays():
@@ -253,21 +226,12 @@ class PickScene:
         )
 
 
-def _axes(length: float) -> Iterator[Matrix]:
-    """The poses of cylinders (along their z) that are the axes of a frame."""
-    for column in range(3):
-        T = np.eye(4)
-        # Rolling the columns brings z to x, y or z and keeps the system right-handed.
-        T[:3, :3] = np.roll(np.eye(3), column - 2, axis=1)
-        T[:3, 3] = T[:3, 2] * length / 2
-        yield T
+def _item_of(shape: DrawnShape) -> Selectable | None:
+    return None if shape.owner is None else Selectable(*shape.owner)
 
 
-def _shapes(
-    robot: Robot, visual: bool, collision: bool
-) -> Iterator[tuple[str, tuple[Shape, ...]]]:
-    for link in robot.links.values():
-        shapes = (link.visuals if visual else ()) + (
-            link.collisions if collision else ()
-        )
-        yield link.name, shapes
+def _union(one: Corners, other: Corners | None) -> Corners:
+    """The box around two boxes."""
+    if other is None:
+        return one
+    return np.minimum(one[0], other[0]), np.maximum(one[1], other[1])

@@ -17,23 +17,24 @@ Indices = npt.NDArray[np.integer[Any]]
 
 @dataclass(frozen=True, eq=False)
 class RayGrid:
-    """Rays from one eye through a grid of points of the picture.
+    """Rays from one eye through the pixels of a rectangle of a picture.
 
-    The ray through column i and row j has the direction
-    ``axes @ (columns[i], rows[j], 1)``, which need not have length 1: distances along
-    rays are counted in multiples of it. A click is a grid of one ray.
+    The ray through column i and row j has the direction ``axes @ (i, j, 1)``, which
+    need not have length 1: distances along rays are counted in multiples of it. A
+    click is a grid of one ray.
 
     Attributes:
         origin: the eye, (3,) [m].
-        axes: right, down and forward as columns, (3, 3).
-        columns: (C,), ascending.
-        rows: (R,), ascending.
+        axes: from one column to the next, from one row to the next, and the first ray,
+            as columns, (3, 3); right-handed.
+        columns: how many.
+        rows: how many.
     """
 
     origin: Array
     axes: Array
-    columns: Array
-    rows: Array
+    columns: int
+    rows: int
 
     @classmethod
     def through(cls, origin: Array, direction: Array) -> RayGrid:
@@ -43,36 +44,32 @@ class RayGrid:
         axes[:, 0] = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
         axes[:, 1] = np.cross(direction, axes[:, 0])
         axes[:, 2] = direction
-        return cls(origin, axes, np.zeros(1), np.zeros(1))
+        return cls(origin, axes, 1, 1)
 
-    @cached_property
-    def directions(self) -> Array:
-        """(R·C, 3), row by row."""
-        x, y = (grid.ravel() for grid in np.meshgrid(self.columns, self.rows))
-        in_eye = np.stack([x, y, np.ones_like(x)], axis=1)
-        return np.einsum("ij,nj->ni", self.axes, in_eye)
+    def part(self, column: int, row: int, columns: int, rows: int) -> RayGrid:
+        """A rectangle of these rays that begins with a column and a row."""
+        axes: Array = np.copy(self.axes)
+        axes[:, 2] = self.axes @ np.array((column, row, 1.0))
+        return RayGrid(self.origin, axes, columns, rows)
 
-    @property
-    def count(self) -> int:
-        """How many rays there are."""
-        return len(self.columns) * len(self.rows)
+    def seen(self, points: npt.NDArray[np.floating[Any]], T: Matrix) -> Array:
+        """Points as the eye sees them.
 
-    def seen_from(self, T: Matrix) -> RayGrid | None:
-        """The same rays in coordinates of a frame.
+        There the ray through column i and row j is (i, j, 1), so that a point (x, y, z)
+        is drawn at column x / z and row y / z, and z is the distance along its ray.
 
         Args:
-            T: (4, 4) affine map from that frame to the frame of the rays.
-
-        Returns:
-            The rays, with unchanged distances along them; None when the map has no
-            inverse (a shape that is scaled by 0).
+            points: (…, 3) [m].
+            T: (4, 4) affine map from their frame to that of the rays.
         """
-        try:
-            inverse = np.linalg.inv(T[:3, :3])
-        except np.linalg.LinAlgError:
-            return None
-        origin = inverse @ (self.origin - T[:3, 3])
-        return RayGrid(origin, inverse @ self.axes, self.columns, self.rows)
+        to_eye = np.linalg.inv(self.axes)
+        A, b = to_eye @ T[:3, :3], to_eye @ (T[:3, 3] - self.origin)
+        x, y, z = (points[..., axis].astype(np.float64) for axis in range(3))
+        seen: Array = np.empty(points.shape)
+        # A matrix product of so many points would start threads, and wait for them.
+        for axis in range(3):
+            seen[..., axis] = A[axis, 0] * x + A[axis, 1] * y + A[axis, 2] * z + b[axis]
+        return seen
 
 
 GROUP = 128
@@ -87,7 +84,7 @@ class TriangleMesh:
 
     Attributes:
         vertices: (V, 3) float32 [m].
-        faces: (F, 3) indices of vertices.
+        faces: (F, 3) indices of vertices, counter-clockwise seen from outside.
         low: the lowest corner of the box around the vertices, (3,) [m].
         high: the highest corner, (3,) [m].
     """
@@ -107,6 +104,23 @@ class TriangleMesh:
         low = vertices.min(axis=0).astype(np.float64)
         return cls(vertices, faces, low, vertices.max(axis=0).astype(np.float64))
 
+    def box(self, T: Matrix) -> tuple[Array, Array]:
+        """The corners (3,) of the box along the axes around the mesh's own box [m].
+
+        As in RViz, a turned mesh gets the box around its turned box.
+
+        Args:
+            T: (4, 4) from the mesh to the frame of the axes; it may scale.
+        """
+        center = T[:3, :3] @ ((self.low + self.high) / 2) + T[:3, 3]
+        half = np.abs(T[:3, :3]) @ ((self.high - self.low) / 2)
+        return center - half, center + half
+
+    @cached_property
+    def corners(self) -> Array:
+        """The corners of the box around the vertices, (1, 8, 3) [m]."""
+        return _corners(np.array([[self.low, self.high]]))
+
     @cached_property
     def group_corners(self) -> Array:
         """The corners of a box around every `GROUP` triangles, (G, 8, 3) [m].
@@ -120,13 +134,15 @@ class TriangleMesh:
             low = np.minimum.reduceat(corners.min(axis=1), begins)
             high = np.maximum.reduceat(corners.max(axis=1), begins)
             boxes.append(np.stack([low, high], axis=1))
-        if not boxes:
-            return np.zeros((0, 8, 3))
-        ends = np.concatenate(boxes)
-        x, y, z = (axis.ravel() for axis in np.meshgrid((0, 1), (0, 1), (0, 1)))
-        return np.stack([ends[:, x, 0], ends[:, y, 1], ends[:, z, 2]], axis=2)
+        return _corners(np.concatenate(boxes)) if boxes else np.zeros((0, 8, 3))
 
     def faces_of(self, groups: Indices) -> Indices:
         """The faces of some groups, (N, 3)."""
         numbers = (groups[:, None] * GROUP + np.arange(GROUP)).ravel()
         return self.faces[numbers[numbers < len(self.faces)]]
+
+
+def _corners(ends: Array) -> Array:
+    """The corners (N, 8, 3) of boxes, from their lowest and highest, (N, 2, 3)."""
+    x, y, z = (axis.ravel() for axis in np.meshgrid((0, 1), (0, 1), (0, 1)))
+    return np.stack([ends[:, x, 0], ends[:, y, 1], ends[:, z, 2]], axis=2)

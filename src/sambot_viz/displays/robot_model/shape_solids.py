@@ -1,0 +1,87 @@
+"""The triangles of one <visual> or <collision>, as they are drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.drawn_shape import Triangles
+from sambot_viz.displays.scene.solids import sphere
+from sambot_viz.geometry import Matrix, Vector3
+from sambot_viz.meshes.cache import Content
+from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
+from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
+from sambot_viz.robot.model import Box, Capsule, Cylinder, Geometry, MeshFile, Sphere
+
+STAND_IN_SIZE = 0.1
+"""Edge of the wire box drawn in place of a mesh that could not be read [m]."""
+Solid = tuple[Triangles, Matrix]
+"""Triangles, and (4, 4) from them to the frame of the shape."""
+
+
+def solids_of(geometry: Geometry, content: Content | None) -> list[Solid]:
+    """One for each node that the shape is drawn with, in the same order.
+
+    Args:
+        geometry: of the shape.
+        content: of its mesh file; anything but a mesh gives none.
+    """
+    if isinstance(geometry, MeshFile):
+        parts = content.parts if isinstance(content, Mesh) else ()
+        return [(part, _scaled(geometry.scale)) for part in parts]
+    if isinstance(geometry, Box):
+        return [(unit_box(), _scaled(geometry.size))]
+    width = 2 * geometry.radius
+    if isinstance(geometry, Sphere):
+        return [(sphere(), _scaled((width, width, width)))]
+    tube: Solid = (unit_cylinder(), _scaled((width, width, geometry.length)))
+    if isinstance(geometry, Cylinder):
+        return [tube]
+    ends = (geometry.length / 2, -geometry.length / 2)
+    return [tube, *((sphere(), _scaled((width, width, width), z)) for z in ends)]
+
+
+def stand_in() -> Solid:
+    """The box in place of a mesh that could not be read."""
+    return unit_box(), _scaled((STAND_IN_SIZE, STAND_IN_SIZE, STAND_IN_SIZE))
+
+
+def stand_in_edges() -> npt.NDArray[np.float32]:
+    """The twelve edges of that box, (12, 2, 3) [m]."""
+    half = STAND_IN_SIZE / 2
+    edges: list[list[list[float]]] = []
+    for axis in range(3):
+        for one in (-half, half):
+            for two in (-half, half):
+                start = [one, two]
+                start.insert(axis, -half)
+                end = [one, two]
+                end.insert(axis, half)
+                edges.append([start, end])
+    return np.array(edges, dtype=np.float32)
+
+
+def textured(
+    geometry: Box | Cylinder | Sphere | Capsule, texture: Texture
+) -> MeshPart | None:
+    """A primitive with a texture as a mesh; None for a capsule, which has no uv."""
+    if isinstance(geometry, Box):
+        shape, scale = unit_box(), geometry.size
+    elif isinstance(geometry, Sphere):
+        width = 2 * geometry.radius
+        shape, scale = unit_sphere(), (width, width, width)
+    elif isinstance(geometry, Cylinder):
+        width = 2 * geometry.radius
+        shape, scale = unit_cylinder(), (width, width, geometry.length)
+    else:
+        return None
+    part = MeshPart(shape.vertices, shape.faces, uv=shape.uv, texture=texture)
+    return apply_scale(part, scale)
+
+
+def _scaled(scale: Vector3, z: float = 0.0) -> Matrix:
+    """The map that enlarges along the axes, then moves along z."""
+    T = np.eye(4)
+    T[0, 0], T[1, 1], T[2, 2] = scale
+    T[2, 3] = z
+    return T

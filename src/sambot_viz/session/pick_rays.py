@@ -1,0 +1,66 @@
+"""Rays through what a session draws, followed where nobody has to wait for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TYPE_CHECKING, TypeVar
+
+from sambot_viz.tools.picking.hit import Selectable
+from sambot_viz.tools.picking.pick_scene import Corners, PickScene, PickSnapshot
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Session
+
+T = TypeVar("T")
+
+INLINE = 100_000
+"""Rays through this many triangles take milliseconds; more are left to a thread."""
+
+
+class PickRays:
+    """Follows the rays of all browsers of a session, one click after the other.
+
+    Args:
+        session: what is drawn.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._scene = PickScene(session.context, lambda: session.displays)
+        self._thread = ThreadPoolExecutor(1, "sambot-viz-rays")
+
+    def follow(
+        self, rays: Callable[[PickSnapshot], T], then: Callable[[T], None]
+    ) -> None:
+        """Follow rays through what is drawn now, then act.
+
+        Millions of triangles take most of a second. A thread of its own does that, so
+        that neither browsers nor the session wait.
+        """
+        snapshot = self._scene.snapshot()
+        if snapshot.triangles <= INLINE:
+            then(rays(snapshot))
+            return
+
+        def followed(future: Future[T]) -> None:
+            # An exception of the rays is raised, and reported, in the worker.
+            self._session.worker.post(lambda: then(future.result()))
+
+        self._thread.submit(rays, snapshot).add_done_callback(followed)
+
+    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, Corners]:
+        """The boxes around the shapes of links and the axes of frames.
+
+        Args:
+            items: which; one that is not drawn now has no box.
+        """
+        return self._scene.boxes_of(items)
+
+    def robot_box(self) -> Corners | None:
+        """The box around all links, or else around all that is drawn."""
+        return self._scene.robot_box()
+
+    def close(self) -> None:
+        """Follow no more rays."""
+        self._thread.shutdown(wait=False, cancel_futures=True)

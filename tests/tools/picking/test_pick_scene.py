@@ -1,0 +1,126 @@
+"""Which links and frames can be seen in a rectangle of a picture."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
+from sambot_viz.robot.origin import Origin
+from sambot_viz.tools.picking.hit import Selectable
+from sambot_viz.tools.picking.pick_scene import PickSnapshot, PlacedGrid, PlacedMesh
+from sambot_viz.tools.picking.picture import Picture
+from sambot_viz.tools.picking.rays import RayGrid, TriangleMesh
+
+SHAPES = [
+    TriangleMesh.of(shape.vertices, shape.faces)
+    for shape in (unit_box(), unit_cylinder(), unit_sphere())
+]
+BOX = SHAPES[0]
+AXES = np.array(((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)))
+METRE = 96
+"""Pixels of the picture per metre, on the ground."""
+PICTURE = Picture(np.array((0.0, 0.0, 5.0)), AXES, 0.5, 640, 480)
+"""From 5 m above the origin, x to the right and y up."""
+
+
+def link(name: str) -> Selectable:
+    return Selectable("link", name)
+
+
+def box(name: str | None, at: tuple[float, ...], size: tuple[float, ...]) -> PlacedMesh:
+    T = np.eye(4)
+    T[:3, :3] *= size
+    T[:3, 3] = at
+    return PlacedMesh(None if name is None else link(name), BOX, T)
+
+
+def pixels(
+    low: tuple[float, float] = (0.0, 0.0), high: tuple[float, float] = (1.0, 1.0)
+) -> RayGrid:
+    grid = PICTURE.pixels(low, high)
+    assert grid is not None
+    return grid
+
+
+def seen(*placed: PlacedMesh, grid: RayGrid | None = None) -> set[str]:
+    found = PickSnapshot(placed, ()).items_met(grid or pixels())
+    return {item.name for item in found}
+
+
+def test_a_rectangle_has_what_the_rays_through_its_pixels_meet_first() -> None:
+    rng = np.random.default_rng(2)
+    placed: list[PlacedMesh] = []
+    for number in range(30):
+        x, y, z = rng.uniform((-1.5, -1.0, 0.0), (1.5, 1.0, 2.0)).tolist()
+        roll, pitch, yaw = rng.uniform(-3.0, 3.0, 3).tolist()
+        T = np.array(Origin((x, y, z), (roll, pitch, yaw)).matrix)
+        T[:3, :3] *= rng.uniform(0.02, 0.9, 3)
+        item = None if number % 10 == 0 else link(str(number))
+        placed.append(PlacedMesh(item, SHAPES[number % 3], T))
+    snapshot = PickSnapshot(tuple(placed), ())
+    coarse = replace(PICTURE, width=32, height=24)
+    for low, high in (((0.1, 0.1), (0.9, 0.9)), ((0.4, 0.3), (0.6, 0.5))):
+        grid = coarse.pixels(low, high)
+        assert grid is not None
+        one_by_one = {
+            snapshot.first_hit(grid.origin, ray / np.linalg.norm(ray)).item
+            for column, row in product(range(grid.columns), range(grid.rows))
+            for ray in [grid.axes @ (column, row, 1.0)]
+        }
+        assert 4 < len(one_by_one) < 30
+        assert snapshot.items_met(grid) == one_by_one - {None}
+
+
+def test_a_link_behind_another_is_not_selected() -> None:
+    cover = box("cover", (0.0, 0.0, 1.0), (1.0, 1.0, 0.2))
+    behind = box("behind", (0.0, 0.0, 0.0), (0.9, 0.9, 0.2))
+    assert seen(cover, behind) == seen(behind, cover) == {"cover"}
+    larger = box("larger", (0.0, 0.0, 0.0), (1.5, 0.5, 0.2))
+    assert seen(larger, cover) == {"cover", "larger"}
+    covered = ((0.45, 0.45), (0.55, 0.55))
+    assert seen(larger, cover, grid=pixels(*covered)) == {"cover"}
+
+
+def test_what_is_not_selectable_hides_too() -> None:
+    cover = box(None, (0.0, 0.0, 1.0), (1.0, 1.0, 0.2))
+    behind = box("behind", (0.0, 0.0, 0.0), (0.9, 0.9, 0.2))
+    assert seen(cover, behind) == set()
+
+
+@pytest.mark.parametrize("at", [-1.234, 0.0, 0.777])
+def test_an_edge_of_two_pixels_is_found_in_any_rectangle(at: float) -> None:
+    thin = box("thin", (at, 0.0, 0.0), (2 / METRE, 3.0, 0.01))
+    base = box("base", (0.0, 0.0, -0.5), (3.0, 3.0, 0.2))
+    assert seen(thin, base) == {"thin", "base"}
+    column = (at * METRE + 320) / 640
+    beside = ((column - 0.1, 0.4), (column - 0.01, 0.6))
+    assert seen(thin, base, grid=pixels(*beside)) == {"base"}
+    touching = ((column - 0.1, 0.4), (column, 0.6))
+    assert seen(thin, base, grid=pixels(*touching)) == {"thin", "base"}
+
+
+def test_what_is_behind_the_eye_or_beside_the_picture_is_not_selected() -> None:
+    assert seen(box("behind", (0.0, 0.0, 7.0), (1.0, 1.0, 1.0))) == set()
+    assert seen(box("beside", (9.0, 0.0, 0.0), (1.0, 1.0, 1.0))) == set()
+    assert seen(box("half", (3.5, 0.0, 0.0), (1.0, 1.0, 1.0))) == {"half"}
+
+
+def test_a_grid_is_hit_within_its_square_where_nothing_else_is() -> None:
+    T = Origin((1.0, 0.0, 0.5), (0.0, 0.0, 0.3)).matrix
+    grid = PlacedGrid(T, np.array((0.0, 0.0, 1.0)), np.array((0.0, 0.0, 0.1)), 2.0)
+    snapshot = PickSnapshot((box("low", (0.0, 0.0, 0.0), (0.2, 0.2, 0.2)),), (grid,))
+    down = np.array((0.0, 0.0, -1.0))
+    hit = snapshot.first_hit(np.array((2.0, 1.0, 5.0)), down)
+    assert hit.point == pytest.approx((2.0, 1.0, 0.6))
+    assert hit.item is None
+    below = snapshot.first_hit(np.array((0.0, 0.0, 5.0)), down)
+    assert below.point == pytest.approx((0.0, 0.0, 0.1))
+    assert below.item == link("low")
+    assert snapshot.first_hit(np.array((2.0, 1.0, 5.0)), -down).point is None
+    assert snapshot.first_hit(np.array((7.0, 1.0, 5.0)), down).point is None
+    along = np.array((1.0, 0.0, 0.0))
+    assert snapshot.first_hit(np.array((-5.0, 0.0, 0.6)), along).point is None
