@@ -61,62 +61,66 @@ def test_there_is_a_slider_for_each_wheel_with_its_range_and_start(
     client: ProtocolClient,
 ) -> None:
     for joint in (LEFT, RIGHT):
-        uuid = client.uuid_of(joint)
-        slider = next(m for m in client.messages if m.fields.get("uuid") == uuid)
-        assert slider.type == "GuiSliderMessage"
-        props = slider.fields["props"]
-        assert (props["min"], props["max"]) == (-math.pi, math.pi)
-        assert slider.fields["value"] == 0.0
+        row = client.row_named("joints", joint)
+        assert row["kind"] == "slider"
+        assert (row["min"], row["max"]) == (-math.pi, math.pi)
+        assert row["value"] == 0.0
 
 
 @pytest.mark.parametrize(
-    "value", [99.0, -99.0, math.nan, math.inf, "fast", [1.0], {"a": 1}, None]
+    "value", [99.0, -99.0, math.nan, math.inf, "fast", [1.0], {"a": 1}, None, True]
 )
-def test_a_bad_value_from_a_browser_moves_nothing_out_of_range(
+def test_a_bad_value_from_a_browser_moves_nothing_and_is_answered(
     viz: Visualizer, client: ProtocolClient, value: object
 ) -> None:
-    client.set_value(client.uuid_of(LEFT), value)
+    viz.set_joint_positions({LEFT: 0.5})
+    row = client.id_of("joints", LEFT)
+    client.edit(row, value)
     client.settle(viz.viser)
-    assert -math.pi <= viz.joint_positions[LEFT] <= math.pi
+    assert viz.joint_positions[LEFT] == 0.5
+    notice = client.row("notice")["value"]
+    assert (notice["row"], notice["level"]) == (row, "error")
+    assert LEFT in notice["text"]
 
 
 def test_center_and_randomize_move_all_joints(
     viz: Visualizer, client: ProtocolClient
 ) -> None:
-    def press(label: str) -> None:
-        client.send(
-            "GuiUpdateMessage", uuid=client.uuid_of(label), updates={"value": True}
-        )
-        client.settle(viz.viser)
-
-    press("Randomize")
+    client.act("joints/randomize")
+    client.settle(viz.viser)
     assert 0.0 not in viz.joint_positions.values()
-    press("Center")
+    client.act("joints/center")
+    client.settle(viz.viser)
     assert set(viz.joint_positions.values()) == {0.0}
 
 
 def test_browsers_cannot_write_the_inner_state_of_a_widget(
     viz: Visualizer, client: ProtocolClient
 ) -> None:
-    uuid = client.uuid_of(LEFT)
+    number = viz.viser.gui.add_number("of a script", 1.0)
+    client.settle(viz.viser)
+    uuid = client.uuid_of("of a script")
     client.send("GuiUpdateMessage", uuid=uuid, updates={"update_cb": []})
     client.send("GuiUpdateMessage", uuid=uuid, updates={"removed": True})
     client.settle(viz.viser)
     client.set_value(uuid, 0.7)
     client.settle(viz.viser)
-    assert viz.joint_positions[LEFT] == 0.7
+    assert number.value == 0.7
 
 
 def test_no_gui_leaves_the_joints_panel_out(protocol: Connect) -> None:
     with Visualizer(port=0, gui=False) as viz:
         client = protocol(port_of(viz))
-        assert LEFT not in client.widgets
-        assert "Fixed Frame" in client.widgets
+        client.settle(viz.viser)
+        assert "joints" not in {row["panel"] for row in client.rows.values()}
+        assert client.row_named("displays", "Global Options", "Fixed Frame")
 
 
 def test_the_fixed_frame_changes_live(viz: Visualizer, client: ProtocolClient) -> None:
     mark = client.mark()
-    client.set_value(client.uuid_of("Fixed Frame"), "base_footprint")
+    client.edit(
+        client.id_of("displays", "Global Options", "Fixed Frame"), "base_footprint"
+    )
     client.settle(viz.viser)
     moved = [m for m in client.since(mark) if m.type == "SetPositionMessage"]
     assert [m.fields["position"] for m in moved] == [pytest.approx((0, 0, 0.15))]
@@ -125,18 +129,14 @@ def test_the_fixed_frame_changes_live(viz: Visualizer, client: ProtocolClient) -
 def test_a_display_is_switched_off_and_on(
     viz: Visualizer, client: ProtocolClient
 ) -> None:
-    box = next(
-        m.fields["uuid"]
-        for m in client.messages
-        if m.type == "GuiCheckboxMessage" and m.fields["props"]["label"] == "TF"
-    )
+    box = client.id_of("displays", "TF")
     mark = client.mark()
-    client.set_value(box, False)
+    client.edit(box, False)
     client.settle(viz.viser)
     gone = {m.fields["name"] for m in client.since(mark) if "Remove" in m.type}
     assert {m.fields["name"] for m in labels(client)} <= gone
     mark = client.mark()
-    client.set_value(box, True)
+    client.edit(box, True)
     client.settle(viz.viser)
     assert client.types(since=mark)["LabelMessage"] == 5
 
@@ -290,18 +290,18 @@ def test_a_robot_object_and_korean_folders_work(
     with Visualizer(model=load_robot(model), port=0) as viz:
         client = protocol(port_of(viz))
         assert [m.fields["props"]["text"] for m in labels(client)] == ["몸"]
-        assert client.value_of("Fixed Frame") == "몸"
+        client.settle(viz.viser)
+        assert client.shown("displays", "Global Options", "Fixed Frame") == "몸"
 
 
 def test_private_sessions_have_a_robot_each(protocol: Connect) -> None:
     with Visualizer(port=0, session="private") as viz:
         first, second = protocol(port_of(viz)), protocol(port_of(viz))
-        first.wait_until(lambda: LEFT in first.widgets)
-        second.wait_until(lambda: LEFT in second.widgets)
         first.settle(viz.viser)
         second.settle(viz.viser)
         mark = second.mark()
-        first.set_value(first.uuid_of(LEFT), 0.5)
+        assert second.shown("joints", LEFT) == 0.0
+        first.edit(first.id_of("joints", LEFT), 0.5)
         first.settle(viz.viser)
         second.settle(viz.viser)
         assert second.since(mark) == []

@@ -6,7 +6,6 @@ import pytest
 from panel_rows import edit, row_named, rows_of
 
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.gate import ValueRefused
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
@@ -32,7 +31,7 @@ def test_the_numbers_are_those_of_the_current_view(panel: ViewsPanel) -> None:
 
 
 def test_a_number_outside_its_limits_is_refused(panel: ViewsPanel) -> None:
-    with pytest.raises(ValueRefused, match="its limits are"):
+    with pytest.raises(UsageError, match="its limits are"):
         edit(panel, "view/Pitch", 2.0)
 
 

@@ -21,7 +21,12 @@ from sambot_viz import Visualizer
 from sambot_viz.server import door
 
 Connect = Callable[..., ProtocolClient]
-SLIDER, COUNT = "drivewhl_l_joint", "Plane Cell Count"
+SLIDER = "joints", "drivewhl_l_joint"
+COUNT = "displays", "Grid", "Plane Cell Count"
+OPTIONS = "displays", "Global Options"
+FRAME, COLOR = (*OPTIONS, "Fixed Frame"), (*OPTIONS, "Background Color")
+STYLE = "displays", "Grid", "Line Style"
+STATUS = "displays", "Global Status"
 
 
 @pytest.fixture
@@ -61,36 +66,36 @@ def still_works(viz: Visualizer, witness: ProtocolClient, protocol: Connect) -> 
     """Whether a late browser can move a joint and the witness sees it."""
     late = protocol(viz.viser.get_port())
     late.settle(viz.viser)
-    late.set_value(late.uuid_of(SLIDER), 0.25)
+    late.edit(late.id_of(*SLIDER), 0.25)
     late.settle(viz.viser)
     witness.settle(viz.viser)
-    moved = viz.joint_positions[SLIDER] == 0.25
-    return moved and witness.value_of(SLIDER) == 0.25
+    moved = viz.joint_positions[SLIDER[1]] == 0.25
+    return moved and witness.shown(*SLIDER) == 0.25
 
 
 @pytest.mark.parametrize(
-    ("label", "value"),
-    [(COUNT, 1e300), (COUNT, 2**64 - 1), (SLIDER, 12345.0), ("Fixed Frame", "no such")],
+    ("names", "value"),
+    [(COUNT, 1e300), (COUNT, 2**64 - 1), (SLIDER, 12345.0), (FRAME, "no such")],
 )
 def test_a_browser_without_a_camera_changes_nothing(
     viz: Visualizer,
     witness: ProtocolClient,
     protocol: Connect,
-    label: str,
+    names: tuple[str, ...],
     value: object,
 ) -> None:
-    before = witness.value_of(label)
+    before = witness.shown(*names)
     stranger = protocol(viz.viser.get_port(), camera=False)
-    uuid = stranger.uuid_of(label)
-    stranger.set_value(uuid, value)
+    stranger.edit(stranger.id_of(*names), value)
     stranger.send_camera()
     stranger.settle(viz.viser)
-    assert witness.value_of(label) == before
+    witness.settle(viz.viser)
+    assert witness.shown(*names) == before
     assert still_works(viz, witness, protocol)
 
 
 @pytest.mark.parametrize(
-    ("label", "value"),
+    ("names", "value"),
     [
         (COUNT, 1e300),
         (COUNT, math.nan),
@@ -101,42 +106,49 @@ def test_a_browser_without_a_camera_changes_nothing(
         (SLIDER, "0.5"),
         (SLIDER, {"a": [1]}),
         (SLIDER, None),
-        ("Fixed Frame", "no such frame"),
-        ("Fixed Frame", 3),
-        ("Background Color", [1, 2]),
-        ("Background Color", [1, 2, "3"]),
-        ("Type", "Nope"),
-        ("Pose name", "x" * 1001),
+        (FRAME, 3),
+        (FRAME, "x" * 1001),
+        (FRAME, "a\x00b"),
+        (COLOR, [1, 2]),
+        (COLOR, [1, 2, "3"]),
+        (COLOR, "no colour"),
+        (STYLE, "Dotted"),
+        (OPTIONS, 1),
+        (STATUS, "Ok"),
     ],
 )
-def test_a_value_of_another_type_reaches_no_widget_and_is_taken_back(
+def test_a_value_of_another_type_changes_no_row_and_is_answered(
     viz: Visualizer,
     witness: ProtocolClient,
     protocol: Connect,
-    label: str,
+    names: tuple[str, ...],
     value: object,
 ) -> None:
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
-    before, mark = witness.value_of(label), witness.mark()
-    uuid, own = client.uuid_of(label), client.mark()
-    client.set_value(uuid, value)
+    before, mark = witness.shown(*names), witness.mark()
+    row, own = client.id_of(*names), client.mark()
+    client.edit(row, value)
     client.settle(viz.viser)
     witness.settle(viz.viser)
     assert witness.since(mark) == []
     (answer,) = client.since(own)
     assert answer.type == "GuiUpdateMessage"
-    assert answer.fields["uuid"] == uuid
-    assert answer.fields["updates"] == {"value": before}
+    assert client.row("notice")["value"]["row"] == row
+    assert client.shown(*names) == before
 
 
 @pytest.mark.parametrize("camera", [True, False])
-def test_an_upload_to_a_slider_does_nothing(
+def test_an_upload_does_nothing(
     viz: Visualizer, witness: ProtocolClient, protocol: Connect, camera: bool
 ) -> None:
     client = protocol(viz.viser.get_port(), camera=camera)
-    upload(client, client.uuid_of(SLIDER), b"hello")
-    upload(client, client.uuid_of(SLIDER), b"x" * 1000, parts=2)
+    viz.viser.gui.add_upload_button("take")
+    viz.viser.flush()
+    client.wait_until(lambda: "take" in client.widgets)
+    upload(client, client.uuid_of("take"), b"hello")
+    upload(client, client.uuid_of("take"), b"x" * 1000, parts=2)
+    upload(client, door.EDITS, b"hello")
     client.send_camera()
     client.settle(viz.viser)
     assert client.types()["FileTransferPartAck"] == 0
@@ -163,15 +175,17 @@ def test_a_browser_cannot_break_the_widgets_of_its_private_session(
     with Visualizer(port=0, session="private") as viz:
         first, second = (protocol(viz.viser.get_port()) for _ in range(2))
         for client in (first, second):
-            client.wait_until(lambda c=client: SLIDER in c.widgets)
-        uuids = list(first.widgets.values())
-        for updates in ({"removed": True}, {"props": None}, {"gui_api": None}):
+            client.settle(viz.viser)
+        html = [m for m in first.messages if m.type == "GuiHtmlMessage"]
+        uuids = [door.EDITS, *(m.fields["uuid"] for m in html)]
+        assert len(uuids) > 2
+        for updates in ({"removed": True}, {"props": None}, {"content": "<b>"}):
             for uuid in uuids:
                 first.send("GuiUpdateMessage", uuid=uuid, updates=updates)
         first.settle(viz.viser)
-        viz.set_joint_positions({SLIDER: 0.5})
+        viz.set_joint_positions({SLIDER[1]: 0.5})
         for client in (first, second):
-            client.wait_until(lambda c=client: c.value_of(SLIDER) == 0.5)
+            client.wait_until(lambda c=client: c.shown(*SLIDER) == 0.5)
 
 
 def test_hidden_and_disabled_widgets_take_no_value(
@@ -233,7 +247,7 @@ def test_a_message_that_is_too_long_ends_its_connection_only(
     viz: Visualizer, witness: ProtocolClient, protocol: Connect
 ) -> None:
     client = protocol(viz.viser.get_port())
-    client.set_value(client.uuid_of("Pose name"), "x" * door.LARGEST_MESSAGE)
+    client.edit(client.id_of(*FRAME), "x" * door.LARGEST_MESSAGE)
     with pytest.raises(AssertionError, match="the connection ended"):
         client.wait_until(lambda: False)
     assert still_works(viz, witness, protocol)
@@ -247,7 +261,7 @@ def test_a_flood_of_bad_values_is_one_line_in_the_log(
     caplog.clear()
     with caplog.at_level(logging.DEBUG, "asyncio"):
         for _ in range(300):
-            client.set_value(client.uuid_of(SLIDER), "fast")
+            client.edit(client.id_of(*SLIDER), "fast")
         client.settle(viz.viser)
     assert len(caplog.records) <= 1
     assert all("dropped" in record.getMessage() for record in caplog.records)

@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from inside import node_of, viser_server
-from protocol_client import ProtocolClient, Received
+from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 
@@ -36,10 +36,6 @@ def join(
     return connect
 
 
-def transforms(messages: list[Received]) -> list[Received]:
-    return [message for message in messages if message.type in TRANSFORMS]
-
-
 def turned(client: ProtocolClient, node: str, angle: float) -> bool:
     """Whether the last pose that the client got turns the node about y by `angle`."""
     turns = [
@@ -51,23 +47,26 @@ def turned(client: ProtocolClient, node: str, angle: float) -> bool:
     return turns != [] and turns[-1] == pytest.approx(wanted, abs=1e-5)
 
 
-def test_one_slider_step_is_one_transform_message_to_each_browser(
+def test_one_step_of_a_joint_is_a_pose_and_a_changed_row_to_each_browser(
     viz: Visualizer, join: Callable[[], ProtocolClient]
 ) -> None:
     first, second, third = clients = [join() for _ in range(3)]
     for client in clients:
         client.settle(viser_server(viz))
     marks = [client.mark() for client in clients]
-    first.set_value(first.uuid_of(JOINT), 0.5)
+    first.edit(first.id_of("joints", JOINT), 0.5)
     for client in clients:
         client.settle(viser_server(viz))
     assert viz.joint_positions[JOINT] == pytest.approx(0.5)
     for client, mark in zip(clients, marks, strict=True):
-        moved = transforms(client.since(mark))
-        assert [message.fields["name"] for message in moved] == [node_of(viz, LINK)]
-        assert moved[0].size < 200
-    for client in (second, third):
-        assert client.value_of(JOINT) == pytest.approx(0.5)
+        pose, change, *own = client.since(mark)
+        assert pose.type in TRANSFORMS and pose.fields["name"] == node_of(viz, LINK)
+        assert pose.size < 200
+        assert change.type == "GuiUpdateMessage" and change.size < 400
+        # The one who did it can undo it now.
+        assert len(own) == (client is first)
+    for client in (first, second, third):
+        assert client.shown("joints", JOINT) == pytest.approx(0.5)
 
 
 def test_an_idle_server_sends_nothing(
@@ -81,13 +80,13 @@ def test_an_idle_server_sends_nothing(
 
 
 @pytest.mark.parametrize("attempt", range(5))
-def test_fifty_quick_steps_end_with_slider_pose_and_api_equal(
+def test_fifty_quick_steps_end_with_row_pose_and_api_equal(
     viz: Visualizer, join: Callable[[], ProtocolClient], attempt: int
 ) -> None:
     first, second = join(), join()
-    uuid = first.uuid_of(JOINT)
+    row = first.id_of("joints", JOINT)
     for step in range(1, 51):
-        first.set_value(uuid, round(step * 0.01 + attempt * 0.1, 6))
+        first.edit(row, round(step * 0.01 + attempt * 0.1, 6), gesture=attempt + 1)
     last = 0.5 + attempt * 0.1
     for client in (first, second):
         # Poses of a stream go out at the config's Frame Rate, the last one included.
@@ -95,17 +94,18 @@ def test_fifty_quick_steps_end_with_slider_pose_and_api_equal(
         client.settle(viser_server(viz))
         assert turned(client, node_of(viz, LINK), last)
     assert viz.joint_positions[JOINT] == pytest.approx(last)
-    assert second.value_of(JOINT) == pytest.approx(last)
+    for client in (first, second):
+        assert client.shown("joints", JOINT) == pytest.approx(last)
     T = viz.frames.lookup("base_link", LINK).matrix
     assert T[0, 0] == pytest.approx(math.cos(last))
 
 
-def test_a_position_set_from_python_reaches_the_sliders(
+def test_a_position_set_from_python_reaches_the_rows(
     viz: Visualizer, join: Callable[[], ProtocolClient]
 ) -> None:
     client = join()
     viz.set_joint_positions({JOINT: -1.25})
-    client.wait_until(lambda: client.value_of(JOINT) == pytest.approx(-1.25))
+    client.wait_until(lambda: client.shown("joints", JOINT) == pytest.approx(-1.25))
 
 
 def test_a_browser_that_comes_later_sees_the_present_state(
@@ -113,12 +113,12 @@ def test_a_browser_that_comes_later_sees_the_present_state(
 ) -> None:
     viz.set_joint_positions({JOINT: 0.75})
     late = join()
-    late.wait_until(lambda: late.value_of(JOINT) == pytest.approx(0.75))
+    late.wait_until(lambda: late.shown("joints", JOINT) == pytest.approx(0.75))
 
 
-def test_the_robot_is_sent_before_the_panels(
+def test_the_robot_is_sent_before_the_rows(
     join: Callable[[], ProtocolClient],
 ) -> None:
     types = [message.type for message in join().messages]
-    assert types.index("BoxMessage") < types.index("GuiSliderMessage")
-    assert types.index("CylinderMessage") < types.index("GuiCheckboxMessage")
+    assert types.index("BoxMessage") < types.index("GuiHtmlMessage")
+    assert types.index("CylinderMessage") < types.index("GuiHtmlMessage")

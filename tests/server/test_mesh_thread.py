@@ -109,7 +109,7 @@ def test_the_page_has_frames_sliders_and_progress_before_the_first_mesh(
     opened.client.settle(opened.viz.viser)
     assert opened.meshes == 0
     assert set(opened.viz.frames.frames) == {f"l{i}" for i in range(COUNT)}
-    assert "j1" in opened.client.widgets
+    assert opened.client.shown("joints", "j1") == 0.0
     assert any(
         f"textures: 0 of {COUNT}" in str(m.fields) for m in opened.client.messages
     )

@@ -57,6 +57,10 @@ def until(condition: Callable[[], bool]) -> None:
         pause.wait(0.01)
 
 
+def has_row(client: ProtocolClient, name: str) -> bool:
+    return any(row.get("name") == name for row in client.rows.values())
+
+
 def server_of(viz: Visualizer) -> Server:
     return viz._server  # pyright: ignore[reportPrivateUsage]
 
@@ -153,11 +157,11 @@ def test_a_browser_may_leave_while_its_session_opens_and_meshes_load(
         for _ in range(5):
             protocol(viz.viser.get_port()).close()
         last = protocol(viz.viser.get_port())
-        last.wait_until(lambda: SLIDER in last.widgets)
+        last.wait_until(lambda: has_row(last, SLIDER))
         # The threads of those that left end; a late one is not another session.
         until(lambda: workers() == 1 and len(server_of(viz).sessions()) == 1)
         viz.set_joint_positions({SLIDER: 0.5})
-        last.wait_until(lambda: last.value_of(SLIDER) == 0.5)
+        last.wait_until(lambda: last.shown("joints", SLIDER) == 0.5)
     assert [record.getMessage() for record in caplog.records] == []
 
 

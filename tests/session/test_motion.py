@@ -148,9 +148,9 @@ def test_a_turning_wheel_sends_its_pose_alone_and_nothing_when_it_stands(
     assert moved
     wheel = node_of(viz, "drivewhl_l_link")
     assert {m.fields["name"] for m in moved} == {wheel}
-    # Sliders and numbers in the panels follow a little later, then there is silence.
+    # The rows follow a little later, then there is silence.
     last = viz.joint_positions[LEFT]
-    client.wait_until(lambda: client.value_of(LEFT) == pytest.approx(last))
+    client.wait_until(lambda: client.shown("joints", LEFT) == pytest.approx(last))
     client.settle(viser_server(viz))
     assert any(client.quiet(0.5) for _ in range(4))
 

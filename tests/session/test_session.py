@@ -72,6 +72,7 @@ def test_threads_a_browser_and_reloads_together_end_in_one_state(
 ) -> None:
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
+    right = client.id_of("joints", RIGHT)
     robot = session.robot
     assert robot is not None
 
@@ -81,7 +82,7 @@ def test_threads_a_browser_and_reloads_together_end_in_one_state(
 
     def drag() -> None:
         for step in range(1, 101):
-            client.set_value(client.uuid_of(RIGHT), round(0.01 * step, 6))
+            client.edit(right, round(0.01 * step, 6), gesture=1)
 
     def reload() -> None:
         for _ in range(5):
@@ -96,8 +97,7 @@ def test_threads_a_browser_and_reloads_together_end_in_one_state(
     client.settle(viz.viser)
     assert viz.joint_positions[LEFT] == pytest.approx(0.99)
     assert viz.joint_positions[RIGHT] == pytest.approx(1.0)
-    # The browser shows its own last value, unless the server has sent an older one.
-    assert client.value_of(RIGHT) in (0.0, pytest.approx(1.0))
+    assert client.shown("joints", RIGHT) == pytest.approx(1.0)
     assert session.problems.of_saves == {}
 
 
@@ -189,15 +189,15 @@ def test_private_sessions_are_independent(
         for client in (first, second):
             client.settle(viz.viser)
         sessions = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
-        first.set_value(first.uuid_of(LEFT), 0.5)
+        first.edit(first.id_of("joints", LEFT), 0.5)
         first.settle(viz.viser)
         second.settle(viz.viser)
         positions = [s.joints.positions[LEFT] for s in sessions if s.joints]
         assert sorted(positions) == [0.0, 0.5]
-        assert second.value_of(LEFT) == 0.0
+        assert second.shown("joints", LEFT) == 0.0
         first.close()
         second.settle(viz.viser)
-        second.set_value(second.uuid_of(LEFT), -0.5)
+        second.edit(second.id_of("joints", LEFT), -0.5)
         second.settle(viz.viser)
         (left,) = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
         assert left.joints is not None

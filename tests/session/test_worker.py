@@ -108,10 +108,10 @@ def test_the_event_loop_goes_on_while_a_session_is_busy(
         session = session_of(viz)
         with session.lock:
             # As a reload of a large robot does for a second.
-            client.set_value(client.uuid_of(JOINT), 0.5)
-            client.set_value(client.uuid_of("Center"), True)
+            client.edit(client.id_of("joints", JOINT), 0.5)
+            client.act("joints/center")
             client.send_camera()
-            client.send("CommandTriggerMessage", uuid=command_of(client, "Focus"))
+            client.act("tool/Measure")
             client.send(
                 "ScenePointerMessage",
                 event_type="click",
@@ -124,12 +124,3 @@ def test_the_event_loop_goes_on_while_a_session_is_busy(
             client.set_value(client.uuid_of("echo"), "still there")
             assert answered.wait(10)
         client.settle(viz.viser)
-
-
-def command_of(client: ProtocolClient, label: str) -> str:
-    """The uuid of the command whose label begins like this."""
-    for message in client.messages:
-        if message.type == "RegisterCommandMessage":
-            if message.fields["props"]["label"].startswith(label):
-                return message.fields["uuid"]
-    raise AssertionError(f"no command {label}")

@@ -12,9 +12,15 @@ What it offers:
     client.messages            every message so far, oldest first (`Received`)
     client.mark(), .since(m)   a place in that list, and what came after it
     client.types(since=m)      how many of each type, as a Counter
-    client.uuid_of(label)      the widget with this label; .widgets for all of them
-    client.value_of(label)     the widget's value as the server last sent it
     client.node(name)          the last message that created this scene node
+    client.rows                the rows of the panels by id, as the page has them now
+    client.row(id)             one of them
+    client.row_named(*names)   by panel, names of rows above it, and its name
+    client.id_of(*names)       its id; client.shown(*names) is what it shows
+    client.edit(id, value)     what the page sends when a user changes a row
+    client.act(id, *values)    what a button, a key or a menu sends
+    client.uuid_of(label)      a widget that a program has added; .widgets for all
+    client.value_of(label)     the widget's value as the server last sent it
     client.set_value(uuid, v)  what a browser sends when a widget was moved
     client.send(type, **f)     any other message
     client.wait_until(cond)    until cond() is true; fails after `timeout` seconds
@@ -27,10 +33,10 @@ a text field of its own; the server's answer takes the same way as everything
 that was queued before it, once through the buffer of all browsers and once through the
 buffer of this one. viser keeps the order in both directions, so what was sent before
 `settle` has been handled (as far as its callbacks are `async def` and wait for nothing
-but the sessions' workers), and every message that came of it has arrived. What a
-program holds back on purpose, such as the later poses of a stream, comes when its timer
-says so: wait for that with `wait_until`. The messages of the fence itself are left out
-of `messages`.
+but the sessions' workers), and every message that came of it has arrived, changes of
+rows too, which are held back for a moment. What a program holds back for longer, such
+as the later poses of a stream, comes when its timer says so: wait for that with
+`wait_until`. The messages of the fence itself are left out of `messages`.
 """
 
 from __future__ import annotations
@@ -42,15 +48,19 @@ import weakref
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, cast
 
 import msgspec.msgpack
 import viser
 import zstandard
+from page_rows import Row, named, rows_in
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
+from sambot_viz.panels.publisher import PERIOD
+from sambot_viz.server.door import EDITS
 from sambot_viz.session.worker import Worker
 
 FENCE_REQUEST = "~fence request"
@@ -178,6 +188,36 @@ class ProtocolClient:
                 return message
         raise AssertionError(f"no scene node '{name}'")
 
+    @property
+    def rows(self) -> dict[str, Row]:
+        """The rows of all panels by id, in order, as the page has them now."""
+        contents: dict[str, str] = {}
+        for message in self.messages:
+            fields = message.fields
+            content = fields.get("props", fields.get("updates", {})).get("content")
+            if isinstance(content, str) and "uuid" in fields:
+                contents[fields["uuid"]] = content
+        return rows_in(contents.values())
+
+    def row(self, row_id: str) -> Row:
+        """The row with this id."""
+        rows = self.rows
+        if row_id not in rows:
+            raise AssertionError(f"no row '{row_id}'; there are {list(rows)}")
+        return rows[row_id]
+
+    def row_named(self, *names: str) -> Row:
+        """The row of a panel with this name: ("joints", "left_wheel_joint")."""
+        return named(self.rows, names)
+
+    def id_of(self, *names: str) -> str:
+        """The id of the row that `row_named` finds."""
+        return str(self.row_named(*names)["id"])
+
+    def shown(self, *names: str) -> Any:
+        """What the row that `row_named` finds shows."""
+        return self.row_named(*names).get("value")
+
     # What is sent.
 
     def send(self, type: str, **fields: Any) -> None:
@@ -195,6 +235,15 @@ class ProtocolClient:
     def set_value(self, uuid: str, value: Any) -> None:
         """Move a widget as a browser does."""
         self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
+
+    def edit(self, row_id: str, value: Any, gesture: int | None = None) -> None:
+        """Set a row; with the same number for all values of one drag."""
+        edit = [row_id, value] if gesture is None else [row_id, value, gesture]
+        self.set_value(EDITS, edit)
+
+    def act(self, row_id: str, *values: Any) -> None:
+        """Do what an action row does."""
+        self.edit(row_id, list(values))
 
     # Waiting.
 
@@ -316,16 +365,18 @@ def _fill_arrays(value: Any, arrays: list[bytes], used: list[bytes]) -> Any:
 def wait_for_workers(timeout: float = 10.0) -> None:
     """Wait until the sessions' threads have run what was posted so far.
 
-    That goes two rounds deep: what an action of the first round posts is waited for.
+    That goes two rounds deep: what an action of the first round posts is waited for,
+    and also the changes of rows that it has put off.
     """
-    for thread in 2 * threading.enumerate():
-        if isinstance(thread, Worker):
-            done = threading.Event()
-            thread.post(done.set)
-            end = time.monotonic() + timeout
-            # A worker that is closed meanwhile drops what was posted to it.
-            while not done.wait(0.02) and thread.is_alive():
-                assert time.monotonic() < end, "a session hangs"
+    for delay in (0.0, PERIOD):
+        for thread in threading.enumerate():
+            if isinstance(thread, Worker):
+                done = threading.Event()
+                thread.post_later(delay, partial(thread.post, done.set))
+                end = time.monotonic() + timeout
+                # A worker that is closed meanwhile drops what was posted to it.
+                while not done.wait(0.02) and thread.is_alive():
+                    assert time.monotonic() < end, "a session hangs"
 
 
 def _build_fence(server: viser.ViserServer) -> None:

@@ -7,6 +7,7 @@ A message is a list: the id of a row, the new value, and for what a hand does in
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, cast
@@ -39,10 +40,6 @@ class NewValue:
     gesture: int | None
 
 
-class ValueRefused(UsageError):
-    """A value that a row cannot have."""
-
-
 def read(message: object) -> NewValue | None:
     """What a browser has sent; None when it is not an edit."""
     if not isinstance(message, list) or not 2 <= len(cast("list[Any]", message)) <= 3:
@@ -60,11 +57,11 @@ def checked(row: Row, value: Json) -> Any:
     """A value that the row's `set` may be called with.
 
     Raises:
-        ValueRefused: it has another type, is outside the limits or not offered, or the
+        UsageError: it has another type, is outside the limits or not offered, or the
             row cannot be set at present.
     """
     if row.set is None or not row.enabled:
-        raise ValueRefused(f"'{text(row.name)}' cannot be changed at present")
+        raise UsageError(f"'{text(row.name)}' cannot be changed at present")
     if row.kind in ("int", "float", "slider"):
         return _number(row, value)
     if row.kind in ("bool", "display") and isinstance(value, bool):
@@ -79,22 +76,22 @@ def checked(row: Row, value: Json) -> Any:
         return _numbers(row, value, len(cast("list[Any]", row.value)))
     if row.kind == "action":
         return _arguments(row, value)
-    raise ValueRefused(f"'{text(row.name)}' does not take {_shown(value)}")
+    raise UsageError(f"'{text(row.name)}' does not take {_shown(value)}")
 
 
 def _number(row: Row, value: Json) -> float:
     number = None if isinstance(value, bool) else finite(value)
     if number is None or abs(number) > LARGEST:
-        raise ValueRefused(f"'{text(row.name)}' needs a number, not {_shown(value)}")
+        raise UsageError(f"'{text(row.name)}' needs a number, not {_shown(value)}")
     low = -math.inf if row.least is None else row.least
     high = math.inf if row.most is None else row.most
     if not low <= number <= high:
         limits = f"{low:.6g} … {high:.6g} {row.unit}".strip()
-        raise ValueRefused(
+        raise UsageError(
             f"'{text(row.name)}' cannot be {number:.6g}: its limits are {limits}"
         )
     if row.kind == "int" and number != int(number):
-        raise ValueRefused(f"'{text(row.name)}' needs a whole number")
+        raise UsageError(f"'{text(row.name)}' needs a whole number")
     return int(number) if row.kind == "int" else number
 
 
@@ -103,19 +100,16 @@ def _option(row: Row, value: Json) -> str:
     for option in row.options:
         if value == text(option, 200):
             return option
-    raise ValueRefused(f"'{text(row.name)}' does not offer {_shown(value)}")
+    raise UsageError(f"'{text(row.name)}' does not offer {_shown(value)}")
 
 
 def _short(row: Row, value: str) -> str:
     if len(value) > LONGEST_TEXT:
-        raise ValueRefused(
-            f"'{text(row.name)}' takes at most {LONGEST_TEXT} characters"
-        )
+        raise UsageError(f"'{text(row.name)}' takes at most {LONGEST_TEXT} characters")
     # What cannot be encoded must never reach viser's buffer.
-    if not value.isascii() and text(value, LONGEST_TEXT) != value:
-        raise ValueRefused(
-            f"'{text(row.name)}' contains a character that cannot be seen"
-        )
+    shown = re.sub(r"[\t\r\n]", " ", value)
+    if text(shown, LONGEST_TEXT) != shown:
+        raise UsageError(f"'{text(row.name)}' contains a character that cannot be seen")
     return value
 
 
@@ -124,7 +118,7 @@ def _numbers(row: Row, value: Json, count: int) -> tuple[float, ...]:
     numbers = [None if isinstance(part, bool) else finite(part) for part in parts]
     known = tuple(n for n in numbers if n is not None and abs(n) <= LARGEST)
     if len(known) != count or len(numbers) != count:
-        raise ValueRefused(f"'{text(row.name)}' needs {count} numbers")
+        raise UsageError(f"'{text(row.name)}' needs {count} numbers")
     return known
 
 
@@ -137,7 +131,7 @@ def _arguments(row: Row, value: Json) -> tuple[Any, ...]:
     if value is None and not row.takes:
         return ()
     if not fits:
-        raise ValueRefused(f"'{text(row.name)}' does not take {_shown(value)}")
+        raise UsageError(f"'{text(row.name)}' does not take {_shown(value)}")
     return tuple(_argument(row, part) for part in parts)
 
 
@@ -145,11 +139,11 @@ def _argument(row: Row, part: Json) -> Any:
     if isinstance(part, str):
         return _short(row, part)
     if isinstance(part, int | float) and not math.isfinite(part):
-        raise ValueRefused(f"'{text(row.name)}' needs a number")
+        raise UsageError(f"'{text(row.name)}' needs a number")
     if isinstance(part, list):
         parts = cast("list[Any]", part)
         if len(parts) > _MOST_PARTS or any(isinstance(p, list | dict) for p in parts):
-            raise ValueRefused(f"'{text(row.name)}' does not take such a list")
+            raise UsageError(f"'{text(row.name)}' does not take such a list")
         return [_argument(row, p) for p in parts]
     return part
 
