@@ -1,0 +1,73 @@
+"""Makes the pictures of the README: what a newcomer sees, light and at 1280×720.
+
+    python docs/make_pictures.py
+
+It needs sambot-viz and a Chromium or Chrome on this machine.
+"""
+
+from __future__ import annotations
+
+import base64
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from sambot_viz.export.chromium import Chromium
+
+ROOT = Path(__file__).resolve().parents[1]
+PICTURES = ROOT / ".github"
+SIZE = (1280, 720)
+DRAWN = "window.sambotVizLook?.frames > 20"
+TWO_FRAMES = (
+    "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+)
+
+
+def take(arguments: Sequence[str], picture: Path, seen: str) -> None:
+    """Start the program, open its page, and keep a picture of it.
+
+    Args:
+        arguments: of the command line.
+        picture: the PNG file to write.
+        seen: JavaScript that is true when the page shows what the picture is about.
+    """
+    command = [sys.executable, "-m", "sambot_viz", "--port", "0", *arguments]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
+        try:
+            assert program.stdout is not None
+            url = program.stdout.readline().strip()
+            with Chromium(timeout=60.0) as browser:
+                page = browser.open(width=SIZE[0], height=SIZE[1])
+                page.goto(f"{url}/?fixedDpr=1")
+                page.wait_for(f"({seen}) && {DRAWN}", timeout=60.0)
+                page.evaluate(TWO_FRAMES)
+                shot = page.call("Page.captureScreenshot", {"format": "png"})
+            picture.write_bytes(base64.b64decode(shot["data"]))
+        finally:
+            program.terminate()
+
+
+def main() -> None:
+    """Make both pictures."""
+    model = ROOT / "assets" / "sam_bot.urdf.xacro"
+    take(
+        ["--model", str(model)],
+        PICTURES / "sam_bot.png",
+        "document.querySelectorAll('[role=slider], input[type=range]').length > 1",
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = Path(folder) / "my_robot.urdf.xacro"
+        # The mistake of many beginners: the robot is closed before its links.
+        first, rest = model.read_text("utf-8").split("<xacro:property", 1)
+        wrong.write_text(f"{first}</robot>\n  <xacro:property{rest}", "utf-8")
+        take(
+            ["--model", str(wrong)],
+            PICTURES / "problem.png",
+            "document.body.innerText.includes('too early')",
+        )
+
+
+if __name__ == "__main__":
+    main()
