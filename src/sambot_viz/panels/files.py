@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session import Session
@@ -30,7 +30,7 @@ class Files(Protocol):
         """Show another .rviz file.
 
         Raises:
-            SambotVizError: it cannot be read.
+            ConfigError: it cannot be read, or is not a .rviz document.
         """
 
     def saved(self, path: Path) -> None:
@@ -163,7 +163,14 @@ class FilesPanel(Panel):
 
     def _open(self, files: Files, name: str) -> None:
         path = self._file.listed(name)
-        files.open(self._session, path)
+        try:
+            files.open(self._session, path)
+        except ConfigError as error:
+            problem = error.problems[0]
+            place = "" if problem.line is None else f"line {problem.line}: "
+            raise UsageError(
+                f"{path.name} cannot be opened: {place}{problem.message}"
+            ) from error
         self._reply("open", done=path.name)
         self._say(f"Opened {path.name} of {path.parent}", "ok")
 

@@ -7,6 +7,7 @@ from functools import partial
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import gate
+from sambot_viz.panels.add_display import AddDisplayPanel
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.files import Files
@@ -36,9 +37,7 @@ class Window:
         self._files = files
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
-        self._displays = DisplaysPanel(
-            session, lambda panel: self._shared.remake(panel)
-        )
+        self._displays = DisplaysPanel(session, self._remake)
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
         )
@@ -49,10 +48,15 @@ class Window:
 
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
-        panels: list[Panel] = [NamesPanel(session), self._displays]
+        displays = self._displays
+        panels: list[Panel] = [NamesPanel(session), displays]
+        panels.append(AddDisplayPanel(session, displays.id_of, self._remake))
         if joints:
             panels.append(JointsPanel(session))
         return panels
+
+    def _remake(self, panel: Panel) -> None:
+        self._shared.remake(panel)
 
     def close(self) -> None:
         """Follow the session no longer."""

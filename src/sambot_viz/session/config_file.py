@@ -149,7 +149,9 @@ def _refusal(name: str) -> str | None:
         return "give a name without folders"
     if name.startswith("."):
         return "a name that begins with a dot would be hidden"
-    bad = [letter for letter in name if letter in _FORBIDDEN or not letter.isprintable()]
+    bad = [
+        letter for letter in name if letter in _FORBIDDEN or not letter.isprintable()
+    ]
     if bad:
         return f"a file name cannot contain {text(bad[0])}"
     if name.endswith((".", " ")):
