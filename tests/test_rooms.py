@@ -96,15 +96,16 @@ ROOMS: Mapping[str, Row] = {
     "session": Row(
         "bundled checks displays drive frames joints meshes options problem_groups "
         "robot rviz tools views viser_private",
-        "PIL numpy viser",
+        "numpy viser",
         "asyncio concurrent",
     ),
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "_version displays drive frames joints options page problem_groups "
-        "problem_text robot rviz session tools views viser_private",
-        "numpy viser",
+        "bundled displays drive frames joints options page problem_groups problem_text "
+        "robot rviz session tools views viser_private",
+        "PIL numpy viser",
+        "asyncio",
     ),
     "server": Row(
         "displays joints meshes open_config options page panels robot rviz session "

@@ -1,43 +1,28 @@
-"""What many rows of the page need to know: the frames there are, the version."""
+"""Lists that rows of the page choose from: the frames there are."""
 
 from __future__ import annotations
 
-import secrets
-import weakref
 from collections.abc import Sequence
 
-from sambot_viz._version import __version__
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
 from sambot_viz.session import Session
 
 
 class NamesPanel(Panel):
-    """Facts without a panel of their own.
+    """The frames, for every row whose value is a frame.
 
     Args:
-        session: whose facts these are.
+        session: whose frames these are.
     """
 
     name = "names"
-    remade_by = frozenset({"robot", "frames", "config"})
+    remade_by = frozenset({"robot", "frames"})
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        # A page that comes back after a restart finds another number here.
-        self._number = secrets.token_hex(8)
-        self._document = weakref.ref(session.config)
-        self._documents = 0
 
     def rows(self) -> Sequence[Row]:
-        """The frames, which session and which document this is, and the version."""
-        if self._document() is not self._session.config:
-            self._document = weakref.ref(self._session.config)
-            self._documents += 1
+        """One list."""
         frames = sorted(self._session.tree.frames)
-        return [
-            Row("names/frames", "", "names", value=frames),
-            Row("names/session", "", "names", value=self._number),
-            Row("names/document", "", "names", value=self._documents),
-            Row("names/version", "", "names", value=__version__),
-        ]
+        return [Row("names/frames", "", "names", value=frames)]

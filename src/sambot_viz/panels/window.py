@@ -7,14 +7,13 @@ from functools import partial
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import gate
-from sambot_viz.panels.add_display import AddDisplayPanel
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
-from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.publisher import Publisher
+from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
 
@@ -27,17 +26,13 @@ class Window:
     Args:
         session: what they show.
         joints: whether there are panels to move joints (``--no-gui`` leaves them out).
-        files: the disk; None when the browsers may not use it.
     """
 
-    def __init__(
-        self, session: Session, joints: bool = True, files: Files | None = None
-    ) -> None:
+    def __init__(self, session: Session, joints: bool = True) -> None:
         self._session = session
-        self._files = files
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
-        self._displays = DisplaysPanel(session, self._remake)
+        self._status_bar = StatusBarPanel(session)
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
         )
@@ -48,15 +43,11 @@ class Window:
 
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
-        displays = self._displays
-        panels: list[Panel] = [NamesPanel(session), displays]
-        panels.append(AddDisplayPanel(session, displays.id_of, self._remake))
+        panels: list[Panel] = [NamesPanel(session), self._status_bar]
+        panels.append(DisplaysPanel(session, lambda panel: self._shared.remake(panel)))
         if joints:
             panels.append(JointsPanel(session))
         return panels
-
-    def _remake(self, panel: Panel) -> None:
-        self._shared.remake(panel)
 
     def close(self) -> None:
         """Follow the session no longer."""
@@ -73,13 +64,12 @@ class Window:
 
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:
-            self._browsers[browser.client_id] = BrowserPanels(
-                self._session, browser, self._files, self._displays.keep_unfolded
-            )
+            self._browsers[browser.client_id] = BrowserPanels(self._session, browser)
         else:
             panels = self._browsers.pop(browser.client_id, None)
             if panels is not None:
                 panels.close()
+        self._shared.remake(self._status_bar)
 
     # What browsers send
 
