@@ -1,9 +1,12 @@
 // @ts-check
 /* The value of a row, and how a hand changes it: one component for each kind. */
 
-import { html, useEffect, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
+import { html, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
 import { act, newGesture, rows, send } from "./channel.js";
+import { copy } from "./clipboard.js";
 import { Combo } from "./combo.js";
+import { Icon } from "./icons.js";
+import { refusals, refuse } from "./notices.js";
 import { clamped, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
 import { degrees, useRow } from "./state.js";
 
@@ -21,16 +24,7 @@ export function shownUnit(row, inDegrees = degrees.value) {
   return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
 }
 
-/** Why the last value was refused, by the id of its row, until the next edit. @type {Map<string, string>} */
-export const refusals = new Map();
-
-/** @param {string} id @param {string} [why] */
-export function refuse(id, why) {
-  const told = [...refusals.keys()];
-  refusals.clear();
-  if (why) refusals.set(id, why);
-  for (const other of new Set([...told, id])) rows.notify(other);
-}
+export { refusals, refuse };
 
 /**
  * The value cell of a row.
@@ -326,9 +320,16 @@ function ComboCell({ row, tab, options }) {
     accept=${(/** @type {string} */ chosen) => { refuse(row.id); send(row.id, chosen); }} />`;
 }
 
-/** @param {{row: Row}} props */
-function FactCell({ row }) {
-  return html`<span class="fact" title=${String(row.value)}>${row.value}</span>`;
+/** @param {{row: Row, tab: number}} props */
+function FactCell({ row, tab }) {
+  return html`<span class="fact" title=${String(row.value)}>${row.value}</span>
+    ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;
+}
+
+/** @param {{row: Row, tab: number}} props */
+export function CopyButton({ row, tab }) {
+  return html`<button class="flat copy" tabindex=${tab} aria-label=${`Copy ${row.name}`} title=${`Copy ${row.name}`}
+    onClick=${() => copy(String(row.value), row.name || "the text")}><${Icon} name="copy" /></button>`;
 }
 
 /** @type {Record<string, any>} */
@@ -336,12 +337,5 @@ const CELLS = {
   bool: Box, int: NumberCell, float: NumberCell, slider: SliderCell, text: TextCell,
   file: TextCell, vector: VectorCell, color: ColorCell, enum: EnumCell, frame: FrameCell,
   fact: FactCell, display: (/** @type {any} */ { row, tab }) => row.fixed ? null : html`<${Box} row=${row} tab=${tab} />`,
-  status: (/** @type {any} */ { row }) => (row.name !== "Status" && row.name !== "Global Status" ? html`<${FactCell} row=${row} />` : null),
+  status: (/** @type {any} */ { row, tab }) => (row.name !== "Status" && row.name !== "Global Status" ? html`<${FactCell} row=${row} tab=${tab} />` : null),
 };
-
-/** Show why an edit was refused, where it was made. */
-export function useNotices() {
-  const notice = useRow("notice")?.value;
-  useEffect(() => { if (notice?.row) refuse(notice.row, notice.text); }, [notice?.number]);
-  return notice;
-}

@@ -1,26 +1,65 @@
 // @ts-check
-/* Keys for the whole window. None acts while a text is being typed. */
+/* Keys for the whole window. None acts while a text is typed or a dialog is open. */
 
-import { act, rows } from "./channel.js";
+/** @typedef {{key: string, code?: string, ctrlKey?: boolean, metaKey?: boolean, altKey?: boolean,
+ *   shiftKey?: boolean, repeat?: boolean}} Key */
+/** What a key does: an action of a row with its values, or "hide" for the panels.
+ * @typedef {{act: string, with?: any[]} | "hide"} Meaning */
 
-/** Whether what has the focus takes letters. @param {EventTarget | null} target */
+const NO_LETTERS = new Set(["checkbox", "range", "color", "radio", "button", "submit", "reset", "file"]);
+
+/** Whether what has the focus takes letters. @param {any} target */
 export function isTyping(target) {
-  return target instanceof Element && target.matches(
-    "textarea, select, [contenteditable], input:not([type=checkbox]):not([type=range]):not([type=color]):not([type=radio])");
+  const tag = String(target?.tagName || "").toUpperCase();
+  if (tag === "INPUT") return !NO_LETTERS.has(target.type);
+  return tag === "TEXTAREA" || tag === "SELECT" || Boolean(target?.isContentEditable);
 }
 
-export function listenToKeys() {
+/** The letter of a key; on a keyboard without Latin letters, the one at its place. @param {Key} event */
+function letter({ key, code = "" }) {
+  const named = key.length > 1 || /^[\x20-\x7e]$/.test(key);
+  return (named ? key : code.replace(/^Key/, "")).toLowerCase();
+}
+
+/**
+ * What a key means while nothing is typed.
+ * @param {Key} event
+ * @param {{name: string, key: string}[]} tools
+ * @param {[number | null, number | null]} mouse where it is in the view, for Focus
+ * @returns {Meaning | undefined}
+ */
+export function meaning(event, tools, mouse = [null, null]) {
+  const key = letter(event);
+  if (event.altKey) return undefined;
+  if (event.ctrlKey || event.metaKey) {
+    if (key === "z") return { act: event.shiftKey ? "edit/redo" : "edit/undo" };
+    return key === "y" ? { act: "edit/redo" } : undefined;
+  }
+  // A key that is held would go to and fro.
+  if (event.repeat) return undefined;
+  if (key === "escape") return { act: "tools/escape" };
+  const tool = tools.find((one) => one.key === key);
+  if (tool) return { act: "tools/press", with: [tool.name] };
+  if (key === "f") return { act: "tools/focus", with: mouse };
+  if (key === "z") return { act: "tools/zero" };
+  if (key === "r") return { act: "tools/reset" };
+  return key === "h" ? "hide" : undefined;
+}
+
+/** What keeps the keys of the window for itself. */
+const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
+
+/**
+ * Follow the keyboard.
+ * @param {{tools: () => {name: string, key: string}[], mouse: () => [number | null, number | null],
+ *   act: (id: string, args?: any[]) => void, hide: () => void}} window
+ */
+export function listenToKeys({ tools, mouse, act, hide }) {
   addEventListener("keydown", (event) => {
-    if (event.defaultPrevented || event.altKey) return;
-    const key = event.key.toLowerCase();
-    if (event.ctrlKey || event.metaKey) {
-      if (key === "z" && !isTyping(event.target)) { act(event.shiftKey ? "edit/redo" : "edit/undo"); event.preventDefault(); }
-      return;
-    }
-    if (isTyping(event.target)) return;
-    if (event.key === "Escape") return act("tools/escape");
-    for (const id of rows.children("panel:tools")) {
-      if (rows.get(id)?.key === key) return act(id);
-    }
+    if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
+    const does = meaning(event, tools(), mouse());
+    if (!does) return;
+    if (does === "hide") hide(); else act(does.act, does.with);
+    event.preventDefault();
   });
 }

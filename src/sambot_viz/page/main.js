@@ -3,9 +3,12 @@
 
 import "./bare.js";
 import { html, render } from "./vendor/preact.js";
-import { connect } from "./channel.js";
+import { act, connect, newGesture, rows, send } from "./channel.js";
 import { listenToKeys } from "./keys.js";
-import { Window } from "./window.js";
+import { tellView } from "./panels/views.js";
+import { followMouse, mousePlace } from "./pointer.js";
+import { toolKeys } from "./toolbar.js";
+import { togglePanels, Window } from "./window.js";
 
 const start = () => {
   const host = document.createElement("div");
@@ -13,7 +16,11 @@ const start = () => {
   document.body.append(host);
   document.body.classList.add("sambot-window");
   render(html`<${Window} />`, host);
-  listenToKeys();
+  listenToKeys({ tools: toolKeys, mouse: mousePlace, act, hide: togglePanels });
+  const hovering = newGesture();
+  const wanted = () => rows.children("panel:tools").some((id) => rows.get(id)?.hover);
+  followMouse(wanted, (place) => send("tools/hover", place, hovering));
+  tellView();
   connect();
 };
 // The script may be there before the page's body is.

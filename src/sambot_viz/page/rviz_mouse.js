@@ -76,11 +76,4 @@
   window.addEventListener("keydown", (event) => {
     if (event.code === "KeyS") document.dispatchEvent(new KeyboardEvent("keyup", { code: "KeyS" }));
   });
-
-  window.addEventListener("keydown", (event) => {
-    const typing = event.target instanceof Element
-      && event.target.closest("input, textarea, select");
-    if (event.code === "KeyH" && !typing && !event.ctrlKey && !event.metaKey && !event.altKey)
-      document.body.classList.toggle("sambot-bare");
-  });
 })();

@@ -1,15 +1,64 @@
 // @ts-check
-/* The status bar: what the tool can do, and what was said last. */
+/* The status bar: Reset, the tool's hint, what is being read, what was said last, and
+ * how the page is doing. Its parts have their places, so that nothing jumps. */
 
-import { html } from "./vendor/preact.js";
-import { useNotices } from "./cells.js";
+import { html, useEffect, useState } from "./vendor/preact.js";
+import { act } from "./channel.js";
+import { notice } from "./notices.js";
 import { useRow } from "./state.js";
 
+/** How long a sentence that is not about a mistake stays [ms]. */
+const SAID = 8000;
+
 export function StatusBar() {
-  const hint = useRow("tools/hint");
-  const notice = useNotices();
-  return html`<footer class="statusbar" role="status">
-    <span class="hint">${hint?.value || ""}</span>
-    ${notice && html`<span class=${`notice l-${notice.level}`}>${notice.text}</span>`}
+  const hint = useRow("tools/hint")?.value || "";
+  return html`<footer class="statusbar" aria-label="Status bar">
+    <button title="Reset (R): draw everything again, with meshes as they are in their files"
+      aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
+    <span class="hint" role="status" title=${hint}>${hint}</span>
+    <${Said} />
+    <${Progress} />
+    <${Browsers} />
+    <${FramesPerSecond} />
   </footer>`;
+}
+
+/** What was said last; a refusal stays until the next sentence. */
+function Said() {
+  const said = notice.use();
+  useEffect(() => {
+    if (!said || said.level === "error") return undefined;
+    const timer = setTimeout(() => notice.set(null), SAID);
+    return () => clearTimeout(timer);
+  }, [said]);
+  return html`<span class=${`notice l-${said?.level || "none"}`} role="alert" title=${said?.text || ""}>${said?.text || ""}</span>`;
+}
+
+function Progress() {
+  const read = useRow("statusbar/progress")?.value;
+  if (!read) return null;
+  const words = `Reading meshes and textures: ${read[0]} of ${read[1]}`;
+  return html`<span class="progress" title=${words}>${words}
+    <progress aria-label=${words} value=${read[0]} max=${read[1]}></progress></span>`;
+}
+
+function Browsers() {
+  const count = useRow("statusbar/browsers")?.value || 0;
+  if (count < 2) return null;
+  return html`<span class="browsers" title="So many pages show this robot">${count} browsers</span>`;
+}
+
+/** Pictures drawn in the last second; none are drawn while nothing changes. */
+function FramesPerSecond() {
+  const [drawn, setDrawn] = useState(0);
+  useEffect(() => {
+    let before = window.sambotVizLook?.frames || 0;
+    const timer = setInterval(() => {
+      const now = window.sambotVizLook?.frames || 0;
+      setDrawn(now - before);
+      before = now;
+    }, 1000);
+    return () => clearInterval(timer);
+  }, []);
+  return html`<span class="fps" title="Pictures drawn in the last second; while nothing moves, none are">${drawn > 1 ? `${drawn} fps` : "at rest"}</span>`;
 }

@@ -3,8 +3,9 @@
 
 import { html, useEffect, useRef } from "./vendor/preact.js";
 import { act, rows, send } from "./channel.js";
-import { refusals, ValueCell } from "./cells.js";
+import { CopyButton, ValueCell } from "./cells.js";
 import { Icon } from "./icons.js";
+import { refusals } from "./notices.js";
 import { fold, folds, isOpen, select, selected, useRow } from "./state.js";
 
 /** @typedef {import("./rows.js").Row} Row */
@@ -20,7 +21,7 @@ export function visible(panel, wanted) {
   const walk = (key, depth) => {
     for (const id of rows.children(key)) {
       const row = rows.get(id);
-      if (!row || HIDDEN.has(row.kind)) continue;
+      if (!row || HIDDEN.has(row.kind) || row.apart) continue;
       const inside = rows.children(id).length > 0;
       if (!wanted || wanted(row)) found.push({ id, depth });
       if (inside && (wanted || isOpen(id))) walk(id, depth + 1);
@@ -44,10 +45,12 @@ export function setOpen(panel, id, open) {
  * @param {{panel: string, label: string, wanted?: (row: Row) => boolean,
  *   onKey?: (event: KeyboardEvent, row: Row) => boolean | void,
  *   onMenu?: (event: any, row: Row) => void, renaming?: string, rename?: (id: string, name: string | null) => void,
+ *   onDouble?: (row: Row) => boolean,
  *   drag?: (event: any, row: Row) => void}} props
  *   onKey: more keys on a selected row; it returns whether it used the key
+ *   onDouble: what a double click does; it returns whether it did anything
  */
-export function Tree({ panel, label, wanted, onKey, onMenu, renaming, rename, drag }) {
+export function Tree({ panel, label, wanted, onKey, onMenu, onDouble, renaming, rename, drag }) {
   useRow(`panel:${panel}`);
   folds.use();
   const chosen = selected.use()[panel];
@@ -99,13 +102,13 @@ export function Tree({ panel, label, wanted, onKey, onMenu, renaming, rename, dr
   };
   return html`<div class="tree" role="treegrid" aria-label=${label} data-panel=${panel} ref=${element} onKeyDown=${key}>
     ${shown.map(({ id, depth }) => html`<${RowView} key=${id} id=${id} depth=${depth} panel=${panel}
-      current=${id === current} chosen=${id === chosen} onMenu=${onMenu} drag=${drag}
+      current=${id === current} chosen=${id === chosen} onMenu=${onMenu} onDouble=${onDouble} drag=${drag}
       renaming=${renaming === id} rename=${rename} />`)}
   </div>`;
 }
 
 /** @param {any} props */
-function RowView({ id, depth, panel, current, chosen, onMenu, renaming, rename, drag }) {
+function RowView({ id, depth, panel, current, chosen, onMenu, onDouble, renaming, rename, drag }) {
   const row = /** @type {Row | undefined} */ (useRow(id));
   if (!row) return null;
   const opens = canOpen(id), open = opens && isOpen(id);
@@ -119,15 +122,16 @@ function RowView({ id, depth, panel, current, chosen, onMenu, renaming, rename, 
       onfocusin=${() => select(panel, id)}
       onPointerDown=${(/** @type {any} */ e) => { if (e.button === 0 && !e.target.closest("input, select, button, .twist")) { select(panel, id); drag?.(e, row); } }}
       onContextMenu=${(/** @type {any} */ e) => { if (onMenu && !e.target.matches("input")) { e.preventDefault(); select(panel, id); onMenu(e, row); } }}>
-    ${wide ? html`<span class="wide" role="gridcell">${row.kind === "lines" ? html`<pre>${row.value}</pre>` : row.value}</span>` : html`
-    <span class="name" role="gridcell" onDblClick=${() => (row.bold && rename ? rename(id, null) : opens && setOpen(panel, id, !open))}>
+    ${wide ? html`<span class="wide" role="gridcell">${row.kind === "lines" ? html`<pre>${row.value}</pre>` : row.value}</span>
+      ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}` : html`
+    <span class="name" role="gridcell" onDblClick=${() => (onDouble?.(row) ? undefined : row.bold && rename ? rename(id, null) : opens && setOpen(panel, id, !open))}>
       <span class=${`twist${opens ? (open ? " open" : "") : " none"}`} aria-hidden="true"
         onClick=${() => opens && setOpen(panel, id, !open)}></span>
       ${(row.icon || row.level) && html`<${Icon} name=${row.kind === "status" ? row.level : row.icon || row.level} />`}
       ${renaming ? html`<${NameField} row=${row} done=${rename} />`
         : html`<span class="label" title=${row.name}>${row.name}${label(row)}</span>`}
     </span>
-    <span class="value" role="gridcell"><${ValueCell} row=${row} tab=${tab} /></span>`}
+    <span class="value" role="gridcell" onDblClick=${(/** @type {any} */ e) => e.target.closest("input, select, button") || onDouble?.(row)}><${ValueCell} row=${row} tab=${tab} /></span>`}
     ${why && html`<span class="why" role="alert">${why}</span>`}
   </div>`;
 }

@@ -11,6 +11,8 @@ interface Window {
     cameraControl: any;
     backgroundMaterial: any;
   };
+  /** What the window tells the scripts that draw and move the view. */
+  sambotViz?: { view?: { kind: string, focalSize: number, focalFixed: boolean } };
   /** What rviz_look.js has changed, for tests. */
   sambotVizLook?: Record<string, number>;
   /** The type of view that rviz_mouse.js follows, for tests. */

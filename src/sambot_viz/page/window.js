@@ -4,7 +4,9 @@
 import { html, useEffect, useRef } from "./vendor/preact.js";
 import { rows } from "./channel.js";
 import { DisplaysPanel } from "./panels/displays.js";
+import { FramesPanel } from "./panels/frames.js";
 import { JointsPanel } from "./panels/joints.js";
+import { ViewsPanel } from "./panels/views.js";
 import { StatusBar } from "./status_bar.js";
 import { Toolbar } from "./toolbar.js";
 import { Tree } from "./tree.js";
@@ -32,16 +34,20 @@ addEventListener("resize", () => shape.set(measure()));
  */
 const TABS = {
   joints: { title: "Joints", content: JointsPanel },
-  frames: { title: "Frames", content: () => html`<${Tree} panel="frames" label="Frames" />` },
+  frames: { title: "Frames", content: FramesPanel },
   selection: { title: "Selection", content: () => html`<${Tree} panel="selection" label="Selection" />` },
   drive: { title: "Drive", content: () => html`<${Tree} panel="drive" label="Drive" />` },
+  tool_properties: { title: "Tool Properties", content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />` },
 };
 const SHEET = {
   ...TABS,
   displays: { title: "Displays", content: DisplaysPanel },
-  views: { title: "Views", content: () => html`<${Tree} panel="views" label="Views" />` },
+  views: { title: "Views", content: ViewsPanel },
   problems: { title: "Problems", content: () => html`<${Tree} panel="problems" label="Problems" />` },
 };
+
+/** Hide all panels, or bring them back. */
+export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
 
 export function Window() {
   const form = shape.use(), away = hidden.use(), size = sizes.use();
@@ -52,7 +58,7 @@ export function Window() {
     ${!away.all && html`<${Toolbar} />`}
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
-    ${away.all && html`<button class="back" onClick=${() => hidden.set({ ...away, all: false })}>Show panels (H)</button>`}
+    ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
     ${!away.all && html`<${StatusBar} />`}
@@ -85,12 +91,12 @@ export function Section({ title, name, children }) {
 
 function Left() {
   const away = hidden.use();
+  useRow("panel:views");
   if (away.left) return html`<${Tab} side="left" />`;
   return html`<aside class="left">
     <${DisplaysPanel} />
-    ${rows.children("panel:views").length > 0 && html`<section class="panel views" aria-label="Views" style=${`height:${sizes.value.views}px`}>
-      <${Splitter} side="views" label="Height of Views" />
-      <header class="title">Views</header><${Tree} panel="views" label="Views" /></section>`}
+    ${rows.children("panel:views").length > 0 && html`<div class="lower" style=${`height:${sizes.value.views}px`}>
+      <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`}
     <${Splitter} side="left" label="Width of the left panels" />
   </aside>`;
 }

@@ -13,6 +13,7 @@ from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.publisher import Publisher
+from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
 
@@ -31,6 +32,7 @@ class Window:
         self._session = session
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
+        self._status_bar = StatusBarPanel(session)
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
         )
@@ -41,7 +43,7 @@ class Window:
 
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
-        panels: list[Panel] = [NamesPanel(session)]
+        panels: list[Panel] = [NamesPanel(session), self._status_bar]
         panels.append(DisplaysPanel(session, lambda panel: self._shared.remake(panel)))
         if joints:
             panels.append(JointsPanel(session))
@@ -67,6 +69,7 @@ class Window:
             panels = self._browsers.pop(browser.client_id, None)
             if panels is not None:
                 panels.close()
+        self._shared.remake(self._status_bar)
 
     # What browsers send
 

@@ -1,0 +1,92 @@
+// @ts-check
+/* The Frames panel: where one frame is in another, and static transforms to add. */
+
+import { html, useEffect, useRef, useState } from "../vendor/preact.js";
+import { act, rows } from "../channel.js";
+import { Combo } from "../combo.js";
+import { refusals, refuse } from "../notices.js";
+import { parseNumber } from "../numbers.js";
+import { degrees, fold, isOpen, selected, useRow } from "../state.js";
+import { Tree } from "../tree.js";
+
+/** @typedef {import("../rows.js").Row} Row */
+
+export function FramesPanel() {
+  const shown = useRow("frames/shown")?.value;
+  // The answer follows motions only while somebody can see it.
+  useEffect(() => { if (shown === false) act("frames/shown", [true]); }, [shown]);
+  useEffect(() => () => act("frames/shown", [false]), []);
+  const chosen = useRow(selected.use().frames || "none");
+  const of = chosen?.static ? chosen : rows.get(chosen?.in || "")?.static ? rows.get(chosen?.in || "") : undefined;
+  const remove = () => of && act("frames/remove", [of.id]);
+  /** @param {KeyboardEvent} event @param {Row} row */
+  const key = (event, row) => {
+    if (event.key !== "Delete" || !row.static) return false;
+    remove();
+    return true;
+  };
+  return html`<div class="frames">
+    <${Tree} panel="frames" label="Frames" onKey=${key} />
+    <${Add}>
+      <button disabled=${!of} title="Remove the chosen static transform (Delete)" onClick=${remove}>Remove</button>
+    </${Add}>
+  </div>`;
+}
+
+const LENGTHS = ["x", "y", "z"], ANGLES = ["roll", "pitch", "yaw"];
+
+/** Fields for a new static transform, and a place to paste one. @param {{children?: any}} props */
+function Add({ children }) {
+  const open = isOpen("frames/form");
+  useRow("frames/form");
+  const why = useRow("frames/add") && (refusals.get("frames/add") || refusals.get("frames/paste"));
+  useRow("frames/paste");
+  const [wrong, setWrong] = useState("");
+  const said = wrong || why;
+  const show = () => { fold("frames/form", !open); rows.notify("frames/form"); };
+  return html`<div class="buttons">
+      <button aria-expanded=${String(open)} onClick=${show}>Add static transform …</button>${children}
+    </div>
+    ${open && html`<${Form} setWrong=${setWrong} />`}
+    ${open && said && html`<div class="why" role="alert">${said}</div>`}`;
+}
+
+/** @param {{setWrong: (why: string) => void}} props */
+function Form({ setWrong }) {
+  const inDegrees = degrees.use();
+  useRow("names/frames");
+  useRow("frames/from");
+  const form = useRef(/** @type {any} */ (null));
+  const [parent, setParent] = useState(/** @type {string | null} */ (null));
+  const within = parent ?? rows.value("frames/from") ?? "";
+  const angle = inDegrees ? "°" : "rad";
+  /** @param {string} name */
+  const typed = (name) => form.current.querySelector(`[name=${name}]`).value;
+  const begin = () => { setWrong(""); refuse("frames/add"); refuse("frames/paste"); };
+  /** @param {Event} event */
+  const add = (event) => {
+    event.preventDefault();
+    begin();
+    if (typed("pasted").trim()) return act("frames/paste", [typed("pasted")]);
+    /** @type {number[]} */
+    const numbers = [];
+    for (const name of [...LENGTHS, ...ANGLES]) {
+      const read = parseNumber(typed(name) || "0", LENGTHS.includes(name) ? "m" : angle);
+      if ("error" in read) return setWrong(`${name}: ${read.error}`);
+      numbers.push(read.value);
+    }
+    return act("frames/add", [...numbers, within, typed("child")]);
+  };
+  /** @param {string} name @param {string} unit */
+  const number = (name, unit) => html`<label>${name} <input name=${name} inputmode="decimal" autocomplete="off" placeholder="0" />
+    <span class="unit">${unit}</span></label>`;
+  return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
+    ${LENGTHS.map((name) => number(name, "m"))}
+    ${ANGLES.map((name) => number(name, angle))}
+    <label class="wide">Parent <${Combo} label="Parent" value=${within} options=${rows.value("names/frames") || []} tab=${0} accept=${setParent} /></label>
+    <label class="wide">Child <input name="child" autocomplete="off" spellcheck=${false} placeholder="base_laser" /></label>
+    <label class="wide">Or paste <input name="pasted" autocomplete="off" spellcheck=${false} aria-label="Arguments of static_transform_publisher"
+      placeholder="x y z yaw pitch roll parent child" title="The arguments of static_transform_publisher, a command or a line of a launch file" /></label>
+    <button class="wide" type="submit">Add</button>
+  </form>`;
+}

@@ -1,0 +1,83 @@
+// @ts-check
+/* The Views panel: the type of view, its numbers, and the saved views. */
+
+import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+import { act, rows } from "../channel.js";
+import { ValueCell } from "../cells.js";
+import { fold, isOpen, select, selected, useRow } from "../state.js";
+import { Tree } from "../tree.js";
+
+/** @typedef {import("../rows.js").Row} Row */
+
+export function ViewsPanel() {
+  useRow("panel:views");
+  const type = useRow("view/type");
+  const chosen = useRow(selected.use().views || "none");
+  const [renaming, setRenaming] = useState("");
+  const saved = chosen?.saved ? chosen : undefined;
+  const use = (/** @type {Row} */ row) => act("views/use", [row.id]);
+  /** @param {string} id @param {string | null} name null begins */
+  const rename = (id, name) => {
+    if (!rows.get(id)?.saved) return;
+    if (name === null) return setRenaming(id);
+    setRenaming("");
+    if (name.trim() && name !== rows.get(id)?.name) act("views/rename", [id, name.trim()]);
+  };
+  /** @param {KeyboardEvent} event @param {Row} row */
+  const key = (event, row) => {
+    if (!row.saved) return false;
+    if (event.key === "Enter") use(row);
+    else if (event.key === "F2") rename(row.id, null);
+    else if (event.key === "Delete") act("views/remove", [row.id]);
+    else return false;
+    return true;
+  };
+  /** @param {Row} row */
+  const double = (row) => {
+    if (row.saved) use(row); else if (row.id === "view") fold(row.id, !isOpen(row.id));
+    return Boolean(row.saved) || row.id === "view";
+  };
+  return html`<section class="panel views" aria-label="Views">
+    <header class="title">Views</header>
+    <div class="above">
+      <span aria-hidden="true">Type:</span> ${type && html`<${ValueCell} row=${type} tab=${0} />`}
+      <button title="Zero (Z): bring the view to where its type begins" onClick=${() => act("tools/zero")}>Zero</button>
+    </div>
+    <${Tree} panel="views" label="Views" onKey=${key} onDouble=${double} renaming=${renaming} rename=${rename} />
+    <div class="buttons">
+      <${Save} />
+      <button disabled=${!saved} title="Look as the chosen saved view does (Enter)" onClick=${() => saved && use(saved)}>Use</button>
+      <button disabled=${!saved} title="Remove the chosen saved view (Delete)" onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
+      <button disabled=${!saved} title="Give the chosen saved view another name (F2)" onClick=${() => saved && rename(saved.id, null)}>Rename</button>
+    </div>
+  </section>`;
+}
+
+/** Saves the view, and selects the new row. */
+function Save() {
+  useRow("panel:views");
+  const before = useRef(/** @type {Set<string> | null} */ (null));
+  const saved = rows.children("panel:views").filter((id) => rows.get(id)?.saved);
+  useLayoutEffect(() => {
+    const made = before.current && saved.find((id) => !before.current?.has(id));
+    if (!made) return;
+    before.current = null;
+    select("views", made);
+  });
+  return html`<button title="Keep this view in the list below" onClick=${() => { before.current = new Set(saved); act("views/save"); }}>Save</button>`;
+}
+
+/** Tell the script that handles the mouse which view this is. */
+export function tellView() {
+  const mark = document.createElement("span");
+  mark.hidden = true;
+  document.body.append(mark);
+  const told = () => {
+    const view = rows.value("view/shown");
+    if (!view) return;
+    window.sambotViz = { ...window.sambotViz, view };
+    mark.dataset.sambotView = view.kind;
+  };
+  rows.listen("view/shown", told);
+  told();
+}

@@ -1,0 +1,32 @@
+"""What the status bar shows to everyone: what is being read, and how many watch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Row
+from sambot_viz.session import Session
+
+
+class StatusBarPanel(Panel):
+    """Data of the status bar; its hint is a row of each browser.
+
+    Args:
+        session: what is shown.
+    """
+
+    name = "statusbar"
+    remade_by = frozenset({"status", "robot"})
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+
+    def rows(self) -> Sequence[Row]:
+        """How many files of how many are read, and the number of browsers."""
+        progress = self._session.context.assets.progress
+        browsers = len(self._session.browsers)
+        return [
+            Row("statusbar/progress", "", "names", value=progress),
+            Row("statusbar/browsers", "", "names", value=browsers),
+        ]
