@@ -173,7 +173,7 @@ def test_keys_choose_tools_and_clicks_select_and_measure(
     until(viewer, lambda: abs(value(session, "Yaw") - yaw - 0.1) < 1e-4)
     mouse.click(*place(viewer, (0.5, -0.3, 0.0)))
     until(viewer, lambda: "Length" in tools.status)
-    measured = float(tools.status.removeprefix("[Length: ").removesuffix("m]"))
+    measured = float(tools.status.removeprefix("[Length: ").partition("m]")[0])
     assert measured == pytest.approx(0.6, abs=0.02)
     viewer.wait_for("document.body.innerText.includes('[Length: ')")
 
