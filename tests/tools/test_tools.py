@@ -20,6 +20,7 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
+from sambot_viz.session.browser_view import BrowserView
 from sambot_viz.session.pick_rays import INLINE
 from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.tools.picking.hit import Selectable
@@ -109,6 +110,12 @@ class Browser:
         """Those of the browser, which is the only one."""
         (browser,) = self.session.browsers.values()
         return browser.tools
+
+    @property
+    def view(self) -> BrowserView:
+        """That of the browser."""
+        (browser,) = self.session.browsers.values()
+        return browser.view
 
     @property
     def current(self) -> str:
@@ -216,7 +223,7 @@ def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
         with pytest.raises(UsageError, match=r"there is no tool 'x/Y'; there are "):
             act("x/Y")
     with pytest.raises(UsageError, match=r"there is no view type 'x/Y'; there are "):
-        browser.session.views.set_kind("x/Y")
+        browser.view.set_kind("x/Y")
 
 
 # Selecting.
@@ -452,7 +459,7 @@ def test_focus_shows_the_point_under_the_mouse(browser: Browser) -> None:
 def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
     browser.trigger("Focus Camera")
     browser.click_down(0.05, 0.05)
-    focal = browser.session.views.view.config.get("Focal Point")
+    focal = browser.view.values["Focal Point"]
     assert focal == pytest.approx((0.05, 0.05, 0.09), abs=1e-3)
     assert browser.current == "Move Camera"
 
@@ -460,20 +467,20 @@ def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
 def test_over_the_background_focus_looks_one_metre_ahead(browser: Browser) -> None:
     browser.trigger("Focus Camera")
     browser.click((3.0, 0.0, 0.5), (0.0, 0.0, 1.0))
-    config = browser.session.views.view.config
-    assert config.get("Focal Point") == pytest.approx((3.0, 0.0, 1.5))
+    values = browser.view.values
+    assert values["Focal Point"] == pytest.approx((3.0, 0.0, 1.5))
 
 
 def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
     browser: Browser,
 ) -> None:
-    config = browser.session.views.view.config
+    values = browser.view.values
     browser.trigger("Focus on the selection")
-    assert config.get("Focal Point")[2] == pytest.approx(0.09, abs=0.2)
+    assert values["Focal Point"][2] == pytest.approx(0.09, abs=0.2)
     browser.trigger("Select")
     browser.click_down(-0.12, 0.18)
     browser.trigger("Focus on the selection")
-    assert config.get("Focal Point") == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
+    assert values["Focal Point"] == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
 
 
 # Settings.
@@ -516,7 +523,7 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
     assert browser.selected == ["base_link"]
     mesh.unlink()
     browser.click_down(0.0, 0.0)
-    assert np.isfinite(browser.session.views.camera.position).all()
+    assert np.isfinite(browser.view.camera.position).all()
 
 
 def test_a_click_into_a_large_mesh_is_followed_in_a_thread(

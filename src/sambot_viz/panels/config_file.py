@@ -104,6 +104,7 @@ class ConfigFile:
 
     def _write_file(self, path: Path) -> None:
         try:
+            self._store_view()
             self._session.config.save(path)
             self._session.edits.saved()
         except ConfigError as error:
@@ -136,7 +137,13 @@ class ConfigFile:
     def _take_name(self, name: Any) -> None:
         """The name is read when the button is pressed."""
 
+    def _store_view(self) -> None:
+        # The panels of one browser are rows of its own soon; until then, the first.
+        for browser in tuple(self._session.browsers.values())[:1]:
+            browser.view.store()
+
     def _download(self, client: viser.ClientHandle) -> None:
+        self._store_view()
         target = self.target
         name = DOWNLOADED if target is None else target.name
         client.send_file_download(name, self._session.config.to_yaml().encode())

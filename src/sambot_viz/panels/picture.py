@@ -105,7 +105,7 @@ async def send_picture(
     Raises:
         PictureError: the browser did not draw it.
     """
-    camera = session.views.camera_of(client.client_id)
+    camera = session.browsers[client.client_id].view.camera
     if camera.scale is not None:
         scale = camera.scale * height / client.camera.image_height
         # The page's own camera is farther away than viser draws into pictures.

@@ -15,7 +15,6 @@ import viser
 
 from sambot_viz import page, viser_private
 from sambot_viz.session import Browser, Event, Session
-from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.text import html_text
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.tool import Key, Tool
@@ -88,7 +87,9 @@ class ToolBar:
         )
 
     def _mark_html(self) -> str:
-        return page.mouse_element(self._session.views.view.kind.rpartition("/")[2])
+        browser = next(iter(self._session.browsers.values()), None)
+        kind = "" if browser is None else browser.view.view.kind
+        return page.mouse_element(kind.rpartition("/")[2])
 
     def _tool_button(self, tool: Tool | type[Tool], current: bool) -> str:
         pressed = "true" if current else "false"
@@ -108,12 +109,12 @@ class ToolBar:
 
     def _add_commands(self) -> dict[str, viser.CommandHandle]:
         """All commands, by their labels."""
-        session, views = self._session, self._session.views
+        session = self._session
 
-        def of_browser(act: Callable[[ToolControl], None], client_id: int) -> None:
+        def of_browser(act: Callable[[Browser], None], client_id: int) -> None:
             browser = session.browsers.get(client_id)
             if browser is not None:
-                act(browser.tools)
+                act(browser)
 
         actions: list[tuple[str, CommandKey | None, Action]] = []
         for tool in TOOLS.values():
@@ -121,14 +122,15 @@ class ToolBar:
             press = partial(of_browser, partial(_press, tool.kind))
             actions.append((tool.label, None, choose))
             actions.append((f"{tool.label}, as key {tool.key}", tool.key, press))
-        actions.append((FOCUS, "F", partial(of_browser, ToolControl.focus)))
-        actions.append((ZERO, "Z", partial(_ignore, views.zero)))
+        actions.append((FOCUS, "F", partial(of_browser, lambda b: b.tools.focus())))
+        actions.append((ZERO, "Z", partial(of_browser, lambda b: b.view.zero())))
         actions.append((RESET, "R", partial(_ignore, session.refresh)))
-        escape = partial(of_browser, ToolControl.escape)
+        escape = partial(of_browser, lambda b: b.tools.escape())
         actions.append(("Default tool", "escape", escape))
         for kind in VIEWS:
             label = f"View: {kind.rpartition('/')[2]}"
-            actions.append((label, None, partial(_ignore, views.set_kind, kind)))
+            set_kind = partial(_set_kind, kind)
+            actions.append((label, None, partial(of_browser, set_kind)))
         return {label: self._add(label, key, act) for label, key, act in actions}
 
     def _add(
@@ -144,12 +146,16 @@ class ToolBar:
         return command
 
 
-def _choose(kind: str, tools: ToolControl) -> None:
-    tools.choose(kind)
+def _choose(kind: str, browser: Browser) -> None:
+    browser.tools.choose(kind)
 
 
-def _press(kind: str, tools: ToolControl) -> None:
-    tools.press(kind)
+def _press(kind: str, browser: Browser) -> None:
+    browser.tools.press(kind)
+
+
+def _set_kind(kind: str, browser: Browser) -> None:
+    browser.view.set_kind(kind)
 
 
 def follow_browsers(session: Session, hear: Callable[[Event], None]) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 import viser
 
 from sambot_viz.panels.picture import PictureRows
+from sambot_viz.panels.tools import follow_browsers
 from sambot_viz.panels.widgets import (
     Input,
     add_property,
@@ -29,6 +30,7 @@ from sambot_viz.rviz import (
 )
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Event, Session
+from sambot_viz.session.browser_view import BrowserView
 from sambot_viz.text import html_text, text
 from sambot_viz.views.registry import VIEWS
 
@@ -47,7 +49,6 @@ class ViewsPanel:
 
     def __init__(self, session: Session, container: viser.GuiTabHandle) -> None:
         self._session = session
-        self._views = session.views
         self._gui = session.audience.gui
         self._container = container
         self._inputs: dict[str, tuple[Input, Property]] = {}
@@ -55,13 +56,22 @@ class ViewsPanel:
         self._built: ViewConfig | None = None
         self._saved: list[str] = []
         session.listeners.append(self._hear)
+        follow_browsers(session, self._hear)
         self._build()
 
     def close(self) -> None:
         """Follow the session no longer."""
         self._session.listeners.remove(self._hear)
 
+    @property
+    def _views(self) -> BrowserView | None:
+        # The panels of one browser are rows of its own soon; until then, the first.
+        browser = next(iter(self._session.browsers.values()), None)
+        return None if browser is None else browser.view
+
     def _hear(self, event: Event) -> None:
+        if self._views is None:
+            return
         if event in ("view", "config"):
             if self._built is not self._views.view.config:
                 self._build()
@@ -76,18 +86,20 @@ class ViewsPanel:
         if self._folder is not None:
             self._folder.remove()
         self._inputs.clear()
+        if self._views is None:
+            return
         self._built = self._views.view.config
         self._saved = self._saved_labels()
         with self._container:
             self._folder = self._gui.add_folder(None)
         with self._folder:
-            self._add_type()
-            self._add_rows()
-            self._add_saved()
+            self._add_type(self._views)
+            self._add_rows(self._views)
+            self._add_saved(self._views)
             PictureRows(self._session)
 
-    def _add_type(self) -> None:
-        gui, views = self._gui, self._views
+    def _add_type(self, views: BrowserView) -> None:
+        gui = self._gui
         view = views.view
         labels = {row_text(kind): kind for kind in VIEWS}
         kind = gui.add_dropdown(
@@ -104,8 +116,8 @@ class ViewsPanel:
         zero = gui.add_button("Zero", hint="Back to where this type starts (key Z).")
         on_click(self._session, zero, views.zero)
 
-    def _add_rows(self) -> None:
-        config = self._views.view.config
+    def _add_rows(self, views: BrowserView) -> None:
+        config = views.view.config
         for path, declared in config.declared.items():
             prop = declared.property
             if prop.support == "none" or not prop.has_value:
@@ -113,26 +125,26 @@ class ViewsPanel:
             handle = add_property(
                 self._session,
                 prop,
-                partial(self._shown_value, prop, path),
-                partial(self._views.set, path),
+                partial(self._shown_value, views, prop, path),
+                partial(views.set, path),
                 sorted(self._session.tree.frames),
             )
             self._inputs[path] = (handle, prop)
         follow = self._gui.add_checkbox(
             "Follow the presenter",
-            self._views.follow_presenter,
+            self._session.follow_presenter,
             hint="All browsers show what the camera shows that moved last.",
         )
         watch(self._session, follow, bool, self._follow)
 
-    def _shown_value(self, prop: Property, path: str) -> Any:
-        return _shown(prop, self._views.view.config.get(path))
+    def _shown_value(self, views: BrowserView, prop: Property, path: str) -> Any:
+        return _shown(prop, views.values[path])
 
     def _follow(self, on: bool) -> None:
-        self._views.follow_presenter = on
+        self._session.follow_presenter = on
 
-    def _add_saved(self) -> None:
-        gui, views = self._gui, self._views
+    def _add_saved(self, views: BrowserView) -> None:
+        gui = self._gui
         saved = self._session.config.saved_views
         with gui.add_folder("Saved views"):
             labels = self._saved or [NO_SAVED]
@@ -169,18 +181,21 @@ class ViewsPanel:
 
     def _show_values(self) -> None:
         """Bring the numbers in line with the view; only what differs is sent."""
-        for path, (handle, prop) in self._inputs.items():
-            value = self._shown_value(prop, path)
+        views = self._views
+        for path, (handle, prop) in self._inputs.items() if views else ():
+            assert views is not None
+            value = self._shown_value(views, prop, path)
             if handle.value != value:
                 handle.value = value
 
     def _offer_frames(self) -> None:
-        frames = sorted(self._session.tree.frames)
-        for path, (handle, prop) in self._inputs.items():
+        frames, views = sorted(self._session.tree.frames), self._views
+        for path, (handle, prop) in self._inputs.items() if views else ():
+            assert views is not None
             if isinstance(prop, TfFrameProperty) and isinstance(
                 handle, viser.GuiDropdownHandle
             ):
-                value = self._views.view.config.get(path)
+                value = views.values[path]
                 offered = frame_choices(prop, frames, value)
                 if handle.options != offered:
                     handle.options = offered

@@ -1,4 +1,4 @@
-"""What belongs to one browser alone: its tool, its selection, its camera."""
+"""What belongs to one browser alone: its tool, its selection, its view."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import viser
 
+from sambot_viz.session.browser_view import BrowserView
 from sambot_viz.session.shared_state import Event, Listener
 from sambot_viz.session.tool_control import ToolControl
-from sambot_viz.views.camera import Camera, Vector
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session
@@ -28,6 +28,7 @@ class Browser:
         client_id: its number.
         listeners: called after a change of its tools ("tools") or of its view ("view"),
             with the session locked.
+        view: its view and its camera.
         tools: its current tool, selection and measurement.
     """
 
@@ -36,6 +37,7 @@ class Browser:
         self.client_id = client.client_id
         self.listeners: list[Listener] = []
         self._session = session
+        self.view = BrowserView(session, self)
         self.tools = ToolControl(session, self)
 
     @contextmanager
@@ -48,15 +50,7 @@ class Browser:
                     self._session.call(self.listeners, event)
             self.client.flush()
 
-    @property
-    def camera(self) -> Camera:
-        """Its camera, in the fixed frame."""
-        return self._session.views.camera_of(self.client_id)
-
-    def look_at(self, point: Vector) -> None:
-        """Turn its camera to a point of the fixed frame, (3,) [m]."""
-        self._session.views.look_at(point, self.client_id)
-
     def close(self) -> None:
         """It has left: follow the session no longer."""
         self.tools.close()
+        self.view.close()

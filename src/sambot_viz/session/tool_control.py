@@ -138,7 +138,7 @@ class ToolControl:
         rays = self._session.rays
         with self._session.lock:
             boxes = rays.boxes_of(self.selection).values()
-            camera = self._browser.camera
+            camera = self._browser.view.camera
         if boxes:
             low = np.min([box[0] for box in boxes], axis=0)
             high = np.max([box[1] for box in boxes], axis=0)
@@ -172,7 +172,7 @@ class ToolControl:
 
     def look_at(self, point: Array) -> None:
         """Turn the camera to a point of the fixed frame, (3,) [m]."""
-        self._browser.look_at(point)
+        self._browser.view.look_at(point)
 
     def finish(self) -> None:
         """Go back to the default tool."""
