@@ -113,8 +113,9 @@ def chromium() -> Iterator[Chromium]:
 def picture(path: Path) -> Image:
     from PIL import Image as Pillow
 
-    with Pillow.open(path) as image:
-        return np.asarray(image.convert("RGB"), np.int16)
+    opened: Pillow.Image = Pillow.open(path)
+    with opened:
+        return np.asarray(opened.convert("RGB"), np.int16)
 
 
 def recorded(name: str) -> tuple[Path, dict[str, Any], Image, Mask]:
@@ -153,7 +154,7 @@ def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image
         positions = case["joint_positions"].items()
         session.set_joint_positions({n: v for n, v in positions if n in free})
         size = case["camera"]["image_width"], case["camera"]["image_height"]
-        view = session.views.camera
+        view = session.camera
         return snapshot(server, chromium, *size, view).astype(np.int16)
     finally:
         server.stop()
@@ -165,7 +166,7 @@ def shown(image: Image, background: Image) -> Mask:
 
 def dilated(mask: Mask) -> Mask:
     """All pixels with a pixel of the mask within one pixel."""
-    out = mask.copy()
+    out: Mask = np.array(mask)
     padded = np.pad(mask, 1)
     height, width = mask.shape
     for y in range(3):

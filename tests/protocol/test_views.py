@@ -9,12 +9,12 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 import yaml
-from inside import viser_server
+from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
-from sambot_viz.session import Session
+from sambot_viz.session.browser_view import BrowserView
 
 FRESH = (3.0, 3.0, 3.0)
 ORBIT = "rviz_default_plugins/Orbit"
@@ -45,10 +45,9 @@ def viz(config: Callable[..., Path]) -> Iterator[Visualizer]:
         yield viz
 
 
-def session_of(viz: Visualizer) -> Session:
-    shared = viz._server.shared  # pyright: ignore[reportPrivateUsage]
-    assert shared is not None
-    return shared
+def views_of(viz: Visualizer) -> list[BrowserView]:
+    """Those of all browsers, the first one first."""
+    return [browser.view for browser in session_of(viz).browsers.values()]
 
 
 def looking(position: Vector3, look_at: Vector3) -> Wxyz:
@@ -109,32 +108,37 @@ def test_a_fresh_page_gets_the_view_and_a_returning_one_keeps_its_own(
     fresh = join(viz, protocol, FRESH)
     assert told(fresh)[-1] == pytest.approx([4, 0, 0])
     assert told(join(viz, protocol, (7.0, 1.0, 2.0))) == []
-    assert not session_of(viz).config.modified
+    first, second = views_of(viz)
+    assert first.values["Distance"] == 4.0
+    assert second.values["Distance"] == pytest.approx(np.linalg.norm((7, 1, 2)))
+    assert not session_of(viz).edits.modified
 
 
 def test_the_echo_of_a_camera_is_no_move_but_a_mouse_is(
     viz: Visualizer, protocol: Protocol
 ) -> None:
-    session = session_of(viz)
     client = join(viz, protocol, FRESH)
+    (view,) = views_of(viz)
+    before = dict(view.values)
     report(client, (4.0, 0.0, 0.0))
     client.settle(viser_server(viz))
-    assert not session.config.modified
+    assert view.values == before
     report(client, (0.0, 2.0, 0.0))
     client.settle(viser_server(viz))
-    assert session.config.view.get("Distance") == pytest.approx(2.0)
-    assert session.config.view.get("Yaw") == pytest.approx(1.5707963)
+    assert view.values["Distance"] == pytest.approx(2.0)
+    assert view.values["Yaw"] == pytest.approx(1.5707963)
+    assert not session_of(viz).edits.modified
 
 
 def test_the_yaw_stays_while_a_camera_above_its_target_moves(
     viz: Visualizer, protocol: Protocol
 ) -> None:
-    session = session_of(viz)
     client = join(viz, protocol, (0.004, 0.0, 4.0))
+    (view,) = views_of(viz)
     report(client, (0.104, 0.0, 4.0), (0.1, 0.0, 0.0), target=(0.1, 0.3, 0.0))
     client.settle(viser_server(viz))
-    assert session.config.view.get("Yaw") == pytest.approx(0.0, abs=1e-4)
-    assert session.config.view.get("Focal Point") == pytest.approx((0.1, 0, 0), abs=0.1)
+    assert view.values["Yaw"] == pytest.approx(0.0, abs=1e-4)
+    assert view.values["Focal Point"] == pytest.approx((0.1, 0, 0), abs=0.1)
 
 
 def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(
@@ -145,27 +149,33 @@ def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(
     first.settle(viser_server(viz))
     second.settle(viser_server(viz))
     assert told(second) == []
-    session_of(viz).views.follow_presenter = True
+    session_of(viz).follow_presenter = True
     report(first, (0.0, 3.0, 0.0))
     second.wait_until(lambda: told(second) != [])
     assert told(second)[-1] == pytest.approx([0, 3, 0], abs=1e-5)
     assert told(first) == []
+    one, other = views_of(viz)
+    assert one.values == other.values
+    one.set_kind("rviz_default_plugins/TopDownOrtho")
+    assert other.view.kind == "rviz_default_plugins/TopDownOrtho"
 
 
 def test_cameras_go_with_the_target_frame_and_keep_their_own_places(
     viz: Visualizer, protocol: Protocol
 ) -> None:
-    session = session_of(viz)
     viz.set_static_transform("base_link", "target", (1.0, 0.0, 0.0))
     first, second = (join(viz, protocol, at) for at in (FRESH, (7.0, 1.0, 2.0)))
-    session.views.set("Target Frame", "target")
-    assert session.config.view.get("Focal Point") == pytest.approx((-1, 0, 0))
+    views = views_of(viz)
+    for view in views:
+        view.set("Target Frame", "target")
+        assert view.values["Focal Point"] == pytest.approx((-1, 0, 0))
     viz.set_static_transform("base_link", "target", (1.0, 2.0, 0.0))
     for client in (first, second):
         client.settle(viser_server(viz))
     assert told(first)[-1] == pytest.approx([4, 2, 0])
-    assert told(second) == [pytest.approx([7, 3, 2])]
-    assert session.config.view.get("Focal Point") == pytest.approx((-1, 0, 0))
+    assert told(second)[-1] == pytest.approx([7, 3, 2])
+    for view in views:
+        assert view.values["Focal Point"] == pytest.approx((-1, 0, 0))
 
 
 def test_a_view_that_follows_nothing_costs_no_message(
@@ -187,7 +197,8 @@ def test_every_type_opens(
     with Visualizer(config=path, port=0) as viz:
         client = join(viz, protocol, FRESH)
         assert told(client)
-        assert session_of(viz).views.supported
+        (view,) = views_of(viz)
+        assert view.supported
 
 
 def test_a_type_nobody_knows_is_shown_as_orbit_and_kept(
@@ -195,53 +206,59 @@ def test_a_type_nobody_knows_is_shown_as_orbit_and_kept(
 ) -> None:
     path = config("somebody/FrameAligned", Distance=2.0, Yaw=0.0, Pitch=0.0)
     with Visualizer(config=path, port=0) as viz:
-        session = session_of(viz)
         client = join(viz, protocol, FRESH)
+        (view,) = views_of(viz)
         assert told(client)[-1] == pytest.approx([2, 0, 0])
-        assert not session.views.supported
+        assert not view.supported
         report(client, (0.0, 5.0, 0.0))
         client.settle(viser_server(viz))
-        assert not session.config.modified
-        session.views.set_kind("rviz_default_plugins/XYOrbit")
-        assert session.views.supported
-        assert "rviz_default_plugins/XYOrbit" in session.config.to_yaml()
+        document = session_of(viz).config
+        view.store()
+        assert not document.modified
+        view.set_kind("rviz_default_plugins/XYOrbit")
+        assert view.supported
+        assert not document.modified
+        view.store()
+        assert "rviz_default_plugins/XYOrbit" in document.to_yaml()
 
 
 def test_a_new_type_takes_over_the_target_and_forgets_the_rest(
-    viz: Visualizer,
+    viz: Visualizer, protocol: Protocol
 ) -> None:
-    views = session_of(viz).views
-    views.set("Target Frame", "drivewhl_l_link")
-    views.set("Near Clip Distance", 0.5)
-    views.set_kind("rviz_default_plugins/FPS")
-    config = views.view.config
-    assert config.get("Target Frame") == "drivewhl_l_link"
-    assert config.get("Near Clip Distance") == 0.01
-    assert views.camera.position == pytest.approx((4, 0, 0))
+    join(viz, protocol, FRESH)
+    (view,) = views_of(viz)
+    view.set("Target Frame", "drivewhl_l_link")
+    view.set("Near Clip Distance", 0.5)
+    view.set_kind("rviz_default_plugins/FPS")
+    assert view.values["Target Frame"] == "drivewhl_l_link"
+    assert view.values["Near Clip Distance"] == 0.01
+    assert view.camera.position == pytest.approx((4, 0, 0))
 
 
-def test_saved_views_are_copies_that_can_be_named_and_removed(viz: Visualizer) -> None:
-    session = session_of(viz)
-    views = session.views
-    saved = views.save()
+def test_saved_views_are_copies_that_can_be_named_and_removed(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    join(viz, protocol, FRESH)
+    (view,), config = views_of(viz), session_of(viz).config
+    saved = view.save()
     assert saved.name == "Orbit"
-    views.set("Distance", 9.0)
-    views.rename(saved, "  near ")
-    views.rename(saved, "   ")
-    assert [view.name for view in session.config.saved_views] == ["near"]
-    views.use(saved)
-    assert views.view.config.get("Distance") == 4.0
-    views.zero()
-    assert (views.view.config.get("Distance"), saved.get("Distance")) == (10.0, 4.0)
-    views.remove(saved)
-    assert session.config.saved_views == ()
+    view.set("Distance", 9.0)
+    view.rename(saved, "  near ")
+    view.rename(saved, "   ")
+    assert [view.name for view in config.saved_views] == ["near"]
+    view.use(saved)
+    assert view.values["Distance"] == 4.0
+    view.zero()
+    assert (view.values["Distance"], saved.get("Distance")) == (10.0, 4.0)
+    view.remove(saved)
+    assert config.saved_views == ()
 
 
 def test_the_panel_shows_every_type_also_the_steepest_pitch(
     viz: Visualizer, protocol: Protocol
 ) -> None:
     client = join(viz, protocol, FRESH)
-    views = session_of(viz).views
+    (views,) = views_of(viz)
     for name in ("TopDownOrtho", "Orbit", "FPS", "ThirdPersonFollower", "XYOrbit"):
         views.set_kind(f"rviz_default_plugins/{name}")
         client.settle(viser_server(viz))

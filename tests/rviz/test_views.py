@@ -73,7 +73,7 @@ def test_the_current_view_is_saved_under_its_class_s_name(parse: Parse):
     config = parse(VIEWS)
     saved = config.save_view()
     assert saved.name == "Orbit"
-    assert config.save_view("mine").name == "mine"
+    assert config.save_view(name="mine").name == "mine"
     assert [v.name for v in config.saved_views] == [
         "from above",
         "film",
@@ -93,7 +93,7 @@ def test_the_current_view_is_saved_under_its_class_s_name(parse: Parse):
 
 def test_the_first_saved_view_replaces_the_tilde(parse: Parse):
     config = parse("Visualization Manager:\n  Views:\n    Saved: ~\n")
-    config.save_view("first")
+    config.save_view(name="first")
     assert [v.name for v in parse(config.to_yaml()).saved_views] == ["first"]
     config.remove_view(config.saved_views[0])
     assert config.saved_views == ()
@@ -110,24 +110,65 @@ def test_a_saved_view_is_renamed_and_removed(parse: Parse):
         config.remove_view(film)
 
 
-def test_a_saved_view_is_copied_into_the_current_one(parse: Parse):
+def test_a_saved_view_that_was_removed_is_put_back_where_it_was(parse: Parse):
     config = parse(VIEWS)
-    view = config.use_view(config.saved_views[0])
-    assert config.view is view
+    above, film = config.saved_views
+    for view in (above, film):
+        config.put_back_view(config.remove_view(view))
+        assert config.saved_views == (above, film)
+        assert config.to_yaml() == VIEWS
+    of_above = config.remove_view(above)
+    config.remove_view(film)
+    config.put_back_view(of_above)
+    assert config.saved_views == (above,)
+
+
+def test_a_detached_view_changes_nothing_before_it_is_stored(parse: Parse):
+    config = parse(VIEWS)
+    view = config.detached_view(config.saved_views[0])
     assert (view.kind, view.name) == (
         "rviz_default_plugins/TopDownOrtho",
         "Current View",
     )
     view.set("Scale", 7)
+    assert config.to_yaml() == VIEWS
+    config.store_view(view)
     assert config.saved_views[0].get("Scale") == 50.0
-    assert parse(config.to_yaml()).view.get("Scale") == 7.0
+    again = parse(config.to_yaml()).view
+    assert (again.name, again.get("Scale")) == ("Current View", 7.0)
+    view.set("Scale", 8)
+    assert config.view.get("Scale") == 7.0
+
+
+def test_a_stored_view_changes_the_lines_that_differ(parse: Parse):
+    config = parse(VIEWS)
+    view = config.detached_view()
+    config.store_view(view)
+    assert config.to_yaml() == VIEWS
+    view.set("Distance", 4.5)
+    config.store_view(view)
+    assert config.to_yaml() == VIEWS.replace("Distance: 3", "Distance: 4.5")
+
+
+def test_a_view_of_an_unknown_class_is_stored_as_it_is(parse: Parse):
+    config = parse(VIEWS)
+    config.store_view(config.detached_view(config.saved_views[1]))
+    assert config.view.raw == {
+        "Class": "my_plugins/Film",
+        "Name": "Current View",
+        "Speed": "2",
+    }
+    before = config.to_yaml()
+    config.store_view(config.detached_view())
+    assert config.to_yaml() == before
 
 
 def test_another_class_of_view_keeps_what_both_have(parse: Parse):
     config = parse(VIEWS)
-    view = config.set_view_class("rviz_default_plugins/TopDownOrtho")
+    view = config.new_view("rviz_default_plugins/TopDownOrtho", config.view)
     assert view.get("Near Clip Distance") == 0.5
     assert view.get("Scale") == 10.0
+    config.store_view(view)
     again = parse(config.to_yaml()).view
     assert again.kind == "rviz_default_plugins/TopDownOrtho"
     assert again.raw["Value"] == "TopDownOrtho (rviz_default_plugins)"
@@ -137,6 +178,6 @@ def test_another_class_of_view_keeps_what_both_have(parse: Parse):
 def test_the_views_of_a_ros_1_file_keep_its_names(parse: Parse):
     config = parse(VIEWS.replace("rviz_default_plugins/", "rviz/"))
     assert config.view.class_id == "rviz/Orbit"
-    view = config.set_view_class("rviz_default_plugins/TopDownOrtho")
+    view = config.new_view("rviz_default_plugins/TopDownOrtho", config.view)
     assert view.class_id == "rviz/TopDownOrtho"
     assert view.kind == "rviz_default_plugins/TopDownOrtho"

@@ -298,14 +298,16 @@ def test_changes_made_in_the_page_are_not_thrown_away(sam_bot: Followed) -> None
     assert sam_bot.session.context.fixed_frame == "base_link"
 
 
-def test_a_camera_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown(
-    sam_bot: Followed,
+def test_a_view_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown(
+    sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
 ) -> None:
-    sam_bot.session.views.set("Distance", 7.5)
+    protocol(int(sam_bot.viz.url.rsplit(":", 1)[1])).settle(sam_bot.viz.viser)
+    (browser,) = sam_bot.session.browsers.values()
+    browser.view.set("Distance", 7.5)
     sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
     sam_bot.wait_for(lambda: sam_bot.session.context.fixed_frame == "front_caster")
     assert sam_bot.failed == []
-    assert sam_bot.session.config.view.get("Distance") == 7.5
+    assert browser.view.values["Distance"] == 7.5
 
 
 def test_another_view_in_the_file_moves_the_cameras(

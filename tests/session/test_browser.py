@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
 from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer
+from sambot_viz import UsageError, Visualizer
 from sambot_viz.session import Browser, Event, Session
 
 PREFIX = "rviz_default_plugins/"
@@ -86,9 +87,12 @@ def leave(session: Session, person: Person, other: Person) -> None:
     """Close a page, and wait until the session has taken note."""
     person.client.close()
     end = time.monotonic() + 30.0
-    while person.browser.client_id in session.browsers:
-        assert time.monotonic() < end, "the session takes no note"
+    while time.monotonic() < end:
         other.settle()
+        with session.lock:
+            if person.browser.client_id not in session.browsers:
+                return
+    raise AssertionError("the session takes no note")
 
 
 # Tools
@@ -103,7 +107,7 @@ def test_one_measures_while_the_other_selects(two: tuple[Person, Person]) -> Non
     a.click_down(2.0, 1.0)
     a.settle()
     b.settle()
-    assert a.browser.tools.status == "[Length: 1m]"
+    assert a.browser.tools.status.startswith("[Length: 1m] ")
     assert b.browser.tools.status == ""
     assert (a.selected, b.selected) == ([], ["base_link"])
     assert a.drawn() == {"/~measure.start", "/~measure", "/~measure.length"}
@@ -164,6 +168,128 @@ def test_a_colour_of_a_tool_is_the_documents_and_can_be_undone(
     assert session.edits.undo(a.browser.client_id) == "Measure: Line color"
     b.settle()
     assert colors(b) == before
+
+
+# Views
+
+
+def test_one_turns_the_camera_and_the_other_sees_nothing_of_it(
+    session: Session, two: tuple[Person, Person]
+) -> None:
+    a, b = (person.browser for person in two)
+    before, camera = dict(b.view.values), b.view.camera
+    heard: list[Event] = []
+    b.listeners.append(heard.append)
+    a.view.set("Distance", 3.0)
+    a.view.set_kind(f"{PREFIX}TopDownOrtho")
+    a.view.look_at(np.array((1.0, 2.0, 0.0)))
+    a.tools.focus()
+    assert a.view.view.kind == f"{PREFIX}TopDownOrtho"
+    assert b.view.view.kind == f"{PREFIX}Orbit"
+    assert (b.view.values, b.view.camera) == (before, camera)
+    assert heard == []
+    assert session.config.view.kind == f"{PREFIX}Orbit"
+
+
+def test_fit_shows_the_robot_or_a_box_from_the_same_direction(
+    two: tuple[Person, Person],
+) -> None:
+    view = two[0].browser.view
+    before = view.camera
+    view.fit()
+    assert view.camera.forward == pytest.approx(before.forward, abs=1e-6)
+    assert view.camera.distance < 2.0
+    assert np.abs(view.camera.look_at).max() < 0.3
+    view.fit((np.array((9.0, 9.0, 0.0)), np.array((11.0, 11.0, 2.0))))
+    assert view.camera.look_at == pytest.approx((10.0, 10.0, 1.0))
+    assert view.camera.distance > 2.0
+
+
+def test_the_document_takes_the_view_of_the_browser_that_saves(
+    session: Session, two: tuple[Person, Person]
+) -> None:
+    a, b = (person.browser for person in two)
+    a.view.set("Distance", 3.0)
+    b.view.set("Distance", 5.0)
+    a.view.store()
+    assert session.config.view.get("Distance") == 3.0
+    assert (a.view.values["Distance"], b.view.values["Distance"]) == (3.0, 5.0)
+
+
+def test_a_program_moves_all_cameras_and_a_late_browser_starts_like_them(
+    session: Session, two: tuple[Person, Person], join: Callable[[], Person]
+) -> None:
+    session.config.view.set("Distance", 6.5)
+    session.show_view()
+    late = join()
+    late.browser.view.show()
+    for person in (*two, late):
+        assert person.browser.view.values["Distance"] == 6.5
+        assert person.browser.view.camera.distance == pytest.approx(6.5)
+
+
+def test_edits_of_a_view_are_undone_by_their_browser_and_mark_no_file(
+    session: Session, two: tuple[Person, Person]
+) -> None:
+    a, b = (person.browser for person in two)
+    acting, undo = session.edits.acting, session.edits.undo
+    start = dict(a.view.values)
+    for value in (3.0, 4.0, 5.0):
+        with acting(a.client_id, "drag"):
+            a.view.set("Distance", value)
+    with acting(a.client_id):
+        a.view.zero()
+    with acting(a.client_id):
+        a.view.set_kind(f"{PREFIX}FPS")
+    with acting(b.client_id):
+        b.view.set("Distance", 7.0)
+    assert not session.edits.modified
+    assert undo(a.client_id) == "View: FPS"
+    assert a.view.view.kind == f"{PREFIX}Orbit"
+    assert undo(a.client_id) == "Zero the view"
+    assert a.view.values["Distance"] == 5.0
+    assert undo(a.client_id) == "View: Distance"
+    assert a.view.values == start
+    assert a.view.camera.distance == pytest.approx(start["Distance"])
+    for _ in range(3):
+        session.edits.redo(a.client_id)
+    assert a.view.view.kind == f"{PREFIX}FPS"
+    assert b.view.values["Distance"] == 7.0
+
+
+def test_an_edit_of_a_view_that_is_not_shown_any_more_is_dropped(
+    session: Session, two: tuple[Person, Person]
+) -> None:
+    browser = two[0].browser
+    with session.edits.acting(browser.client_id):
+        browser.view.set("Distance", 4.0)
+    session.show_view()
+    with pytest.raises(UsageError, match="another view was shown since"):
+        session.edits.undo(browser.client_id)
+
+
+def test_saved_views_belong_to_the_document_and_are_undone(
+    session: Session, two: tuple[Person, Person]
+) -> None:
+    a, b = (person.browser for person in two)
+    text = session.config.to_yaml()
+    with session.edits.acting(a.client_id):
+        saved = a.view.save()
+    assert session.edits.modified
+    with session.edits.acting(a.client_id):
+        a.view.rename(saved, "near")
+    a.view.set("Distance", 9.0)
+    with session.edits.acting(b.client_id):
+        b.view.use(saved)
+    assert a.view.values["Distance"] == 9.0, "only the camera of b is moved"
+    with session.edits.acting(b.client_id):
+        b.view.remove(saved)
+    with pytest.raises(UsageError, match="the view 'near' was removed"):
+        session.edits.undo(a.client_id)
+    assert session.edits.undo(b.client_id) == "Remove view near"
+    assert session.config.saved_views == (saved,)
+    assert session.edits.undo(a.client_id) == "Save view Orbit"
+    assert session.config.to_yaml() == text
 
 
 # Coming and going

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
+from sambot_viz.session.browser_view import BrowserView
 from sambot_viz.session.pick_rays import INLINE
 from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.tools.picking.hit import Selectable
@@ -108,6 +110,12 @@ class Browser:
         """Those of the browser, which is the only one."""
         (browser,) = self.session.browsers.values()
         return browser.tools
+
+    @property
+    def view(self) -> BrowserView:
+        """That of the browser."""
+        (browser,) = self.session.browsers.values()
+        return browser.view
 
     @property
     def current(self) -> str:
@@ -215,7 +223,7 @@ def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
         with pytest.raises(UsageError, match=r"there is no tool 'x/Y'; there are "):
             act("x/Y")
     with pytest.raises(UsageError, match=r"there is no view type 'x/Y'; there are "):
-        browser.session.views.set_kind("x/Y")
+        browser.view.set_kind("x/Y")
 
 
 # Selecting.
@@ -343,9 +351,11 @@ def test_measure_shows_the_distance_of_two_points(browser: Browser) -> None:
     browser.click_down(1.0, 1.0)
     assert tools.status == "Click on the second point."
     browser.click_down(2.0, 1.0)
-    assert tools.status == "[Length: 1m]"
+    assert tools.status.startswith("[Length: 1m] ")
     browser.click_down(200.0, 1.0)
-    assert tools.status == "[Length: 1m]", "a click on the background does nothing"
+    assert tools.status.startswith("[Length: 1m] "), (
+        "a click on the background does nothing"
+    )
     browser.click_down(3.0, 1.0)
     assert tools.status == "Click on the second point."
     browser.trigger("Default tool")
@@ -376,13 +386,80 @@ def test_measure_takes_points_of_what_is_drawn_near_a_frame(
     # Beside the axes of the wheel, though within the sphere that selects the frame.
     browser.click((-0.12 + 0.03, 0.18 + 0.03, 5.0))
     browser.click((-0.12 + 0.03, 2.21, 5.0))
-    assert browser.tools.status == "[Length: 2m]"
+    assert browser.tools.status.startswith("[Length: 2m] ")
+
+
+def on_screen(x: float, y: float) -> tuple[float, float]:
+    """Where a point of the ground is in the picture of `Browser.look_down`."""
+    pixels = 480 / (2 * 5.0 * math.tan(0.785 / 2))
+    return 0.5 + x * pixels / 640, 0.5 - y * pixels / 480
+
+
+def test_the_line_follows_the_mouse_until_the_second_click(browser: Browser) -> None:
+    tools = browser.tools
+    browser.look_down()
+    browser.trigger("Measure")
+    tools.hover(on_screen(1.0, 1.0))
+    assert (tools.status, tools.current.wants_hover) == ("", False)
+    browser.click_down(1.0, 1.0)
+    assert tools.current.wants_hover
+    tools.hover(on_screen(2.0, 1.0))
+    assert tools.status.startswith("[Length: 1m] Click on two points. Right click")
+    tools.hover(on_screen(1.0, 1.5))
+    assert tools.status.startswith("[Length: 0.5m] ")
+    tools.hover((2.0, 0.5))
+    tools.hover((math.nan, 0.5))
+    assert tools.status.startswith("[Length: 0.5m] "), "not a place in the picture"
+    browser.click_down(1.0, 3.0)
+    assert not tools.current.wants_hover
+    tools.hover(on_screen(2.0, 1.0))
+    assert tools.status.startswith("[Length: 2m] ")
+
+
+def test_a_line_that_follows_the_mouse_is_not_added_again(browser: Browser) -> None:
+    browser.look_down()
+    browser.trigger("Measure")
+    browser.click_down(1.0, 1.0)
+    browser.tools.hover(on_screen(2.0, 1.0))
+    browser.settle()
+    mark = browser.client.mark()
+    for x in (1.5, 1.2, 1.7):
+        browser.tools.hover(on_screen(x, 1.0))
+        browser.settle()
+    sent = browser.client.types(mark)
+    assert sent["SceneNodeUpdateMessage"] >= 3
+    assert not [name for name in sent if "Remove" in name or "LineSegments" in name]
+
+
+def test_a_right_click_starts_the_measurement_again(browser: Browser) -> None:
+    tools = browser.tools
+    browser.trigger("Measure")
+    for x in (1.0, 2.0):
+        browser.click_down(x, 1.0)
+    tools.right_click()
+    assert tools.status == ""
+    assert browser.current == "Measure"
+    browser.click_down(1.0, 1.0)
+    tools.right_click()
+    assert not tools.current.wants_hover
+    browser.click_down(1.0, 1.0)
+    assert tools.status == "Click on the second point."
+
+
+def test_focus_shows_the_point_under_the_mouse(browser: Browser) -> None:
+    browser.look_down()
+    browser.trigger("Focus Camera")
+    browser.tools.hover(on_screen(0.05, 0.05))
+    assert browser.tools.status.startswith("[0.0491, 0.0491, 0.09] ")
+    browser.click((3.0, 0.0, 0.5), (0.0, 0.0, 1.0))
+    browser.tools.hover(on_screen(0.05, 0.05))
+    assert browser.tools.status == "", "the tool was used, and is left"
 
 
 def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
     browser.trigger("Focus Camera")
     browser.click_down(0.05, 0.05)
-    focal = browser.session.views.view.config.get("Focal Point")
+    focal = browser.view.values["Focal Point"]
     assert focal == pytest.approx((0.05, 0.05, 0.09), abs=1e-3)
     assert browser.current == "Move Camera"
 
@@ -390,20 +467,20 @@ def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
 def test_over_the_background_focus_looks_one_metre_ahead(browser: Browser) -> None:
     browser.trigger("Focus Camera")
     browser.click((3.0, 0.0, 0.5), (0.0, 0.0, 1.0))
-    config = browser.session.views.view.config
-    assert config.get("Focal Point") == pytest.approx((3.0, 0.0, 1.5))
+    values = browser.view.values
+    assert values["Focal Point"] == pytest.approx((3.0, 0.0, 1.5))
 
 
 def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
     browser: Browser,
 ) -> None:
-    config = browser.session.views.view.config
+    values = browser.view.values
     browser.trigger("Focus on the selection")
-    assert config.get("Focal Point")[2] == pytest.approx(0.09, abs=0.2)
+    assert values["Focal Point"][2] == pytest.approx(0.09, abs=0.2)
     browser.trigger("Select")
     browser.click_down(-0.12, 0.18)
     browser.trigger("Focus on the selection")
-    assert config.get("Focal Point") == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
+    assert values["Focal Point"] == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
 
 
 # Settings.
@@ -446,7 +523,7 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
     assert browser.selected == ["base_link"]
     mesh.unlink()
     browser.click_down(0.0, 0.0)
-    assert np.isfinite(browser.session.views.camera.position).all()
+    assert np.isfinite(browser.view.camera.position).all()
 
 
 def test_a_click_into_a_large_mesh_is_followed_in_a_thread(

@@ -24,9 +24,8 @@ def make_view() -> MakeView:
 
     def make(name: str, **values: Any) -> View:
         kind = f"rviz_default_plugins/{name}"
-        view = VIEWS[kind](
-            RvizConfig.parse(DEFAULT_TEXT, declarations).set_view_class(kind)
-        )
+        config = RvizConfig.parse(DEFAULT_TEXT, declarations)
+        view = VIEWS[kind](config.new_view(kind, config.view))
         for path, declared in view.config.declared.items():
             if path in view.config.properties:
                 view.config.set(path, declared.property.default)

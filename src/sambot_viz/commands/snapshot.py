@@ -47,7 +47,7 @@ def run(words: list[str]) -> int:
         _report_fixed_frame(session)
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
-            camera = session.views.camera
+            camera = session.camera
             picture = snapshot(viz.server, chromium, width, height, camera)
     _write(output, picture)
     return 0

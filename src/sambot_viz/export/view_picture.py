@@ -44,7 +44,7 @@ def snapshot(
         chromium: a running browser.
         width: of the picture [pixels].
         height: of the picture [pixels].
-        camera: where to look from, such as `Session.views.camera`.
+        camera: where to look from, such as `Session.camera`.
 
     Returns:
         (height, width, 3) uint8, RGB.

@@ -86,7 +86,7 @@ class ViewsPanel(Panel):
             CURRENT,
             "bool",
             "Follow the presenter",
-            value=self._session.views.follow_presenter,
+            value=self._session.follow_presenter,
             help="All browsers show what the camera shows that moved last.",
             set=self._follow,
         )
@@ -120,7 +120,7 @@ class ViewsPanel(Panel):
 
     def _follow(self, on: bool) -> None:
         with self._session.change("view"):
-            self._session.views.follow_presenter = on
+            self._session.follow_presenter = on
 
     # The saved views
 

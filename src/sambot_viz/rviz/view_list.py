@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_items import ViewConfig, new_map
 from sambot_viz.rviz.class_name import (
@@ -12,10 +14,25 @@ from sambot_viz.rviz.class_name import (
     written_in_ros1,
 )
 from sambot_viz.rviz.visualization_manager import VisualizationManager
-from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
+from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of, same
 
 CURRENT = "Current View"
 ORBIT = "rviz_default_plugins/Orbit"
+
+
+@dataclass(frozen=True, slots=True)
+class RemovedView:
+    """A saved view that is not in the document.
+
+    Attributes:
+        view: the view.
+        entry: its entry in the document.
+        following: the saved view that came next; None at the end.
+    """
+
+    view: ViewConfig
+    entry: Entry
+    following: ViewConfig | None
 
 
 class ViewList(VisualizationManager):
@@ -76,66 +93,83 @@ class ViewList(VisualizationManager):
         """The saved views, in order."""
         return tuple(self._saved_views)
 
-    def set_view_class(self, kind: str) -> ViewConfig:
-        """Make the current view one of another class.
+    def detached_view(self, view: ViewConfig | None = None) -> ViewConfig:
+        """A copy of a view, the current one by default, that is not in the document."""
+        node = copied_map((view or self._view).node)
+        node.put_text("Name", CURRENT)
+        return self._made(node)
+
+    def new_view(self, kind: str, like: ViewConfig) -> ViewConfig:
+        """A view of another class, not in the document.
 
         Keys that both classes have keep their values; the caller sets the new place of
         the camera.
 
         Args:
             kind: ROS 2 class id.
-
-        Returns:
-            The new current view.
+            like: the view that it is to replace.
         """
-        old = self._view
-        ros1 = is_ros1(old.class_id)
-        node = new_map(written_in_ros1(kind) if ros1 else kind, CURRENT)
-        node.put_text("Value", row_text(node.text("Class") or ""))
-        view = ViewConfig(node, self._declarations.views.get(kind), self._findings)
+        class_id = written_in_ros1(kind) if is_ros1(like.class_id) else kind
+        node = new_map(class_id, CURRENT)
+        node.put_text("Value", row_text(class_id))
+        view = self._made(node)
         view.fill()
         for path in view.properties:
-            if path in old.properties and old.is_given(path):
-                view.set(path, old.get(path))
-        self._put_current(view)
+            if path in like.properties and like.is_given(path):
+                view.set(path, like.get(path))
         return view
 
-    def save_view(self, name: str | None = None) -> ViewConfig:
-        """Copy the current view to the end of the saved ones.
+    def store_view(self, view: ViewConfig) -> None:
+        """Let the current view say what another one says; what is the same stays."""
+        if view.supported and view.class_id == self._view.class_id:
+            for path, value in view.properties.items():
+                self._view.set(path, value)
+        elif not same(view.node, self._view.node):
+            self._view = self.detached_view(view)
+            self._views_map().put("Current", self._view.node)
+
+    def save_view(
+        self, view: ViewConfig | None = None, name: str | None = None
+    ) -> ViewConfig:
+        """Add a copy of a view to the end of the saved ones.
 
         Args:
+            view: the view; the current one when not given.
             name: its label; the class's short name when not given, as in RViz.
         """
-        kind = self._view.kind
-        node = copied_map(self._view.node)
-        node.put_text("Name", short_name(kind) if name is None else name)
-        self._saved_list().entries.append(Entry(None, node))
-        view = ViewConfig(node, self._declarations.views.get(kind), self._findings)
-        self._saved_views.append(view)
-        return view
+        copy = self.detached_view(view)
+        copy.rename(short_name(copy.kind) if name is None else name)
+        self.put_back_view(RemovedView(copy, Entry(None, copy.node), None))
+        return copy
 
-    def use_view(self, saved: ViewConfig) -> ViewConfig:
-        """Copy a saved view into the current one."""
-        node = copied_map(saved.node)
-        node.put_text("Name", CURRENT)
-        view = ViewConfig(
-            node, self._declarations.views.get(saved.kind), self._findings
-        )
-        self._put_current(view)
-        return view
-
-    def remove_view(self, saved: ViewConfig) -> None:
+    def remove_view(self, saved: ViewConfig) -> RemovedView:
         """Remove a saved view.
+
+        Returns:
+            What `put_back_view` takes.
 
         Raises:
             UsageError: it is not one of them.
         """
         if saved not in self._saved_views:
             raise UsageError(f"{saved.label} is not one of the saved views")
+        index = self._saved_views.index(saved)
+        following = self._saved_views[index + 1 : index + 2]
         self._saved_views.remove(saved)
-        listed = self._saved_list()
-        listed.entries[:] = [e for e in listed.entries if e.value is not saved.node]
+        entries = self._saved_list().entries
+        at = next(i for i, entry in enumerate(entries) if entry.value is saved.node)
+        return RemovedView(saved, entries.pop(at), next(iter(following), None))
 
-    def _put_current(self, view: ViewConfig) -> None:
-        self._views_map().put("Current", view.node)
-        self._view = view
+    def put_back_view(self, removed: RemovedView) -> None:
+        """Put a saved view back where it was, or at the end."""
+        entries, following = self._saved_list().entries, removed.following
+        at, index = len(entries), len(self._saved_views)
+        if following in self._saved_views:
+            index = self._saved_views.index(following)
+            at = next(i for i, e in enumerate(entries) if e.value is following.node)
+        entries.insert(at, removed.entry)
+        self._saved_views.insert(index, removed.view)
+
+    def _made(self, node: Map) -> ViewConfig:
+        kind = kind_of(node.text("Class") or "")
+        return ViewConfig(node, self._declarations.views.get(kind), self._findings)

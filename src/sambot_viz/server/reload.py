@@ -53,18 +53,16 @@ class Documents:
 
 @dataclass(frozen=True, slots=True)
 class _Content:
-    """What a document says: its current view, and all the rest."""
+    """What a document says of its current view."""
 
     view: Plain
-    rest: Plain
 
     @classmethod
     def of(cls, document: RvizConfig) -> _Content:
         root = document.raw
         manager = root.get(_MANAGER) if isinstance(root, dict) else None
         views = manager.get("Views") if isinstance(manager, dict) else None
-        view = views.pop("Current", None) if isinstance(views, dict) else None
-        return cls(view, root)
+        return cls(views.get("Current") if isinstance(views, dict) else None)
 
 
 class Reloader:
@@ -227,8 +225,8 @@ class Reloader:
     def _take(self, session: Session, text: str, before: _Content) -> bool:
         """Show the file, unless that would throw away what a user has changed.
 
-        A camera that was moved does not count as a change: it stays where it is,
-        unless the file has another view than before.
+        The views of browsers stay as they are, unless the file has another view than
+        before.
 
         Returns:
             False when the changes of a user were kept and the file is not shown.
@@ -237,14 +235,11 @@ class Reloader:
             if session.config.to_yaml() == text:
                 # The page itself saved the file.
                 return True
-            if _Content.of(session.config).rest != before.rest:
+            if session.edits.modified:
                 return False
-            document = self._documents()
-            if self._shown.view == before.view:
-                document.use_view(session.config.view)
-            session.set_config(document)
+            session.set_config(self._documents())
             if self._shown.view != before.view:
-                session.views.show()
+                session.show_view()
             return True
 
     def _cannot_watch(self, reason: str) -> None:

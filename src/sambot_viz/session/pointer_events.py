@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import viser
 
-from sambot_viz.tools.picking.picture import Picture
+from sambot_viz.tools.picking.picture import Picture, ScreenPoint
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.tool import Click
 
@@ -19,6 +19,21 @@ def click_of(event: viser.SceneClickEvent) -> Click | None:
     if not (np.isfinite(origin).all() and np.isfinite(length) and length > 0.0):
         return None
     return Click(origin, direction / length, event.modifier)
+
+
+def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
+    """What a click at a point of a browser's picture would be.
+
+    Returns:
+        None when the point is not in the picture, or the camera is nonsense.
+    """
+    picture, point = Picture.of(client.camera), _numbers(at)
+    if picture is None or point.shape != (2,):
+        return None
+    if not ((point >= 0.0) & (point <= 1.0)).all():
+        return None
+    x, y = point.tolist()
+    return Click(picture.eye, picture.direction((x, y)))
 
 
 def rays_of(event: viser.SceneRectSelectEvent) -> RayGrid | None:

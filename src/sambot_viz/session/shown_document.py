@@ -79,7 +79,10 @@ class ShownDocument(SharedState):
             self.drawn.make_displays()
 
     def set_config(self, config: RvizConfig) -> None:
-        """Show another document: its displays and options; cameras stay."""
+        """Show another document: its displays and options.
+
+        Browsers keep their views, until `Session.show_view`.
+        """
         with self.change():
             self.edits.clear()
             self.drawn.take_config(config)

@@ -14,9 +14,10 @@ import numpy as np
 import viser
 
 from sambot_viz.errors import UsageError
-from sambot_viz.session.pointer_events import click_of, rays_of
+from sambot_viz.session.pointer_events import click_of, pointed_at, rays_of
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.hit import Hit, Selectable
+from sambot_viz.tools.picking.picture import ScreenPoint
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
@@ -53,6 +54,8 @@ class ToolControl:
         self._boxes = SelectionBoxes(browser.client.scene)
         self._config: object = None
         self._settings: dict[str, dict[str, Any]] = {}
+        self._mouse: ScreenPoint = (0.5, 0.5)
+        self._hovering = False
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
@@ -113,12 +116,29 @@ class ToolControl:
             self.current.cancel()
             self._switch(self.default)
 
+    def hover(self, at: ScreenPoint) -> None:
+        """The mouse is over the 3D view, with no button held.
+
+        Only the last position is followed when they come faster than rays do.
+
+        Args:
+            at: from 0 (left, top) to 1 (right, bottom) of the picture.
+        """
+        self._mouse = at
+        if not self._hovering and self.current.wants_hover:
+            self._follow_mouse(self.current)
+
+    def right_click(self) -> None:
+        """A click with the right button: start again what the current tool does."""
+        with self._browser.change("tools"):
+            self.current.cancel()
+
     def focus(self) -> None:
         """F: look at the selection, or at what is in the middle of the picture."""
         rays = self._session.rays
         with self._session.lock:
             boxes = rays.boxes_of(self.selection).values()
-            camera = self._browser.camera
+            camera = self._browser.view.camera
         if boxes:
             low = np.min([box[0] for box in boxes], axis=0)
             high = np.max([box[1] for box in boxes], axis=0)
@@ -152,7 +172,7 @@ class ToolControl:
 
     def look_at(self, point: Array) -> None:
         """Turn the camera to a point of the fixed frame, (3,) [m]."""
-        self._browser.look_at(point)
+        self._browser.view.look_at(point)
 
     def finish(self) -> None:
         """Go back to the default tool."""
@@ -164,6 +184,25 @@ class ToolControl:
             self.status = status
 
     # Inside
+
+    def _follow_mouse(self, tool: Tool) -> None:
+        """Give a tool what is under the mouse, once more when it has moved on."""
+        click = pointed_at(self._browser.client, self._mouse)
+        if click is None:
+            return
+        followed, self._hovering = self._mouse, True
+
+        def then(hit: Hit) -> None:
+            self._hovering = False
+            with self._browser.change("tools"):
+                if self.current is tool and tool.wants_hover:
+                    tool.hover(click, hit)
+            if self._mouse != followed:
+                self.hover(self._mouse)
+
+        self._session.rays.follow(
+            lambda s: s.first_hit(click.origin, click.direction), then
+        )
 
     def _take_config(self) -> None:
         """The tools of the document, then the others, each with its settings."""

@@ -23,3 +23,16 @@ class FocusCameraTool(Tool):
         ahead = click.origin + AHEAD * click.direction
         self.context.look_at(ahead if hit.point is None else hit.point)
         self.context.finish()
+
+    @property
+    def wants_hover(self) -> bool:
+        """What would be looked at is shown."""
+        return True
+
+    def hover(self, click: Click, hit: Hit) -> None:
+        """Show the point under the mouse [m], with three digits as in RViz."""
+        if hit.point is None:
+            self.context.show_status("Click to look in this direction.")
+            return
+        x, y, z = (f"{c:.3g}" for c in hit.point.tolist())
+        self.context.show_status(f"[{x}, {y}, {z}] Click to look at this point.")

@@ -9,22 +9,22 @@ from sambot_viz.rviz import ColorProperty, ToolConfig
 from sambot_viz.tools.picking.hit import Hit
 from sambot_viz.tools.picking.rays import Array
 from sambot_viz.tools.tool import Click, Tool, ToolContext
+from sambot_viz.views.camera import components
 
 COLOR = (128, 128, 0)
 
 
 class MeasureTool(Tool):
-    """First click: start; second: end; third: a new start. Esc removes the line.
+    """First click: start; second: end; third: a new start.
 
-    RViz shows the length in its status bar only; here it is written at the line too.
-    A page reports clicks but not moves of the mouse, so the line appears with the
-    second click.
+    Between the first two, the line ends under the mouse. Esc or a right click removes
+    it. The length is also written at the line, which RViz does not.
     """
 
     kind = "rviz_default_plugins/Measure"
     label = "Measure"
     key = "N"
-    help = "Click on two points, on the robot or on the grid. Esc: start again."
+    help = "Click on two points. Right click or Esc: start again."
     clicks = True
     properties = (
         ColorProperty("Line color", default=COLOR, help="Colour of the line."),
@@ -33,55 +33,86 @@ class MeasureTool(Tool):
     def __init__(self, context: ToolContext, config: ToolConfig | None) -> None:
         """Nothing is measured at first."""
         super().__init__(context, config)
-        self._points: list[Array] = []
-        self._drawn: list[viser.SceneNodeHandle] = []
+        self._start: Array | None = None
+        self._end: Array | None = None
+        self._finished = False
+        self._dot: viser.PointCloudHandle | None = None
+        self._line: viser.LineSegmentsHandle | None = None
+        self._text: viser.LabelHandle | None = None
+
+    @property
+    def wants_hover(self) -> bool:
+        """The line ends under the mouse until its end is clicked on."""
+        return self._start is not None and not self._finished
 
     def click(self, click: Click, hit: Hit) -> None:
         """Take a point; a click on the background does nothing."""
         if hit.point is None:
             return
-        if len(self._points) == 2:
-            self._points.clear()
-        self._points.append(hit.point)
+        if self.wants_hover:
+            self._end, self._finished = hit.point, True
+        else:
+            self._start, self._end, self._finished = hit.point, None, False
         self._draw()
+
+    def hover(self, click: Click, hit: Hit) -> None:
+        """End the line under the mouse; over the background it stays."""
+        if self.wants_hover and hit.point is not None:
+            self._end = hit.point
+            self._draw()
 
     def cancel(self) -> None:
         """Forget the points and remove the line."""
-        self._points.clear()
+        self._start, self._end, self._finished = None, None, False
         self._draw()
 
     def property_changed(self) -> None:
         """Draw in the new colour."""
+        self._clear()
         self._draw()
 
     @property
     def length(self) -> float | None:
-        """The measured length [m]; None before the second point."""
-        if len(self._points) < 2:
+        """The measured length [m]; None before there are two points."""
+        if self._start is None or self._end is None:
             return None
-        return float(np.linalg.norm(self._points[1] - self._points[0]))
+        return float(np.linalg.norm(self._end - self._start))
 
     def _draw(self) -> None:
-        for node in self._drawn:
-            node.remove()
-        self._drawn.clear()
-        if not self._points:
+        """Draw the start, or the line; one that follows the mouse is not made again."""
+        if self._start is None:
+            self._clear()
             self.context.show_status("")
-        elif self.length is None:
-            self._drawn.append(self._add_start())
+        elif self._end is None:
+            self._clear()
+            self._dot = self._add_dot(self._start)
             self.context.show_status("Click on the second point.")
         else:
-            self._drawn += self._add_line(self.length)
-            self.context.show_status(f"[Length: {self.length:.6g}m]")
+            self._draw_line(self._start, self._end)
+            self.context.show_status(f"[Length: {self.length:.6g}m] {self.help}")
 
-    @property
-    def _color(self) -> tuple[int, int, int]:
-        return COLOR if self.config is None else self.config.get("Line color")
+    def _draw_line(self, start: Array, end: Array) -> None:
+        points = np.array([[start, end]], np.float32)
+        length, middle = f"{self.length:.6g} m", components((start + end) / 2)
+        if self._line is not None and self._text is not None:
+            self._line.points = points
+            self._text.text, self._text.position = length, middle
+            return
+        self._clear()
+        scene = self.context.scene
+        self._line = scene.add_line_segments(
+            "/~measure",
+            points,
+            colors=self._color,
+            thickness=2.0,
+            thickness_units="screen",
+        )
+        self._text = scene.add_label("/~measure.length", length, position=middle)
 
-    def _add_start(self) -> viser.SceneNodeHandle:
+    def _add_dot(self, start: Array) -> viser.PointCloudHandle:
         return self.context.scene.add_point_cloud(
             "/~measure.start",
-            np.array([self._points[0]], np.float32),
+            start[None].astype(np.float32),
             self._color,
             point_size=0.01,
             point_shape="circle",
@@ -89,16 +120,12 @@ class MeasureTool(Tool):
             precision="float32",
         )
 
-    def _add_line(self, length: float) -> list[viser.SceneNodeHandle]:
-        scene, points = self.context.scene, np.array(self._points)
-        line = scene.add_line_segments(
-            "/~measure",
-            points[None].astype(np.float32),
-            colors=self._color,
-            thickness=2.0,
-            thickness_units="screen",
-        )
-        label = scene.add_label(
-            "/~measure.length", f"{length:.6g} m", position=points.mean(axis=0)
-        )
-        return [line, label]
+    def _clear(self) -> None:
+        for node in (self._dot, self._line, self._text):
+            if node is not None:
+                node.remove()
+        self._dot = self._line = self._text = None
+
+    @property
+    def _color(self) -> tuple[int, int, int]:
+        return COLOR if self.config is None else self.config.get("Line color")

@@ -16,7 +16,7 @@ Key = Literal["I", "M", "S", "C", "N"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Click:
-    """A click into the 3D view, in the fixed frame.
+    """A click into the 3D view, or where the mouse is over it; in the fixed frame.
 
     Attributes:
         origin: the position of its camera, (3,) [m].
@@ -94,8 +94,17 @@ class Tool:
         """A user drew a rectangle; `items` are the things visible in it."""
         del items, modifier
 
+    @property
+    def wants_hover(self) -> bool:
+        """Whether the page should report where the mouse is."""
+        return False
+
+    def hover(self, click: Click, hit: Hit) -> None:
+        """The mouse has moved over the 3D view; only called while `wants_hover`."""
+        del click, hit
+
     def cancel(self) -> None:
-        """A user pressed Esc."""
+        """A user pressed Esc or clicked with the right button."""
 
     def property_changed(self) -> None:
         """One of its properties has a new value."""

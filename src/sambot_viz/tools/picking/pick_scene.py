@@ -116,13 +116,9 @@ class PickSnapshot:
         """
         near = np.zeros((pixels.rows, pixels.columns))
         owner = np.full(near.shape, -1.0)
-        for number, placed in enumerate(self.placed):
-            box = covered(pixels, pixels.seen(placed.mesh.corners, placed.T))
-            if not len(box.index):
-                continue
-            left, right, top, bottom = (
-                int(end[0]) for end in (box.left, box.right, box.top, box.bottom)
-            )
+        boxes = covered(pixels, pixels.seen(self._corners(), np.eye(4)))
+        for number, left, right, top, bottom in boxes:
+            placed = self.placed[number]
             part = pixels.part(left, top, right - left + 1, bottom - top + 1)
             drawn = nearness(part, placed.mesh, placed.T)
             window = np.s_[top : bottom + 1, left : right + 1]
@@ -130,6 +126,15 @@ class PickSnapshot:
             near[window][nearer] = drawn[nearer]
             owner[window][nearer] = number
         return near, owner
+
+    def _corners(self) -> Array:
+        """The corners of the boxes of all meshes in the fixed frame, (M, 8, 3) [m]."""
+        if not self.placed:
+            return np.zeros((0, 8, 3))
+        T = np.stack([placed.T for placed in self.placed])
+        corners = np.concatenate([placed.mesh.corners for placed in self.placed])
+        turned: Array = np.einsum("mij,mkj->mki", T[:, :3, :3], corners)
+        return turned + T[:, None, :3, 3]
 
 
 class PickScene:

@@ -45,6 +45,11 @@ class Covered:
     top: Indices
     bottom: Indices
 
+    def __iter__(self) -> Iterator[tuple[int, int, int, int, int]]:
+        """Number, left, right, top and bottom of each."""
+        ends = (self.index, self.left, self.right, self.top, self.bottom)
+        yield from zip(*(end.tolist() for end in ends), strict=True)
+
     def pick(self, some: Indices) -> Covered:
         """Only some of them."""
         ends = (self.left, self.right, self.top, self.bottom)

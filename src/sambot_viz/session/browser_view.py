@@ -1,0 +1,289 @@
+"""The view of one browser: its type, its numbers, and the camera that they describe.
+
+A browser begins with a copy of the document's view, which is its own from then on. Its
+mouse moves its camera, and the numbers follow. The document takes over the view of the
+browser that saves it (`store`). With `Session.follow_presenter`, all browsers show what
+the browser shows whose camera moved last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import viser
+
+from sambot_viz.errors import UsageError
+from sambot_viz.rviz import ViewConfig
+from sambot_viz.rviz.class_name import short_name
+from sambot_viz.session.browser_camera import BrowserCamera, same_picture
+from sambot_viz.session.document_view import target_of, view_of
+from sambot_viz.session.saved_views import SavedViews
+from sambot_viz.session.throttle import Throttle
+from sambot_viz.tools.picking.pick_scene import Corners
+from sambot_viz.views.camera import Camera, Vector
+from sambot_viz.views.registry import VIEWS
+from sambot_viz.views.view import WORLD, Values, View
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Browser, Event, Session
+
+READ_PERIOD = 0.1
+"""The numbers follow a moving camera this often [s]."""
+DIGITS = 7
+"""Decimals that are kept of what a mouse has moved [m, rad]."""
+
+
+class BrowserView(SavedViews):
+    """Keeps the view and the camera of one browser in agreement.
+
+    A page that comes back after a broken connection keeps the camera it has.
+
+    Args:
+        session: what is shown, and the document with its views.
+        browser: whose view it is; its listeners hear of changes as "view".
+
+    Attributes:
+        view: the view; one of an unknown type is shown as Orbit.
+    """
+
+    view: View
+
+    def __init__(self, session: Session, browser: Browser) -> None:
+        super().__init__(session)
+        self._browser = browser
+        self._camera = BrowserCamera(browser.client)
+        self._target = WORLD
+        self._take(session.config.detached_view())
+        self._reader = Throttle(session.worker, READ_PERIOD, self._read)
+        orthographic = self._camera.camera.orthographic
+        if self._camera.is_fresh or orthographic != self.view.orthographic:
+            self._point()
+        else:
+            self._take_camera()
+
+        async def moved(handle: viser.CameraHandle) -> None:
+            del handle
+            session.worker.post(self._moved, latest_of=self)
+
+        browser.client.camera.on_update(moved)
+        session.listeners.append(self._hear)
+
+    def close(self) -> None:
+        """The browser has left: follow the session no longer."""
+        self._session.listeners.remove(self._hear)
+        self._reader.close()
+
+    # Asking
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Every value of the view, by its path; read-only."""
+        return MappingProxyType(self.view.config.properties)
+
+    @property
+    def supported(self) -> bool:
+        """Whether the type of the view is known."""
+        return self._config.kind in VIEWS
+
+    @property
+    def camera(self) -> Camera:
+        """The camera as it is now, in the fixed frame."""
+        return self._camera.camera
+
+    # Changing it
+
+    def set(self, path: str, value: Any) -> None:
+        """Set one value.
+
+        Raises:
+            UsageError: there is no such value, or it cannot be that.
+        """
+        with self._edit(f"View: {path}", merge=("view", path)):
+            self.view.config.set(path, value)
+            if path == "Target Frame":
+                before, now = self._target, target_of(self._session, self.view)
+                # The picture stays as it is, except for a turn of the target.
+                self._apply(self.view.shifted(before.position - now.position))
+
+    def set_kind(self, kind: str) -> None:
+        """Choose a type of view; the new one takes over what the old one showed.
+
+        Raises:
+            UsageError: an unknown type.
+        """
+        if kind not in VIEWS:
+            known = ", ".join(VIEWS)
+            raise UsageError(f"there is no view type '{kind}'; there are {known}")
+        with self._edit(f"View: {short_name(kind)}"):
+            old = self.view
+            new = self._session.config.new_view(kind, old.config)
+            # As in RViz, all other values start at their defaults.
+            for path, declared in new.declared.items():
+                if path in new.properties and path != "Target Frame":
+                    new.set(path, declared.property.default)
+            new.set("Target Frame", old.config.get("Target Frame"))
+            self._take(new)
+            self._apply(self.view.mimic(old))
+
+    def zero(self) -> None:
+        """Bring the view to where RViz's "Zero" brings it."""
+        with self._edit("Zero the view"):
+            self._apply(self.view.zero())
+
+    def look_at(self, point: Vector) -> None:
+        """Look at a point of the fixed frame, (3,) [m]."""
+        self._move(lambda: self.view.look_at(point, self._target))
+
+    def fit(self, box: Corners | None = None) -> None:
+        """Show a box whole, from the same direction.
+
+        Args:
+            box: its lowest and highest corner in the fixed frame [m]; the box around
+                the robot when not given, or around all that is drawn without one.
+        """
+        found = self._session.rays.robot_box() if box is None else box
+        if found is not None:
+            low, high = found
+            window = self._browser.client.camera
+            size = max(1, window.image_width), max(1, window.image_height)
+            self._move(lambda: self.view.fit(low, high, *size, self._target))
+
+    def show(self) -> None:
+        """Take the document's view, after a program has set another one."""
+        with self._browser.change("view"):
+            self._take(self._session.config.detached_view())
+            self._point()
+
+    def store(self) -> None:
+        """Write the view into the document, which is about to be saved."""
+        self._session.config.store_view(self._config)
+
+    # The saved views of the document; see also `SavedViews`
+
+    def save(self) -> ViewConfig:
+        """Add the view to the saved ones, named after its type."""
+        return self.add(self._config)
+
+    def use(self, saved: ViewConfig) -> None:
+        """Show a copy of a saved view."""
+        with self._edit(f"Use view {saved.name}"):
+            self._take(self._session.config.detached_view(saved))
+
+    # Inside
+
+    def _take(self, config: ViewConfig) -> None:
+        self._config = config
+        self.view = view_of(config)
+        self._target = target_of(self._session, self.view, self._target)
+
+    @contextmanager
+    def _edit(self, label: str, merge: object = None) -> Generator[None]:
+        """Change the view, move the camera, and record that."""
+        config, before = self._config, dict(self.values)
+        with self._browser.change("view"):
+            yield
+            self._target = target_of(self._session, self.view, self._target)
+            self._point()
+        self._lead()
+        after = dict(self.values)
+        if config is self._config:
+            before = {p: v for p, v in before.items() if after[p] != v}
+            after = {path: after[path] for path in before}
+        if before or after:
+            self._session.edits.record(
+                label,
+                partial(self._restore, self._config, config, before),
+                partial(self._restore, config, self._config, after),
+                merge,
+                of_document=False,
+            )
+
+    def _restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:
+        if self._config is not shown:
+            raise UsageError("another view was shown since")
+        with self._browser.change("view"):
+            if config is not shown:
+                self._take(config)
+            self._apply(values)
+            self._target = target_of(self._session, self.view, self._target)
+            self._point()
+        self._lead()
+
+    def _apply(self, values: Values) -> None:
+        for path, value in values.items():
+            self.view.config.set(path, value)
+
+    def _move(self, values: Callable[[], Values]) -> None:
+        """Move the camera from where it is now; as with a mouse, that is no edit."""
+        with self._browser.change("view"):
+            self._take_camera()
+            self._apply(values())
+            self._point()
+        self._lead()
+
+    def _point(self) -> None:
+        self._camera.point(self.view.camera(self._target))
+
+    def _take_camera(self) -> None:
+        """The numbers take over the camera, unless they describe it already."""
+        if not same_picture(self.camera, self.view.camera(self._target)):
+            self._apply(_rounded(self.view.read(self.camera, self._target)))
+
+    def _moved(self) -> None:
+        """The browser reports its camera; most reports are echoes of what we sent."""
+        with self._session.lock:
+            if not self._camera.take():
+                return
+        self._reader.request()
+
+    def _read(self) -> None:
+        """The numbers take over the camera."""
+        with self._session.lock:
+            if same_picture(self.camera, self.view.camera(self._target)):
+                return
+            with self._browser.change("view"):
+                self._take_camera()
+            self._lead()
+
+    def _lead(self) -> None:
+        """The others show the same, where they are to follow."""
+        if self._session.follow_presenter:
+            for other in tuple(self._session.browsers.values()):
+                if other is not self._browser:
+                    other.view.follow(self)
+
+    def follow(self, presenter: BrowserView) -> None:
+        """Show what another browser shows."""
+        with self._browser.change("view"):
+            if self._config.class_id != presenter._config.class_id:
+                self._take(self._session.config.detached_view(presenter._config))
+            self._apply(presenter.values)
+            self._target = presenter._target
+            self._camera.point(presenter.camera)
+
+    def _hear(self, event: Event) -> None:
+        if event in ("joints", "frames", "robot"):
+            self._follow_target()
+
+    def _follow_target(self) -> None:
+        """Move the camera with the target frame."""
+        before, now = self._target, target_of(self._session, self.view, self._target)
+        if not now.same_as(before):
+            self._target = now
+            self._camera.point(self.view.moved(self.camera, before, now))
+
+
+def _rounded(values: Values) -> Values:
+    """Values without their last digits, which a page changes at random."""
+    return {path: _round(value) for path, value in values.items()}
+
+
+def _round(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, DIGITS)
+    x, y, z = value
+    return (round(x, DIGITS), round(y, DIGITS), round(z, DIGITS))
