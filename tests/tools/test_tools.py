@@ -89,21 +89,17 @@ class Browser:
         )
         self.settle()
 
-    def trigger(self, command: str) -> None:
-        """Trigger a command, as a button, a key or the command palette does."""
-        self.client.send("CommandTriggerMessage", uuid=self.uuid_of(command))
-        self.settle()
-
-    def uuid_of(self, command: str) -> str:
-        """The name by which a page triggers a command."""
-        commands = (
-            m.fields for m in self.client.messages if m.type == "RegisterCommandMessage"
-        )
-        return next(c["uuid"] for c in commands if c["props"]["label"] == command)
+    def choose(self, label: str) -> None:
+        """Press the button of a tool."""
+        self.act(f"tool/{label}")
 
     def press_key_of(self, label: str) -> None:
-        key = next(tool.key for tool in TOOLS.values() if tool.label == label)
-        self.trigger(f"{label}, as key {key}")
+        """Press the key of a tool."""
+        self.act("tools/press", label)
+
+    def act(self, action: str, *values: Any) -> None:
+        self.client.act(action, *values)
+        self.settle()
 
     @property
     def tools(self) -> ToolControl:
@@ -184,38 +180,40 @@ def test_a_button_chooses_its_tool_whichever_is_current(
     browser: Browser, before: str
 ) -> None:
     for after in LABELS:
-        browser.trigger(before)
-        browser.trigger(after)
+        browser.choose(before)
+        browser.choose(after)
         assert browser.current == after, f"{before} to {after}"
 
 
-def test_a_key_chooses_its_tool_except_from_select(browser: Browser) -> None:
+def test_a_key_chooses_its_tool_whichever_is_current(browser: Browser) -> None:
     for before, after in itertools.permutations(LABELS, 2):
-        browser.trigger(before)
+        browser.choose(before)
         browser.press_key_of(after)
-        kept = before == "Select"
-        assert browser.current == (before if kept else after), f"{before} to {after}"
+        assert browser.current == after, f"{before} to {after}"
 
 
 @pytest.mark.parametrize("label", LABELS)
 def test_the_key_of_the_current_tool_leaves_it_and_so_does_escape(
     browser: Browser, label: str
 ) -> None:
-    browser.trigger(label)
+    browser.choose(label)
     browser.press_key_of(label)
     assert browser.current == "Move Camera"
-    browser.trigger(label)
-    browser.trigger("Default tool")
+    browser.choose(label)
+    browser.act("tools/escape")
     assert browser.current == "Move Camera"
 
 
-def test_the_buttons_of_the_toolbar_trigger_the_commands(browser: Browser) -> None:
-    html = "".join(
-        str(message.fields.get("props", {}).get("content", ""))
-        for message in browser.client.messages
-    )
-    for label in (*LABELS, "Zero the view", "Reset"):
-        assert browser.uuid_of(label) in html, label
+def test_the_toolbar_shows_the_tools_their_keys_and_which_is_current(
+    browser: Browser,
+) -> None:
+    browser.choose("Measure")
+    rows = {label: browser.client.row_named("tools", label) for label in LABELS}
+    assert [label for label in LABELS if rows[label]["value"]] == ["Measure"]
+    assert [rows[tool.label]["key"] for tool in TOOLS.values()] == [
+        tool.key.lower() for tool in TOOLS.values()
+    ]
+    assert browser.client.row("tools/hint")["value"] == browser.tools.current.help
 
 
 def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
@@ -230,7 +228,7 @@ def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
 
 
 def test_a_click_selects_adds_and_removes(browser: Browser) -> None:
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.click_down(0.0, 0.0)
     assert list(browser.tools.selection) == [Selectable("link", "base_link")]
     browser.click_down(-0.12, 0.18, "shift")
@@ -244,7 +242,7 @@ def test_a_click_selects_adds_and_removes(browser: Browser) -> None:
 
 
 def test_a_rectangle_selects_what_can_be_seen_in_it(browser: Browser) -> None:
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.look_down()
     browser.rectangle((0.4, 0.4), (0.6, 0.6))
     assert set(browser.selected) == {"base_link", "drivewhl_l_link", "drivewhl_r_link"}
@@ -254,7 +252,7 @@ def test_a_rectangle_selects_what_can_be_seen_in_it(browser: Browser) -> None:
 
 
 def test_a_grid_hides_nothing_that_is_behind_it(browser: Browser) -> None:
-    browser.trigger("Select")
+    browser.choose("Select")
     # The grid is in the middle of the base; from below the base is behind it.
     browser.click((-0.12, 0.5, -0.08), (0.0, -1.0, 0.0))
     assert browser.selected == ["drivewhl_l_link"]
@@ -268,7 +266,7 @@ def test_a_frame_is_selected_by_its_axes_and_a_link_beside_them(
     open_browser: Callable[..., Browser],
 ) -> None:
     browser = open_browser("RobotModel", "TF")
-    browser.trigger("Select")
+    browser.choose("Select")
     wheel = "drivewhl_l_link"
     # From the side, the wheel's y axis sticks out of its middle.
     browser.click((-0.12, 5.0, -0.05), (0.0, -1.0, 0.0))
@@ -284,7 +282,7 @@ def test_frames_and_links_that_are_not_drawn_are_not_selected(
     tf, model = browser.session.displays
     if tf.kind.endswith("RobotModel"):
         tf, model = model, tf
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.look_down()
     browser.rectangle((0.0, 0.0), (1.0, 1.0))
     kinds = {item.kind for item in browser.tools.selection}
@@ -307,7 +305,7 @@ def test_frames_and_links_that_are_not_drawn_are_not_selected(
 def test_a_click_that_is_not_a_ray_is_ignored(
     browser: Browser, capfd: pytest.CaptureFixture[str], origin: Any, direction: Any
 ) -> None:
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.click_down(0.0, 0.0)
     browser.click(origin, direction)
     assert browser.selected == ["base_link"]
@@ -317,7 +315,7 @@ def test_a_click_that_is_not_a_ray_is_ignored(
 def test_a_rectangle_that_is_not_one_is_ignored(
     browser: Browser, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.look_down()
     browser.rectangle((0.4, 0.4), (0.6, 0.6))
     before = browser.selected
@@ -331,7 +329,7 @@ def test_a_rectangle_that_is_not_one_is_ignored(
 
 
 def test_selection_boxes_move_with_their_links(browser: Browser) -> None:
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.click_down(-0.12, 0.18)
     mark = browser.client.mark()
     browser.viz.set_joint_positions({"drivewhl_l_joint": 0.4})
@@ -347,7 +345,7 @@ def test_selection_boxes_move_with_their_links(browser: Browser) -> None:
 
 def test_measure_shows_the_distance_of_two_points(browser: Browser) -> None:
     tools = browser.tools
-    browser.trigger("Measure")
+    browser.choose("Measure")
     browser.click_down(1.0, 1.0)
     assert tools.status == "Click on the second point."
     browser.click_down(2.0, 1.0)
@@ -358,7 +356,7 @@ def test_measure_shows_the_distance_of_two_points(browser: Browser) -> None:
     )
     browser.click_down(3.0, 1.0)
     assert tools.status == "Click on the second point."
-    browser.trigger("Default tool")
+    browser.act("tools/escape")
     assert browser.current == "Move Camera"
     assert tools.status == ""
 
@@ -369,7 +367,7 @@ def test_measure_is_the_same_with_and_without_a_grid_in_between(
     lengths: list[str] = []
     for displays in (("RobotModel", "Grid"), ("RobotModel",)):
         browser = open_browser(*displays)
-        browser.trigger("Measure")
+        browser.choose("Measure")
         # Two points of the base's front, the second below the plane of the grid.
         browser.click((1.0, 0.0, 0.5), (-0.79, 0.0, -0.45))
         browser.click((1.0, 0.0, 0.5), (-0.79, 0.0, -0.55))
@@ -382,7 +380,7 @@ def test_measure_takes_points_of_what_is_drawn_near_a_frame(
     open_browser: Callable[..., Browser],
 ) -> None:
     browser = open_browser("Grid", "TF")
-    browser.trigger("Measure")
+    browser.choose("Measure")
     # Beside the axes of the wheel, though within the sphere that selects the frame.
     browser.click((-0.12 + 0.03, 0.18 + 0.03, 5.0))
     browser.click((-0.12 + 0.03, 2.21, 5.0))
@@ -398,7 +396,7 @@ def on_screen(x: float, y: float) -> tuple[float, float]:
 def test_the_line_follows_the_mouse_until_the_second_click(browser: Browser) -> None:
     tools = browser.tools
     browser.look_down()
-    browser.trigger("Measure")
+    browser.choose("Measure")
     tools.hover(on_screen(1.0, 1.0))
     assert (tools.status, tools.current.wants_hover) == ("", False)
     browser.click_down(1.0, 1.0)
@@ -418,7 +416,7 @@ def test_the_line_follows_the_mouse_until_the_second_click(browser: Browser) -> 
 
 def test_a_line_that_follows_the_mouse_is_not_added_again(browser: Browser) -> None:
     browser.look_down()
-    browser.trigger("Measure")
+    browser.choose("Measure")
     browser.click_down(1.0, 1.0)
     browser.tools.hover(on_screen(2.0, 1.0))
     browser.settle()
@@ -433,7 +431,7 @@ def test_a_line_that_follows_the_mouse_is_not_added_again(browser: Browser) -> N
 
 def test_a_right_click_starts_the_measurement_again(browser: Browser) -> None:
     tools = browser.tools
-    browser.trigger("Measure")
+    browser.choose("Measure")
     for x in (1.0, 2.0):
         browser.click_down(x, 1.0)
     tools.right_click()
@@ -448,7 +446,7 @@ def test_a_right_click_starts_the_measurement_again(browser: Browser) -> None:
 
 def test_focus_shows_the_point_under_the_mouse(browser: Browser) -> None:
     browser.look_down()
-    browser.trigger("Focus Camera")
+    browser.choose("Focus Camera")
     browser.tools.hover(on_screen(0.05, 0.05))
     assert browser.tools.status.startswith("[0.0491, 0.0491, 0.09] ")
     browser.click((3.0, 0.0, 0.5), (0.0, 0.0, 1.0))
@@ -457,7 +455,7 @@ def test_focus_shows_the_point_under_the_mouse(browser: Browser) -> None:
 
 
 def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
-    browser.trigger("Focus Camera")
+    browser.choose("Focus Camera")
     browser.click_down(0.05, 0.05)
     focal = browser.view.values["Focal Point"]
     assert focal == pytest.approx((0.05, 0.05, 0.09), abs=1e-3)
@@ -465,7 +463,7 @@ def test_focus_looks_at_the_point_and_goes_back(browser: Browser) -> None:
 
 
 def test_over_the_background_focus_looks_one_metre_ahead(browser: Browser) -> None:
-    browser.trigger("Focus Camera")
+    browser.choose("Focus Camera")
     browser.click((3.0, 0.0, 0.5), (0.0, 0.0, 1.0))
     values = browser.view.values
     assert values["Focal Point"] == pytest.approx((3.0, 0.0, 1.5))
@@ -475,11 +473,11 @@ def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
     browser: Browser,
 ) -> None:
     values = browser.view.values
-    browser.trigger("Focus on the selection")
+    browser.act("tools/focus", None, None)
     assert values["Focal Point"][2] == pytest.approx(0.09, abs=0.2)
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.click_down(-0.12, 0.18)
-    browser.trigger("Focus on the selection")
+    browser.act("tools/focus", None, None)
     assert values["Focal Point"] == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
 
 
@@ -500,8 +498,9 @@ def test_settings_go_into_the_document_that_was_read_last(
     path = document(tmp_path / "new.rviz", "Grid", color="7; 8; 9")
     browser.session.set_config(load_config(path))
     browser.settle()
-    assert list(browser.client.value_of("Line color")) == [7, 8, 9]
-    browser.client.set_value(browser.client.uuid_of("Line color"), (4, 5, 6))
+    color = "tool_properties", "Measure", "Line color"
+    assert list(browser.client.shown(*color)) == [7, 8, 9]
+    browser.client.edit(browser.client.id_of(*color), [4, 5, 6])
     browser.settle()
     assert "4; 5; 6" in browser.session.config.to_yaml()
 
@@ -518,7 +517,7 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
     )
     browser.session.show_robot(load_robot(model))
     browser.viz.server.wait_for_meshes(30.0)
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.click_down(0.0, 0.0)
     assert browser.selected == ["base_link"]
     mesh.unlink()
@@ -540,7 +539,7 @@ def test_a_click_into_a_large_mesh_is_followed_in_a_thread(
     )
     browser.session.show_robot(load_robot(model))
     browser.viz.server.wait_for_meshes(30.0)
-    browser.trigger("Select")
+    browser.choose("Select")
     browser.click_down(0.1, 0.2)
     browser.client.wait_until(lambda: browser.selected == ["base_link"])
     threads = [thread.name for thread in threading.enumerate()]
