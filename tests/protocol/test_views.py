@@ -262,8 +262,8 @@ def test_the_panel_shows_every_type_also_the_steepest_pitch(
     for name in ("TopDownOrtho", "Orbit", "FPS", "ThirdPersonFollower", "XYOrbit"):
         views.set_kind(f"rviz_default_plugins/{name}")
         client.settle(viser_server(viz))
-        assert client.row("view/type")["value"] == f"{name} (rviz_default_plugins)"
+        assert client.value_of("Type") == f"{name} (rviz_default_plugins)"
     views.set_kind("rviz_default_plugins/TopDownOrtho")
     views.set_kind(ORBIT)
     client.settle(viser_server(viz))
-    assert client.row("view/Pitch")["value"] == pytest.approx(1.569796)
+    assert client.value_of("Pitch [rad]") == pytest.approx(1.569796)

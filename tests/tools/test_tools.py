@@ -89,17 +89,14 @@ class Browser:
         )
         self.settle()
 
+    def act(self, row_id: str, *values: object) -> None:
+        """Do what a button or a key of the page does."""
+        self.client.act(row_id, *values)
+        self.settle()
+
     def choose(self, label: str) -> None:
         """Press the button of a tool."""
         self.act(f"tool/{label}")
-
-    def press_key_of(self, label: str) -> None:
-        """Press the key of a tool."""
-        self.act("tools/press", label)
-
-    def act(self, action: str, *values: Any) -> None:
-        self.client.act(action, *values)
-        self.settle()
 
     @property
     def tools(self) -> ToolControl:
@@ -188,7 +185,7 @@ def test_a_button_chooses_its_tool_whichever_is_current(
 def test_a_key_chooses_its_tool_whichever_is_current(browser: Browser) -> None:
     for before, after in itertools.permutations(LABELS, 2):
         browser.choose(before)
-        browser.press_key_of(after)
+        browser.act("tools/press", after)
         assert browser.current == after, f"{before} to {after}"
 
 
@@ -197,23 +194,11 @@ def test_the_key_of_the_current_tool_leaves_it_and_so_does_escape(
     browser: Browser, label: str
 ) -> None:
     browser.choose(label)
-    browser.press_key_of(label)
+    browser.act("tools/press", label)
     assert browser.current == "Move Camera"
     browser.choose(label)
     browser.act("tools/escape")
     assert browser.current == "Move Camera"
-
-
-def test_the_toolbar_shows_the_tools_their_keys_and_which_is_current(
-    browser: Browser,
-) -> None:
-    browser.choose("Measure")
-    rows = {label: browser.client.row_named("tools", label) for label in LABELS}
-    assert [label for label in LABELS if rows[label]["value"]] == ["Measure"]
-    assert [rows[tool.label]["key"] for tool in TOOLS.values()] == [
-        tool.key.lower() for tool in TOOLS.values()
-    ]
-    assert browser.client.row("tools/hint")["value"] == browser.tools.current.help
 
 
 def test_a_tool_that_does_not_exist_is_refused(browser: Browser) -> None:
@@ -469,16 +454,32 @@ def test_over_the_background_focus_looks_one_metre_ahead(browser: Browser) -> No
     assert values["Focal Point"] == pytest.approx((3.0, 0.0, 1.5))
 
 
-def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
+def test_focus_looks_at_what_is_selected_under_the_mouse_or_the_robot(
     browser: Browser,
 ) -> None:
     values = browser.view.values
-    browser.act("tools/focus", None, None)
-    assert values["Focal Point"][2] == pytest.approx(0.09, abs=0.2)
+    browser.look_down()
+    browser.act("tools/focus", *on_screen(1.0, 0.5))
+    assert values["Focal Point"] == pytest.approx((1.0, 0.5, 0.0), abs=0.02)
     browser.choose("Select")
     browser.click_down(-0.12, 0.18)
+    browser.act("tools/focus", *on_screen(1.0, 0.5))
+    assert values["Focal Point"] == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
+    browser.choose("Move Camera")
+    browser.look_down()
+    browser.act("tools/focus", *on_screen(1.0, 0.5))
+    assert values["Focal Point"] == pytest.approx((1.0, 0.5, 0.0), abs=0.02)
     browser.act("tools/focus", None, None)
     assert values["Focal Point"] == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
+
+
+def test_focus_on_nothing_shows_the_whole_robot(browser: Browser) -> None:
+    values = browser.view.values
+    for place in ((None, None), (0.01, 0.01), (2.0, 0.5)):
+        browser.look_down(position=(50.0, 0.0, 500.0), look_at=(50.0, 0.0, 0.0))
+        browser.act("tools/focus", *place)
+        assert np.abs(values["Focal Point"]).max() < 0.3, place
+        assert values["Distance"] < 2.0, place
 
 
 # Settings.
@@ -498,9 +499,9 @@ def test_settings_go_into_the_document_that_was_read_last(
     path = document(tmp_path / "new.rviz", "Grid", color="7; 8; 9")
     browser.session.set_config(load_config(path))
     browser.settle()
-    color = "tool_properties", "Measure", "Line color"
-    assert list(browser.client.shown(*color)) == [7, 8, 9]
-    browser.client.edit(browser.client.id_of(*color), [4, 5, 6])
+    color = "tool_properties/Measure/Line color"
+    assert browser.client.row(color)["value"] == [7, 8, 9]
+    browser.client.edit(color, [4, 5, 6])
     browser.settle()
     assert "4; 5; 6" in browser.session.config.to_yaml()
 

@@ -265,19 +265,26 @@ function TextCell({ row, tab }) {
     accept=${(/** @type {string} */ typed) => { send(row.id, typed); }} />`;
 }
 
-/** @param {{row: Row, tab: number}} props */
+/** Several numbers in one field, as RViz writes a vector. @param {{row: Row, tab: number}} props */
 function VectorCell({ row, tab }) {
+  degrees.use();
+  const { unit, factor } = shownUnit(row);
+  const texts = row.value.map((/** @type {number} */ part) => formatNumber(part * factor, 5));
   /** @param {string} typed */
   const accept = (typed) => {
-    const parts = typed.split(/[;\s]+/).filter(Boolean).map((part) => parseNumber(part, row.unit));
-    const values = parts.map((part) => ("value" in part ? part.value : NaN));
+    const values = typed.split(/[;\s]+/).filter(Boolean).map((part, i) => {
+      // What was not changed keeps the digits that are not shown.
+      if (part === texts[i]) return row.value[i];
+      const read = parseNumber(part, unit);
+      return "value" in read ? read.value : NaN;
+    });
     if (values.length !== row.value.length || values.some(Number.isNaN)) {
       return `type ${row.value.length} numbers, such as ${row.value.map(() => "0").join("; ")}`;
     }
     send(row.id, values);
   };
-  const shown = row.value.map((/** @type {number} */ part) => formatNumber(part, 5)).join("; ");
-  return html`<${Field} row=${row} tab=${tab} shown=${shown} accept=${accept} />`;
+  return html`<span class="number"><${Field} row=${row} tab=${tab} shown=${texts.join("; ")} accept=${accept} />
+    ${unit && html`<span class="unit">${unit}</span>`}</span>`;
 }
 
 /** @param {{row: Row, tab: number}} props */

@@ -18,8 +18,12 @@ const start = () => {
   render(html`<${Window} />`, host);
   listenToKeys({ tools: toolKeys, mouse: mousePlace, act, hide: togglePanels });
   const hovering = newGesture();
-  const wanted = () => rows.children("panel:tools").some((id) => rows.get(id)?.hover);
-  followMouse(wanted, (place) => send("tools/hover", place, hovering));
+  followMouse({
+    wantsHover: () => rows.children("panel:tools").some((id) => rows.get(id)?.hover),
+    // Of the places that wait, only the last one counts.
+    hover: (place) => send("tools/hover", place, hovering),
+    rightClick: () => act("tools/right_click"),
+  });
   tellView();
   connect();
 };

@@ -27,38 +27,58 @@ function placeOf(event) {
   return x >= 0 && x <= 1 && y >= 0 && y <= 1 ? [x, y] : OUTSIDE;
 }
 
+/** A press that moves less than this is a click [px]. */
+const CLICK = 4;
+
 /**
  * Follow the mouse.
- * @param {() => boolean} wanted whether places are to be sent now
- * @param {(place: Place) => void} send
+ * @param {{wantsHover: () => boolean, hover: (place: [number, number]) => void, rightClick: () => void}} to
+ *   hover: called while the tool wants it, when the place has changed
  */
-export function followMouse(wanted, send) {
-  let sent = OUTSIDE, timer = 0, last = -Infinity;
+export function followMouse({ wantsHover, hover, rightClick }) {
+  /** @type {Place} */
+  let sent = OUTSIDE;
+  let timer = 0, last = -Infinity;
   const sendLast = () => {
     timer = 0;
-    if (!wanted() || (place[0] === sent[0] && place[1] === sent[1])) return;
+    const [x, y] = place;
+    if (x === null || y === null || !wantsHover() || (x === sent[0] && y === sent[1])) return;
     last = performance.now();
     sent = place;
-    send(place);
-  };
-  /** @param {Place} next */
-  const moved = (next) => {
-    place = next;
-    if (!timer && wanted()) timer = window.setTimeout(sendLast, Math.max(0, last + 1000 / HOVERS - performance.now()));
+    hover([x, y]);
   };
   addEventListener("pointermove", (event) => {
     // A finger does not hover, and with a button the mouse turns the view.
-    if (event.pointerType !== "touch") moved(event.buttons ? OUTSIDE : placeOf(event));
+    if (event.pointerType === "touch") return;
+    place = event.buttons ? OUTSIDE : placeOf(event);
+    const pause = last + 1000 / HOVERS - performance.now();
+    if (!timer && wantsHover()) timer = window.setTimeout(sendLast, Math.max(0, pause));
   }, true);
-  document.addEventListener("pointerleave", () => moved(OUTSIDE));
+  document.addEventListener("pointerleave", () => { place = OUTSIDE; });
+  /** Where the right button was pressed in the view. @type {{x: number, y: number} | null} */
+  let right = null;
   addEventListener("pointerdown", (event) => {
-    const view = canvas();
-    if (!view || !inView(event.target)) return;
-    if (view.tabIndex < 0) {
-      view.tabIndex = 0;
-      view.setAttribute("role", "application");
-      view.setAttribute("aria-label", "3D view");
-    }
-    view.focus({ preventScroll: true });
+    right = null;
+    if (!inView(event.target)) return;
+    if (event.button === 2) right = { x: event.clientX, y: event.clientY };
+    focusView();
   }, true);
+  addEventListener("pointerup", (event) => {
+    if (event.button !== 2 || !right) return;
+    const moved = Math.hypot(event.clientX - right.x, event.clientY - right.y);
+    right = null;
+    if (moved < CLICK) rightClick();
+  }, true);
+}
+
+/** After a click the view has the focus, and no text field any more. */
+function focusView() {
+  const view = canvas();
+  if (!view) return;
+  if (view.tabIndex < 0) {
+    view.tabIndex = 0;
+    view.setAttribute("role", "application");
+    view.setAttribute("aria-label", "3D view");
+  }
+  view.focus({ preventScroll: true });
 }

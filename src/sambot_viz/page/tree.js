@@ -124,7 +124,7 @@ function RowView({ id, depth, panel, current, chosen, onMenu, onDouble, renaming
       onContextMenu=${(/** @type {any} */ e) => { if (onMenu && !e.target.matches("input")) { e.preventDefault(); select(panel, id); onMenu(e, row); } }}>
     ${wide ? html`<span class="wide" role="gridcell">${row.kind === "lines" ? html`<pre>${row.value}</pre>` : row.value}</span>
       ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}` : html`
-    <span class="name" role="gridcell" onDblClick=${() => (onDouble?.(row) ? undefined : row.bold && rename ? rename(id, null) : opens && setOpen(panel, id, !open))}>
+    <span class="name" role="gridcell" onMouseDown=${(/** @type {any} */ e) => { if (e.detail > 1 && !e.target.matches("input")) e.preventDefault(); }} onDblClick=${() => (onDouble?.(row) ? undefined : row.bold && rename ? rename(id, null) : opens && setOpen(panel, id, !open))}>
       <span class=${`twist${opens ? (open ? " open" : "") : " none"}`} aria-hidden="true"
         onClick=${() => opens && setOpen(panel, id, !open)}></span>
       ${(row.icon || row.level) && html`<${Icon} name=${row.kind === "status" ? row.level : row.icon || row.level} />`}

@@ -13,6 +13,10 @@ from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
 from sambot_viz.tools.tool import Tool
 
+_NUMBERS = ((float, int), (float, int))
+_PLACE = ((float, int, type(None)), (float, int, type(None)))
+"""Of the mouse in the view, 0 to 1 from left and top; None when it is not there."""
+
 
 class ToolsPanel(Panel):
     """The tools, which of them is current, its hint, and what keys and buttons do.
@@ -46,7 +50,7 @@ class ToolsPanel(Panel):
             value=current,
             help=tool.help,
             icon=tool.label,
-            extra={"key": tool.key.lower()},
+            extra={"key": tool.key.lower(), "hover": current and tool.wants_hover},
             set=lambda _: self._browser.tools.choose(tool.kind),
         )
 
@@ -56,8 +60,9 @@ class ToolsPanel(Panel):
         yield Row("tools/hint", "", "note", value=hint)
         yield _action("tools/escape", lambda _: tools.escape())
         yield Row("tools/press", "", "action", takes=(str,), set=self._press)
-        number = (float, int, type(None))
-        yield Row("tools/focus", "", "action", takes=(number, number), set=self._focus)
+        yield Row("tools/hover", "", "action", takes=_NUMBERS, set=tools.hover)
+        yield _action("tools/right_click", lambda _: tools.right_click())
+        yield Row("tools/focus", "", "action", takes=_PLACE, set=self._focus)
         yield _action("tools/zero", lambda _: view.zero())
         yield _action("tools/reset", lambda _: self._session.refresh())
 
@@ -69,9 +74,9 @@ class ToolsPanel(Panel):
                 return
         raise UsageError(f"there is no tool '{label}'")
 
-    def _focus(self, point: tuple[float | None, float | None]) -> None:
-        del point
-        self._browser.tools.focus()
+    def _focus(self, place: tuple[float | None, float | None]) -> None:
+        x, y = place
+        self._browser.tools.focus(None if x is None or y is None else (x, y))
 
 
 class ToolPropertiesPanel(Panel):
@@ -91,28 +96,25 @@ class ToolPropertiesPanel(Panel):
 
     def rows(self) -> Sequence[Row]:
         """A group per tool that has settings."""
-        made: list[Row] = []
-        for tool in self._browser.tools.tools:
-            if tool.config is None or not tool.properties:
-                continue
-            group = f"tool_properties/{tool.label}"
-            change = partial(self._session.set_tool_property, tool.kind)
-            below = [*property_rows(tool.config, group, change)]
-            if below:
-                help_text, icon = tool.help, tool.label
-                made.append(
-                    Row(
-                        group,
-                        "",
-                        "group",
-                        tool.label,
-                        icon=icon,
-                        help=help_text,
-                        expanded=True,
-                    )
-                )
-                made.extend(below)
+        made = [row for tool in self._browser.tools.tools for row in self._of(tool)]
         return made or [Row("tool_properties/none", "", "note", value=_NO_SETTINGS)]
+
+    def _of(self, tool: Tool) -> Sequence[Row]:
+        if tool.config is None:
+            return ()
+        group = f"tool_properties/{tool.label}"
+        change = partial(self._session.set_tool_property, tool.kind)
+        below = [*property_rows(tool.config, group, change)]
+        head = Row(
+            group,
+            "",
+            "group",
+            tool.label,
+            icon=tool.label,
+            help=tool.help,
+            expanded=True,
+        )
+        return [head, *below] if below else ()
 
 
 def _action(row_id: str, act: Callable[[object], object]) -> Row:

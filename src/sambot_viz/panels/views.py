@@ -67,7 +67,6 @@ class ViewsPanel(Panel):
 
     def _current(self) -> Iterator[Row]:
         view = self._browser.view.view
-        unknown = self._unknown()
         yield Row(
             CURRENT,
             "",
@@ -78,8 +77,8 @@ class ViewsPanel(Panel):
             expanded=True,
             bold=True,
         )
-        if unknown is not None:
-            yield Row("view/:unknown", CURRENT, "note", value=unknown, level="warn")
+        if not self._browser.view.supported:
+            yield Row("view/:unknown", CURRENT, "note", value=_UNKNOWN, level="warn")
         yield from property_rows(view.config, CURRENT, self._browser.view.set)
         yield Row(
             "view/:follow",
@@ -91,16 +90,6 @@ class ViewsPanel(Panel):
             set=self._follow,
         )
         yield Row("view/shown", "", "names", value=self._shown())
-
-    def _unknown(self) -> str | None:
-        """Why the view is not the one that the document asks for."""
-        asked = self._session.config.view
-        if asked.kind in VIEWS:
-            return None
-        return (
-            f"The config asks for a view of type {asked.class_id}, which is not known "
-            "here: shown as Orbit, and kept as it is in the file."
-        )
 
     def _shown(self) -> Json:
         """What the page's own mouse handling has to know of the view."""
@@ -170,3 +159,9 @@ class ViewsPanel(Panel):
             takes=(str,),
             set=lambda arguments: view.remove(self._saved_view(arguments[0])),
         )
+
+
+_UNKNOWN = (
+    "The config asks for a type of view that is not known here: shown as Orbit, and "
+    "kept as it is in the file."
+)

@@ -21,6 +21,7 @@ from sambot_viz.tools.picking.picture import ScreenPoint
 from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
+from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
 
 if TYPE_CHECKING:
@@ -133,23 +134,34 @@ class ToolControl:
         with self._browser.change("tools"):
             self.current.cancel()
 
-    def focus(self) -> None:
-        """F: look at the selection, or at what is in the middle of the picture."""
+    def focus(self, at: ScreenPoint | None = None) -> None:
+        """F: look at what is under the mouse, or else show the whole robot.
+
+        With Select, and for a button, what is selected comes first.
+
+        Args:
+            at: where the mouse is, as in `hover`; None when it is not in the picture.
+        """
         rays = self._session.rays
-        with self._session.lock:
+        if at is None or isinstance(self.current, SelectTool):
             boxes = rays.boxes_of(self.selection).values()
-            camera = self._browser.view.camera
-        if boxes:
-            low = np.min([box[0] for box in boxes], axis=0)
-            high = np.max([box[1] for box in boxes], axis=0)
-            self.look_at((low + high) / 2)
+            if boxes:
+                low = np.min([box[0] for box in boxes], axis=0)
+                high = np.max([box[1] for box in boxes], axis=0)
+                self.look_at((low + high) / 2)
+                return
+        click = None if at is None else pointed_at(self._browser.client, at)
+        if click is None:
+            self._browser.view.fit()
             return
 
         def then(hit: Hit) -> None:
-            if hit.point is not None:
+            if hit.point is None:
+                self._browser.view.fit()
+            else:
                 self.look_at(hit.point)
 
-        rays.follow(lambda s: s.first_hit(camera.position, camera.forward), then)
+        rays.follow(lambda s: s.first_hit(click.origin, click.direction), then)
 
     # What tools may use (tools.tool.ToolContext)
 

@@ -6,7 +6,7 @@ import { act, rows } from "../channel.js";
 import { Combo } from "../combo.js";
 import { refusals, refuse } from "../notices.js";
 import { parseNumber } from "../numbers.js";
-import { degrees, fold, isOpen, selected, useRow } from "../state.js";
+import { degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
 
 /** @typedef {import("../rows.js").Row} Row */
@@ -37,15 +37,14 @@ const LENGTHS = ["x", "y", "z"], ANGLES = ["roll", "pitch", "yaw"];
 
 /** Fields for a new static transform, and a place to paste one. @param {{children?: any}} props */
 function Add({ children }) {
+  folds.use();
   const open = isOpen("frames/form");
-  useRow("frames/form");
   const why = useRow("frames/add") && (refusals.get("frames/add") || refusals.get("frames/paste"));
   useRow("frames/paste");
   const [wrong, setWrong] = useState("");
   const said = wrong || why;
-  const show = () => { fold("frames/form", !open); rows.notify("frames/form"); };
   return html`<div class="buttons">
-      <button aria-expanded=${String(open)} onClick=${show}>Add static transform …</button>${children}
+      <button aria-expanded=${String(open)} onClick=${() => fold("frames/form", !open)}>Add static transform …</button>${children}
     </div>
     ${open && html`<${Form} setWrong=${setWrong} />`}
     ${open && said && html`<div class="why" role="alert">${said}</div>`}`;
@@ -60,6 +59,15 @@ function Form({ setWrong }) {
   const [parent, setParent] = useState(/** @type {string | null} */ (null));
   const within = parent ?? rows.value("frames/from") ?? "";
   const angle = inDegrees ? "°" : "rad";
+  // What was added is cleared: its name is not wanted again.
+  const wanted = useRef(-1);
+  useRow("panel:frames");
+  const count = rows.children("frames/static").filter((id) => rows.get(id)?.static).length;
+  useEffect(() => {
+    if (wanted.current < 0 || count <= wanted.current) return;
+    wanted.current = -1;
+    for (const name of ["child", "pasted"]) form.current.querySelector(`[name=${name}]`).value = "";
+  }, [count]);
   /** @param {string} name */
   const typed = (name) => form.current.querySelector(`[name=${name}]`).value;
   const begin = () => { setWrong(""); refuse("frames/add"); refuse("frames/paste"); };
@@ -67,6 +75,7 @@ function Form({ setWrong }) {
   const add = (event) => {
     event.preventDefault();
     begin();
+    wanted.current = count;
     if (typed("pasted").trim()) return act("frames/paste", [typed("pasted")]);
     /** @type {number[]} */
     const numbers = [];
@@ -78,8 +87,8 @@ function Form({ setWrong }) {
     return act("frames/add", [...numbers, within, typed("child")]);
   };
   /** @param {string} name @param {string} unit */
-  const number = (name, unit) => html`<label>${name} <input name=${name} inputmode="decimal" autocomplete="off" placeholder="0" />
-    <span class="unit">${unit}</span></label>`;
+  const number = (name, unit) => html`<label>${name} <input name=${name} inputmode="decimal" autocomplete="off"
+    placeholder=${`0 ${unit}`} title=${`${name}, in ${unit} or with a unit behind it`} /></label>`;
   return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
     ${LENGTHS.map((name) => number(name, "m"))}
     ${ANGLES.map((name) => number(name, angle))}
