@@ -67,13 +67,14 @@ def report(
     position: Vector3,
     look_at: Vector3 = (0.0, 0.0, 0.0),
     target: Vector3 | None = None,
+    fov: float = 0.7853981633974483,
 ) -> None:
     """Report a camera, as a page does; one that moves may have another target."""
     client.send(
         "ViewerCameraMessage",
         wxyz=looking(position, look_at),
         position=position,
-        fov=0.7853981633974483,
+        fov=fov,
         near=0.01,
         far=1e5,
         image_height=480,
@@ -88,6 +89,12 @@ def told(client: ProtocolClient, kind: str = "Position") -> list[list[float]]:
     field = {"Position": "position", "LookAt": "look_at"}[kind]
     name = f"SetCamera{kind}Message"
     return [list(m.fields[field]) for m in client.messages if m.type == name]
+
+
+def vector3(values: list[float]) -> Vector3:
+    """Three numbers of a message."""
+    x, y, z = values
+    return (x, y, z)
 
 
 Protocol = Callable[..., ProtocolClient]
@@ -112,6 +119,28 @@ def test_a_fresh_page_gets_the_view_and_a_returning_one_keeps_its_own(
     assert first.values["Distance"] == 4.0
     assert second.values["Distance"] == pytest.approx(np.linalg.norm((7, 1, 2)))
     assert not session_of(viz).edits.modified
+
+
+def test_a_page_that_comes_back_from_above_stays_above(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    first = join(viz, protocol, FRESH)
+    (view,) = views_of(viz)
+    view.set_kind("rviz_default_plugins/TopDownOrtho")
+    view.set("Scale", 55.0)
+    view.set("X", 1.5)
+    first.settle(viser_server(viz))
+    position, look_at = (told(first, kind)[-1] for kind in ("Position", "LookAt"))
+    again = protocol(urlsplit(viz.url).port or 0, camera=False)
+    fov = [m.fields["fov"] for m in first.messages if m.type == "SetCameraFovMessage"]
+    report(again, vector3(position), vector3(look_at), fov=fov[-1])
+    again.settle(viser_server(viz))
+    assert told(again) == []
+    kept = views_of(viz)[-1]
+    assert kept.view.kind == "rviz_default_plugins/TopDownOrtho"
+    assert kept.values["Scale"] == pytest.approx(55.0, rel=1e-3)
+    assert kept.values["X"] == pytest.approx(1.5, abs=1e-3)
+    assert session_of(viz).config.view.kind == ORBIT
 
 
 def test_the_echo_of_a_camera_is_no_move_but_a_mouse_is(
@@ -262,8 +291,8 @@ def test_the_panel_shows_every_type_also_the_steepest_pitch(
     for name in ("TopDownOrtho", "Orbit", "FPS", "ThirdPersonFollower", "XYOrbit"):
         views.set_kind(f"rviz_default_plugins/{name}")
         client.settle(viser_server(viz))
-        assert client.value_of("Type") == f"{name} (rviz_default_plugins)"
+        assert client.row("view/type")["value"] == f"{name} (rviz_default_plugins)"
     views.set_kind("rviz_default_plugins/TopDownOrtho")
     views.set_kind(ORBIT)
     client.settle(viser_server(viz))
-    assert client.value_of("Pitch [rad]") == pytest.approx(1.569796)
+    assert client.row("view/Pitch")["value"] == pytest.approx(1.569796)

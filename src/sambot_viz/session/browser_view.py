@@ -25,7 +25,9 @@ from sambot_viz.session.saved_views import SavedViews
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.tools.picking.pick_scene import Corners
 from sambot_viz.views.camera import Camera, Vector
+from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
+from sambot_viz.views.top_down_ortho import TopDownOrthoView
 from sambot_viz.views.view import WORLD, Values, View
 
 if TYPE_CHECKING:
@@ -59,11 +61,10 @@ class BrowserView(SavedViews):
         self._target = WORLD
         self._take(session.config.detached_view())
         self._reader = Throttle(session.worker, READ_PERIOD, self._read)
-        orthographic = self._camera.camera.orthographic
-        if self._camera.is_fresh or orthographic != self.view.orthographic:
+        if self._camera.is_fresh:
             self._point()
         else:
-            self._take_camera()
+            self._keep_camera()
 
         async def moved(handle: viser.CameraHandle) -> None:
             del handle
@@ -179,6 +180,13 @@ class BrowserView(SavedViews):
         self._config = config
         self.view = view_of(config)
         self._target = target_of(self._session, self.view, self._target)
+
+    def _keep_camera(self) -> None:
+        """Take over the camera of a page that came back."""
+        if self.camera.orthographic != self.view.orthographic:
+            kind = TopDownOrthoView if self.camera.orthographic else OrbitView
+            self._take(self._session.config.new_view(kind.kind, self.view.config))
+        self._take_camera()
 
     @contextmanager
     def _edit(self, label: str, merge: object = None) -> Generator[None]:
