@@ -85,6 +85,13 @@ def test_named_poses_are_kept_beside_the_model(arm: Path) -> None:
         assert again.server.sessions()[0].poses.names == ("half",)
 
 
+def test_poses_of_the_bundled_robot_are_kept_in_the_working_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert Inputs(Options()).poses == tmp_path / "sam_bot.poses.yaml"
+
+
 def test_a_robot_from_python_keeps_its_poses_in_memory(arm: Path) -> None:
     assert Inputs(Options(load_robot(arm))).poses is None
     named = arm.parent / "mine.yaml"

@@ -178,17 +178,17 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
     return Robot.from_yourdfpy(model)
 
 
-def poses_beside(model: Path) -> Path | None:
+def poses_beside(model: Path) -> Path:
     """Where the poses of a model are kept: robot.urdf.xacro has robot.poses.yaml.
 
-    Those of the bundled robot are kept in memory: its folder belongs to the package.
+    Those of the bundled robot are kept in the working folder: its own one belongs to
+    the package.
     """
-    if model.resolve() == bundled.model_path().resolve():
-        return None
     stem = model.name
     for ending in (".xacro", ".urdf"):
         stem = stem.removesuffix(ending)
-    return model.with_name(f"{stem}.poses.yaml")
+    own = model.resolve() != bundled.model_path().resolve()
+    return (model.parent if own else Path.cwd()) / f"{stem}.poses.yaml"
 
 
 def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:

@@ -263,7 +263,8 @@ class Options:
     )
     poses: PathLike | None = _option(
         None,
-        "the yaml file for named poses; by default one beside the model",
+        "the yaml file for named poses; by default one beside the model, for the "
+        "bundled robot in the working folder",
         "--poses",
         metavar="FILE",
     )

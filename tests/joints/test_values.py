@@ -12,6 +12,8 @@ import yaml
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.values import (
+    as_arguments,
+    as_launch_parameters,
     as_topic_pub,
     as_yaml,
     load_joint_state,
@@ -240,3 +242,15 @@ def test_an_empty_file_holds_no_poses(tmp_path: Path) -> None:
     file = tmp_path / "poses.yaml"
     file.write_text("")
     assert Presets(file).names == ()
+
+
+def test_arguments_give_back_what_they_were_made_of() -> None:
+    words = shlex.split(as_arguments(POSITIONS))
+    assert words[::2] == ["--joint"] * len(POSITIONS)
+    assert parse_assignments(words[1::2], "--joint") == POSITIONS
+
+
+def test_launch_parameters_are_the_start_values_of_joint_state_publisher() -> None:
+    text = as_launch_parameters(POSITIONS)
+    written = eval(text.strip().removeprefix("parameters=").removesuffix(","))
+    assert written == [{f"zeros.{name}": value for name, value in POSITIONS.items()}]

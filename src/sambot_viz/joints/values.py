@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shlex
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import cast
@@ -122,6 +123,23 @@ def as_topic_pub(positions: Mapping[str, float], topic: str = "/joint_states") -
     message = f"{{header: auto, name: [{names}], position: [{values}]}}"
     quoted = message.replace("'", "'\"'\"'")
     return f"ros2 topic pub --once {topic} sensor_msgs/msg/JointState '{quoted}'"
+
+
+def as_arguments(positions: Mapping[str, float]) -> str:
+    """Positions as arguments of this program for a shell: ``--joint NAME=VALUE …``."""
+    words = (shlex.quote(f"{name}={_exact(v)}") for name, v in positions.items())
+    return " ".join(f"--joint {word}" for word in words)
+
+
+def as_launch_parameters(positions: Mapping[str, float]) -> str:
+    """Positions as the start values of joint_state_publisher, for a launch file.
+
+    It is the Python that the argument `parameters` of a Node takes.
+    """
+    lines = (
+        f"    {'zeros.' + name!r}: {_exact(v)},\n" for name, v in positions.items()
+    )
+    return f"parameters=[{{\n{''.join(lines)}}}],\n"
 
 
 def _word(name: str) -> str:

@@ -112,17 +112,18 @@ function outside(row, value) {
   const { unit, factor } = shownUnit(row);
   const low = row.min ?? -Infinity, high = row.max ?? Infinity;
   // A limit typed as it is shown, without all its digits, means the limit.
-  const near = 0.6 * 10 ** -LIMIT_DIGITS / factor;
+  const near = 0.6 * 10 ** -limitDigits(unit) / factor;
   if (value >= low - near && value <= high + near) return "";
-  return `${formatNumber(value * factor, LIMIT_DIGITS)} ${unit} is outside ${limits(row)}`;
+  return `${formatNumber(value * factor, limitDigits(unit))} ${unit} is outside ${limits(row)}`;
 }
 
-const LIMIT_DIGITS = 4;
+/** @param {string} unit */
+const limitDigits = (unit) => (unit.startsWith("°") ? 2 : 4);
 /** The limits of a row as they are shown. @param {Row} row */
 export function limits(row) {
   const { unit, factor } = shownUnit(row);
   const ends = [row.min ?? -Infinity, row.max ?? Infinity].map((end) =>
-    (Number.isFinite(end) ? formatNumber(end * factor, LIMIT_DIGITS) : end < 0 ? "−∞" : "∞").replace("-", "−"));
+    (Number.isFinite(end) ? formatNumber(end * factor, limitDigits(unit)) : end < 0 ? "−∞" : "∞").replace("-", "−"));
   return `${ends[0]} … ${ends[1]} ${unit}`.trim();
 }
 
@@ -220,7 +221,7 @@ function NumberField({ row, tab, held, title = "" }) {
   return html`<span class="number">
     <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept} title=${title}
       step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined}
-      shown=${formatNumber(held.value * factor, 6)} />
+      shown=${formatNumber(held.value * factor, factor === 1 ? 6 : 4)} />
     ${unit && html`<span class="unit">${unit}</span>`}
   </span>`;
 }
@@ -228,9 +229,19 @@ function NumberField({ row, tab, held, title = "" }) {
 /** A slider with its number: the row of a joint. @param {{row: Row, tab: number}} props */
 export function SliderCell({ row, tab }) {
   degrees.use();
+  const held = useHeld(row);
+  const over = !row.wheel && (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
+  return html`<span class=${`slide${over ? " over" : ""}`}>
+    ${row.follows ? html`<span class="formula" title=${formula(row)}>${formula(row)}</span>` : html`<${Handle} row=${row} tab=${tab} held=${held} />`}
+    <${NumberField} row=${row} tab=${tab} held=${held} />
+    ${row.wheel && html`<${TurnButton} row=${row} tab=${tab} />`}
+  </span>`;
+}
+
+/** @param {{row: Row, tab: number, held: Held}} props */
+function Handle({ row, tab, held }) {
   const { factor, step, unit } = shownUnit(row);
   const low = row.min ?? 0, high = row.max ?? 1;
-  const held = useHeld(row);
   const value = held.value;
   // The ends are exact, whatever the step.
   /** @param {number} raw */
@@ -247,16 +258,29 @@ export function SliderCell({ row, tab }) {
     event.preventDefault();
     event.stopPropagation();
   };
-  const part = high > low ? (value - low) / (high - low) : 0;
-  return html`<span class="slide">
-    <input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
-      aria-label=${row.name || ""} disabled=${row.fixed || row.off} style=${`--part: ${part}`}
-      aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
-      onInput=${(/** @type {any} */ e) => slide(Number(e.target.value))}
-      onChange=${held.release} onPointerUp=${held.release} onPointerCancel=${held.release}
-      onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />
-    <${NumberField} row=${row} tab=${tab} held=${held} />
-  </span>`;
+  return html`<input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
+    aria-label=${row.name || ""} disabled=${row.fixed || row.off}
+    aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
+    onInput=${(/** @type {any} */ e) => slide(Number(e.target.value))}
+    onChange=${held.release} onPointerUp=${held.release} onPointerCancel=${held.release}
+    onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />`;
+}
+
+/** How a joint follows another one, in the units that are shown. @param {Row} row @returns {string} */
+export function formula(row) {
+  const leader = rows.get(row.follows);
+  const { factor, unit } = shownUnit(row);
+  const times = formatNumber(row.times * factor / (leader ? shownUnit(leader).factor : 1), 4);
+  const plus = row.plus ? ` ${row.plus < 0 ? "−" : "+"} ${formatNumber(Math.abs(row.plus) * factor, 4)} ${unit}` : "";
+  return `= ${times === "1" ? "" : `${times} × `}${leader?.name || ""}${plus}`.replace("-", "−");
+}
+
+/** Starts a wheel, or stops it. @param {{row: Row, tab: number}} props */
+function TurnButton({ row, tab }) {
+  const turning = (useRow("joints/turning")?.value || []).includes(row.id);
+  const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
+  return html`<button class="flat turn" aria-pressed=${String(turning)} aria-label=${label} title=${label} tabindex=${tab}
+    onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} /></button>`;
 }
 
 /** @param {{row: Row, tab: number}} props */

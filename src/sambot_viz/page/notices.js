@@ -26,7 +26,7 @@ export function refuse(id, why) {
 
 rows.listen("notice", () => {
   const said = rows.value("notice");
-  if (!said) return;
+  if (!said || said.copy?.length) return;
   notice.set(said);
   if (said.row) refuse(said.row, said.text);
 });

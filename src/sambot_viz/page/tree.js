@@ -118,7 +118,7 @@ function RowView({ id, depth, panel, current, chosen, onMenu, onDouble, renaming
   return html`<div class=${`row k-${row.kind} l-${row.level || "none"}${row.bold ? " bold" : ""}${row.off ? " off" : ""}`}
       role="row" aria-level=${depth + 1} aria-expanded=${opens ? String(open) : undefined}
       aria-selected=${chosen ? "true" : "false"} tabindex=${tab} data-row=${id}
-      style=${`--depth: ${depth}`} title=${wide ? undefined : row.help}
+      style=${`--depth: ${depth}`} title=${wide || row.kind === "slider" ? undefined : row.help}
       onfocusin=${() => select(panel, id)}
       onPointerDown=${(/** @type {any} */ e) => { if (e.button === 0 && !e.target.closest("input, select, button, .twist")) { select(panel, id); drag?.(e, row); } }}
       onContextMenu=${(/** @type {any} */ e) => { if (onMenu && !e.target.matches("input")) { e.preventDefault(); select(panel, id); onMenu(e, row); } }}>

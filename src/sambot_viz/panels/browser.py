@@ -8,12 +8,15 @@ from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.frames import FramesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.publisher import Publisher
-from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.panels.row import Answer, Json, Level, Row
 from sambot_viz.panels.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
+
+_PART = 1000
+"""Characters of a part of a text for the clipboard."""
 
 
 class BrowserPanels:
@@ -71,6 +74,11 @@ class BrowserPanels:
         self._notices.say(sentence, "error", row_id)
         self._publisher.remake(self._notices)
 
+    def give(self, answer: Answer) -> None:
+        """Say something to the browser's user, and fill the clipboard."""
+        self._notices.say(answer.say, "ok", copy=answer.copy)
+        self._publisher.remake(self._notices)
+
 
 class NoticePanel(Panel):
     """The last sentence to one browser."""
@@ -81,14 +89,18 @@ class NoticePanel(Panel):
         self._count = 0
         self._notice: Json = None
 
-    def say(self, sentence: str, level: Level, row_id: str | None = None) -> None:
-        """Show a sentence, at a row or above the status bar."""
+    def say(
+        self, sentence: str, level: Level, row_id: str | None = None, copy: str = ""
+    ) -> None:
+        """Show a sentence, at a row or in the status bar, and fill the clipboard."""
         self._count += 1
         self._notice = {
             "number": self._count,
             "text": sentence,
             "level": level,
             "row": row_id,
+            # In parts, because a long line of a value is cut.
+            "copy": [copy[at : at + _PART] for at in range(0, len(copy), _PART)],
         }
 
     def rows(self) -> Sequence[Row]:

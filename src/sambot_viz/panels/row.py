@@ -38,6 +38,19 @@ LONGEST_TEXT = 2000
 
 
 @dataclass(frozen=True, slots=True)
+class Answer:
+    """What the browser that has sent a value gets back, returned by a row's `set`.
+
+    Attributes:
+        say: a sentence for its status bar; with a text to copy, what that is.
+        copy: a text for its clipboard.
+    """
+
+    say: str = ""
+    copy: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Row:
     """One row.
 
@@ -63,7 +76,7 @@ class Row:
         extra: more for the page, by name.
         set: called with a checked value, in the session's worker and with its lock
             held; None for a row that can only be read. It raises SambotVizError to
-            refuse the value.
+            refuse the value, and may return an `Answer`.
     """
 
     id: str

@@ -12,7 +12,9 @@ from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.poses import PosesPanel
 from sambot_viz.panels.publisher import Publisher
+from sambot_viz.panels.row import Answer
 from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
@@ -44,10 +46,14 @@ class Window:
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
         panels: list[Panel] = [NamesPanel(session), self._status_bar]
-        panels.append(DisplaysPanel(session, lambda panel: self._shared.remake(panel)))
+        panels.append(DisplaysPanel(session, self._remake))
         if joints:
-            panels.append(JointsPanel(session))
+            panels.append(JointsPanel(session, self._remake))
+            panels.append(PosesPanel(session, self._remake))
         return panels
+
+    def _remake(self, panel: Panel) -> None:
+        self._shared.remake(panel)
 
     def close(self) -> None:
         """Follow the session no longer."""
@@ -101,6 +107,8 @@ class Window:
             value = gate.checked(row, edit.value)
             with self._session.edits.acting(client_id, edit.gesture):
                 assert row.set is not None
-                row.set(value)
+                answer = row.set(value)
+            if isinstance(answer, Answer):
+                browser.give(answer)
         except SambotVizError as error:
             browser.answer(edit.row, str(error), row)

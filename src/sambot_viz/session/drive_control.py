@@ -125,12 +125,19 @@ class DriveControl:
                 raise JointError(f"cannot drive with v={v!r}, w={w!r}")
             if v or w:
                 self.enter_odom()
-            self.v, self.w, self._left = v, w, seconds
+            self._set(v, w)
+            self._left = seconds
         self._start()
 
     def stop(self) -> None:
         """Stop driving."""
-        self.v = self.w = 0.0
+        with self._session.lock:
+            self._set(0.0, 0.0)
+
+    def _set(self, v: float, w: float) -> None:
+        changed, self.v, self.w = (v, w) != (self.v, self.w), v, w
+        if changed:
+            self._session.notify("motion")
 
     def reset(self) -> None:
         """Stop, go back to the start and forget the trail."""

@@ -72,17 +72,24 @@ class Motion:
                 self._turning.pop(joint, None)
             else:
                 self._turning[joint] = _Turning(rate, seconds)
+            self._session.notify("motion")
         self.start()
 
     def turns(self, joint: str) -> bool:
         """Whether a joint turns at the moment."""
         return joint in self._turning
 
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """The joints that turn at the moment."""
+        return tuple(self._turning)
+
     def stop(self) -> None:
         """Stop all motion."""
         with self._session.lock:
             self._turning.clear()
             self.drive.stop()
+            self._session.notify("motion")
 
     def advance(self, dt: float) -> None:
         """Move on by a time [s]; this is what happens at every step."""
@@ -92,6 +99,7 @@ class Motion:
             if state is None:
                 return
             positions: dict[str, float] = {}
+            before = self.turning
             for name, turning in list(self._turning.items()):
                 if name not in state.free:
                     del self._turning[name]
@@ -103,6 +111,8 @@ class Motion:
                     del self._turning[name]
             driven, frames = self.drive.advance(dt)
             session.move({**positions, **driven}, frames)
+            if before != self.turning:
+                session.notify("motion")
 
     def start(self) -> None:
         """Start the steps, if something moves and they do not run yet."""

@@ -15,13 +15,15 @@ Event = Literal[
     "config",
     "frames",
     "joints",
+    "motion",
     "status",
     "problems",
     "edits",
     "view",
     "tools",
 ]
-"""What has changed; "view" and "tools" are events of one browser."""
+"""What has changed; "view" and "tools" are events of one browser, "motion" of how fast
+the robot drives and what keeps turning."""
 Listener = Callable[[Event], None]
 """Called after a change, with the lock held."""
 

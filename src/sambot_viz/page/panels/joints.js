@@ -1,31 +1,142 @@
 // @ts-check
 /* The Joints panel: a slider for each joint, and what can be done with all of them. */
 
-import { html, useState } from "../vendor/preact.js";
+import { html, useMemo, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
-import { degrees, useRow } from "../state.js";
+import { formula, limits, NumberCell } from "../cells.js";
+import { Icon } from "../icons.js";
+import { refusals } from "../notices.js";
+import { Popup } from "../popup.js";
+import { Cell, degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
+import { Poses } from "./poses.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 
 const SEARCH_FROM = 12;
+/** Besides the name: fold, gaps and a scroll bar [px]. */
+const AROUND_NAME = 26, INDENT = 14;
+
+/** How the values of the joints can be copied. @type {Record<string, string>} */
+const FORMS = {
+  yaml: "As yaml (sensor_msgs/JointState)",
+  command: "As a ros2 topic pub command",
+  launch: "For a launch file (joint_state_publisher)",
+  arguments: "As --joint arguments",
+};
+/** The form that was copied last. @type {Cell<string>} */
+const form = new Cell("yaml", "copied");
+/** The row under the mouse. @type {Cell<string>} */
+const hovered = new Cell("");
 
 export function JointsPanel() {
   useRow("panel:joints");
-  const inDegrees = degrees.use();
   const [search, setSearch] = useState("");
+  const box = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
+  const ids = rows.panels.get("joints") || [];
+  const width = useMemo(() => longestName(ids), [ids]);
+  if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   /** @param {Row} row */
   const wanted = (row) => row.kind === "slider" && words.every((word) => (row.name || "").toLowerCase().includes(word));
-  const many = (rows.panels.get("joints") || []).length > SEARCH_FROM;
-  return html`<div class="joints">
-    <div class="buttons">
+  const many = ids.filter((id) => rows.get(id)?.kind === "slider").length > SEARCH_FROM;
+  const found = !words.length || ids.some((id) => wanted(/** @type {Row} */ (rows.get(id))));
+  /** @param {any} event */
+  const key = (event) => {
+    if (event.key === "Escape" && box.current.value) { box.current.value = ""; setSearch(""); }
+    else if (event.key === "Enter" || event.key === "ArrowDown") panel.current.querySelector(".tree input.num")?.focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  const wheels = Boolean(rows.get("joints/rate"));
+  return html`<div class=${`joints${wheels ? " wheels" : ""}`} ref=${panel} style=${`--names: ${width}px`}>
+    <div class="buttons" role="toolbar" aria-label="All joints">
       <button onClick=${() => act("joints/center")} title="All joints to their start values">Center</button>
       <button onClick=${() => act("joints/randomize")} title="All joints to random values of their ranges">Randomize</button>
-      <button aria-pressed=${String(inDegrees)} onClick=${() => degrees.set(!inDegrees)} title="Angles in degrees">°</button>
+      <${Copy} />
+      <${Poses} />
     </div>
-    ${many && html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" value=${search}
-      onInput=${(/** @type {any} */ e) => setSearch(e.target.value)} />`}
-    <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />
+    <div class="buttons">
+      <${Degrees} />
+      ${wheels && html`<${TurnRate} />`}
+      ${many && html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" ref=${box}
+        onInput=${(/** @type {any} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`}
+      <${FoldAll} />
+    </div>
+    <div class="list" onPointerOver=${(/** @type {any} */ e) => hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
+        onPointerLeave=${() => hovered.set("")}>
+      <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />
+      ${!found && html`<p class="empty" role="status">No joint has ${words.map((word) => `'${word}'`).join(" and ")} in its name</p>`}
+    </div>
+    <${OverLimit} />
+    <${Help} />
   </div>`;
+}
+
+/** How wide the longest name of a joint is [px]. @param {string[]} ids */
+function longestName(ids) {
+  const brush = document.createElement("canvas").getContext("2d");
+  if (!brush) return 130;
+  brush.font = getComputedStyle(document.getElementById("sambot") || document.body).font;
+  const widths = ids.map((id) => rows.get(id)).filter((row) => row?.kind === "slider")
+    .map((row) => brush.measureText(row?.name || "").width + (row?.in ? INDENT : 0));
+  return Math.ceil(Math.max(60, ...widths)) + AROUND_NAME;
+}
+
+/** One click copies, as the last time; the list offers the other forms. */
+function Copy() {
+  const last = form.use();
+  /** @param {string} name */
+  const copy = (name) => { form.set(name); act("joints/copy", [name]); };
+  return html`<span class="split">
+    <button title=${`Copy the joint values: ${FORMS[last]}`} onClick=${() => copy(last)}>Copy</button>
+    <${Popup} name="Copy as" role="menu" label=${html`<${Icon} name="down" />`}>${(/** @type {() => void} */ close) =>
+      Object.entries(FORMS).map(([name, label]) => html`<button role="menuitem" key=${name}
+        onClick=${() => { copy(name); close(); }}>${label}</button>`)}<//>
+  </span>`;
+}
+
+function Degrees() {
+  const inDegrees = degrees.use();
+  return html`<button aria-pressed=${String(inDegrees)} aria-label="Degrees" onClick=${() => degrees.set(!inDegrees)}
+    title=${inDegrees ? "Angles are in degrees; click for radians" : "Angles are in radians; click for degrees"}>${inDegrees ? "°" : "rad"}</button>`;
+}
+
+function TurnRate() {
+  const row = useRow("joints/rate");
+  if (!row) return null;
+  const why = refusals.get(row.id);
+  return html`<label class="rate" title=${row.help}>Turn rate <${NumberCell} row=${row} tab=${0} />
+    ${why && html`<span class="why" role="alert">${why}</span>`}</label>`;
+}
+
+/** Folds all groups, or unfolds them. */
+function FoldAll() {
+  folds.use();
+  const groups = rows.children("panel:joints").filter((id) => rows.get(id)?.kind === "group");
+  if (groups.length < 3) return null;
+  const open = groups.some(isOpen);
+  const label = open ? "Fold all groups" : "Unfold all groups";
+  return html`<button class="flat" title=${label} aria-label=${label}
+    onClick=${() => groups.forEach((id) => fold(id, !open))}><${Icon} name=${open ? "foldAll" : "unfoldAll"} /></button>`;
+}
+
+/** Which joints are over a limit; the page cannot set them so, but a file or a program can. */
+function OverLimit() {
+  const over = useRow("joints/over")?.value || [];
+  if (!over.length) return null;
+  const named = over.slice(0, 3).join(", ");
+  const more = over.length > 3 ? ` and ${over.length - 3} more` : "";
+  return html`<p class="over" role="status"><${Icon} name="warn" /> Over ${over.length === 1 ? "its limit" : "their limits"}: ${named}${more}</p>`;
+}
+
+/** What is known of the joint under the mouse, or of the selected one. */
+function Help() {
+  degrees.use();
+  const id = hovered.use() || selected.use().joints || "";
+  const row = useRow(id || "none");
+  return html`<div class="help">${row?.kind === "slider" && html`<b>${row.name}</b><br />
+    ${row.help}<br />
+    ${row.follows ? `position ${formula(row)}; ` : ""}${row.wheel ? "turns without limits" : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`}</div>`;
 }

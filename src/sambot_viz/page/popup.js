@@ -1,0 +1,52 @@
+// @ts-check
+/* A button that opens a small panel below it: a menu, or a form. */
+
+import { html, useEffect, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
+
+const EDGE = 4;
+
+/**
+ * @param {{label: any, name: string, role: "menu" | "dialog", title?: string,
+ *   children: (close: () => void) => any}} props
+ *   label: what the button shows; name: what it, and the panel, is called
+ */
+export function Popup({ label, name, role, title, children }) {
+  const [open, setOpen] = useState(false);
+  const button = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
+  const close = () => { setOpen(false); button.current?.focus(); };
+  useLayoutEffect(() => { if (open) place(button.current, panel.current); });
+  useEffect(() => {
+    if (!open) return;
+    panel.current.querySelector("button, input")?.focus();
+    /** @param {any} event */
+    const elsewhere = (event) => {
+      if (!panel.current?.contains(event.target) && !button.current.contains(event.target)) setOpen(false);
+    };
+    addEventListener("pointerdown", elsewhere, true);
+    return () => removeEventListener("pointerdown", elsewhere, true);
+  }, [open]);
+  /** @param {any} event */
+  const key = (event) => {
+    const by = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1 })[event.key];
+    if (event.key === "Escape") close();
+    else if (by) {
+      const stops = [...panel.current.querySelectorAll("button:enabled, input")];
+      stops[(stops.indexOf(document.activeElement) + by + stops.length) % stops.length]?.focus();
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return html`<span class="popup">
+    <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${name} title=${title}
+      onClick=${() => setOpen(!open)}>${label}</button>
+    ${open && html`<div class="popped" ref=${panel} role=${role} aria-label=${name} onKeyDown=${key}>${children(close)}</div>`}
+  </span>`;
+}
+
+/** Below the button, inside the window. @param {HTMLElement} button @param {HTMLElement} panel */
+function place(button, panel) {
+  const at = button.getBoundingClientRect(), size = panel.getBoundingClientRect();
+  const below = at.bottom + size.height + EDGE < innerHeight;
+  panel.style.left = `${Math.max(EDGE, Math.min(at.left, innerWidth - size.width - EDGE))}px`;
+  panel.style.top = `${below ? at.bottom + 2 : Math.max(EDGE, at.top - size.height - 2)}px`;
+}

@@ -1,0 +1,277 @@
+"""The Joints panel: rows, exact values, wheels that turn, notes, texts to copy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from inside import session_of
+from panel_rows import edit, row_named, rows_of
+
+from sambot_viz import Visualizer
+from sambot_viz.errors import UsageError
+from sambot_viz.panels import gate
+from sambot_viz.panels.joints import FOLLOWERS, SKIPPED, JointsPanel
+from sambot_viz.panels.row import Answer
+from sambot_viz.session import Event, Session
+
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+PI = math.pi
+Open = Callable[..., JointsPanel]
+
+
+def joint(name: str, kind: str, inside: str = "") -> str:
+    """A link below the root, and its joint."""
+    return (
+        f'<link name="{name}_link"/><joint name="{name}" type="{kind}">'
+        f'<parent link="base"/><child link="{name}_link"/><axis xyz="0 0 1"/>'
+        f"{inside}</joint>"
+    )
+
+
+def limit(lower: float, upper: float) -> str:
+    return f'<limit lower="{lower}" upper="{upper}" effort="1" velocity="1"/>'
+
+
+@pytest.fixture
+def open_robot(tmp_path: Path) -> Iterator[Open]:
+    """Make the panel of a robot with these joints."""
+    opened = ExitStack()
+
+    def make(*joints: str) -> JointsPanel:
+        path = tmp_path / "robot.urdf"
+        path.write_text(f'<robot name="r"><link name="base"/>{"".join(joints)}</robot>')
+        viz = opened.enter_context(Visualizer(path, port=0, watch=False))
+        return JointsPanel(session_of(viz), lambda panel: None)
+
+    with opened:
+        yield make
+
+
+@pytest.fixture
+def panel(session: Session) -> JointsPanel:
+    return JointsPanel(session, lambda panel: None)
+
+
+def answer(panel: JointsPanel, row_id: str, value: Any) -> Any:
+    row = rows_of(panel)[row_id]
+    assert row.set is not None
+    return row.set(gate.checked(row, value))
+
+
+def names_below(panel: JointsPanel, above: str) -> list[str]:
+    return [row.name for row in panel.rows() if row.above == above]
+
+
+def test_a_joint_has_its_value_unit_limits_and_what_it_joins(
+    panel: JointsPanel,
+) -> None:
+    row = row_named(panel, LEFT)
+    assert (row.kind, row.value, row.unit) == ("slider", 0.0, "rad")
+    assert (row.least, row.most) == pytest.approx((-PI, PI))
+    assert row.help == "continuous joint, base_link → drivewhl_l_link"
+    assert row.extra == {"wheel": True}
+
+
+def test_a_value_is_taken_exactly(panel: JointsPanel, viz: Visualizer) -> None:
+    edit(panel, f"j/{LEFT}", 0.123456789)
+    assert viz.joint_positions[LEFT] == 0.123456789
+    assert panel.values()[f"j/{LEFT}"] == 0.123456789
+
+
+def test_a_value_outside_the_limits_is_refused(
+    panel: JointsPanel, viz: Visualizer
+) -> None:
+    with pytest.raises(UsageError, match="cannot be 9: its limits are"):
+        edit(panel, f"j/{LEFT}", 9)
+    assert viz.joint_positions[LEFT] == 0
+
+
+def test_steps_are_round_and_smaller_for_a_short_range(open_robot: Open) -> None:
+    panel = open_robot(
+        joint("turn", "revolute", limit(-1, 1)),
+        joint("slide", "prismatic", limit(0, 0.5)),
+        joint("short", "revolute", limit(0, 0.05)),
+        joint("tiny", "prismatic", limit(0, 0.005)),
+    )
+    steps = {row.name: row.step for row in panel.rows() if row.kind == "slider"}
+    expected = {"turn": 0.01, "slide": 0.001, "short": 0.001, "tiny": 0.0001}
+    assert steps == pytest.approx(expected)
+    assert row_named(panel, "slide").unit == "m"
+
+
+def test_center_and_randomize_move_all_joints_and_can_be_undone(
+    panel: JointsPanel, session: Session, viz: Visualizer
+) -> None:
+    viz.set_joint_positions({LEFT: 0.5})
+    for action in ("joints/center", "joints/randomize"):
+        before = dict(viz.joint_positions)
+        with session.edits.acting(1):
+            edit(panel, action, [])
+        assert viz.joint_positions != before
+        session.edits.undo(1)
+        assert viz.joint_positions == before
+
+
+def test_a_drag_is_one_step_to_undo(
+    panel: JointsPanel, session: Session, viz: Visualizer
+) -> None:
+    for value in (0.1, 0.2, 0.3):
+        with session.edits.acting(1, gesture=7):
+            edit(panel, f"j/{LEFT}", value)
+    session.edits.undo(1)
+    assert viz.joint_positions[LEFT] == 0
+    assert session.edits.undo_label(1) is None
+
+
+# Wheels that turn
+
+
+def turning(panel: JointsPanel) -> Any:
+    return panel.values()["joints/turning"]
+
+
+def test_a_click_starts_a_wheel_and_another_one_stops_it(
+    panel: JointsPanel, session: Session
+) -> None:
+    heard: list[Event] = []
+    session.listeners.append(heard.append)
+    edit(panel, "joints/turn", [f"j/{LEFT}"])
+    assert turning(panel) == [f"j/{LEFT}"]
+    edit(panel, "joints/turn", [f"j/{LEFT}"])
+    assert turning(panel) == []
+    assert heard.count("motion") == 2
+
+
+def test_the_rate_holds_for_the_wheels_that_turn_already(
+    panel: JointsPanel, session: Session, viz: Visualizer
+) -> None:
+    session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    edit(panel, "joints/turn", [f"j/{LEFT}"])
+    session.motion.advance(0.5)
+    assert viz.joint_positions[LEFT] == pytest.approx(0.5)
+    edit(panel, "joints/rate", -2)
+    session.motion.advance(0.5)
+    assert viz.joint_positions[LEFT] == pytest.approx(-0.5)
+    assert rows_of(panel)["joints/rate"].value == -2
+
+
+def test_nothing_turns_at_a_rate_of_zero(panel: JointsPanel) -> None:
+    edit(panel, "joints/turn", [f"j/{LEFT}"])
+    edit(panel, "joints/rate", 0)
+    assert turning(panel) == []
+    with pytest.raises(UsageError, match="nothing turns at a turn rate of 0"):
+        edit(panel, "joints/turn", [f"j/{LEFT}"])
+
+
+def test_a_robot_without_wheels_has_no_turn_rate(open_robot: Open) -> None:
+    panel = open_robot(joint("j", "revolute", limit(-1, 1)))
+    assert "joints/rate" not in rows_of(panel)
+
+
+# Joints that cannot be set
+
+
+def test_a_joint_that_follows_is_read_only_and_says_how(open_robot: Open) -> None:
+    mimic = '<mimic joint="a" multiplier="-2" offset="0.5"/>'
+    panel = open_robot(
+        joint("a", "revolute", limit(-1, 1)),
+        joint("b", "revolute", limit(-3, 3) + mimic),
+    )
+    row = row_named(panel, "b")
+    assert row.set is None and row.above == FOLLOWERS
+    assert row.extra == {"follows": "j/a", "times": -2.0, "plus": 0.5}
+    edit(panel, "j/a", 0.25)
+    assert panel.values()["j/b"] == 0.0
+
+
+def test_a_joint_without_a_position_says_why(open_robot: Open) -> None:
+    panel = open_robot(
+        joint("a", "revolute", limit(-1, 1)),
+        joint("loose", "floating"),
+        joint("tight", "fixed"),
+    )
+    assert names_below(panel, SKIPPED) == ["loose"]
+    assert row_named(panel, "loose").value == "floating: has no position in ROS"
+
+
+def test_a_joint_over_its_limit_is_named(open_robot: Open) -> None:
+    over = '<mimic joint="a" multiplier="2"/>'
+    panel = open_robot(
+        joint("a", "revolute", limit(-1, 1)),
+        joint("b", "revolute", limit(-1, 1) + over),
+    )
+    edit(panel, "j/a", 0.75)
+    assert rows_of(panel)["joints/over"].value == ["b"]
+    edit(panel, "j/a", 0.25)
+    assert panel.values()["joints/over"] == []
+
+
+def test_a_robot_with_nothing_to_move_says_so(open_robot: Open) -> None:
+    panel = open_robot(joint("tight", "fixed"))
+    (row,) = panel.rows()
+    assert row.kind == "note" and "no joint to move" in row.value
+
+
+# Many joints
+
+
+def test_all_joints_of_a_large_robot_are_there_in_groups(open_robot: Open) -> None:
+    panel = open_robot(*(joint(f"joint_{i}", "continuous") for i in range(300)))
+    rows = panel.rows()
+    groups = {row.id: row for row in rows if row.kind == "group"}
+    sliders = [row for row in rows if row.kind == "slider"]
+    assert len(sliders) == 300
+    assert {row.above for row in sliders} == set(groups)
+    assert all(group.expanded for group in groups.values())
+
+
+# Copying
+
+
+def test_the_values_are_copied_as_a_joint_state(panel: JointsPanel) -> None:
+    edit(panel, f"j/{LEFT}", 1.5)
+    copied = answer(panel, "joints/copy", ["yaml"])
+    assert isinstance(copied, Answer)
+    assert copied.say == "2 joint values as yaml of a sensor_msgs/JointState"
+    assert yaml.safe_load(copied.copy) == {
+        "name": [LEFT, RIGHT],
+        "position": [1.5, 0.0],
+    }
+
+
+@pytest.mark.parametrize(
+    ("form", "part"),
+    [
+        ("command", "ros2 topic pub --once /joint_states"),
+        ("launch", f"'zeros.{LEFT}': 0.0,"),
+        ("arguments", f"--joint {LEFT}=0.0 --joint {RIGHT}=0.0"),
+    ],
+)
+def test_the_values_are_copied_in_other_forms(
+    panel: JointsPanel, form: str, part: str
+) -> None:
+    assert part in answer(panel, "joints/copy", [form]).copy
+
+
+def test_an_unknown_form_is_refused(panel: JointsPanel) -> None:
+    with pytest.raises(UsageError, match="there is no form 'xml'"):
+        answer(panel, "joints/copy", ["xml"])
+
+
+# The arrow in the scene
+
+
+def test_moving_a_joint_twice_shows_its_axis_in_the_scene(
+    panel: JointsPanel, session: Session
+) -> None:
+    before = set(session.audience.scene._handle_from_node_name)  # pyright: ignore
+    edit(panel, f"j/{LEFT}", 0.1)
+    edit(panel, f"j/{LEFT}", 0.2)
+    new = set(session.audience.scene._handle_from_node_name) - before  # pyright: ignore
+    assert len(new) == 1

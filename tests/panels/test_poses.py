@@ -1,0 +1,121 @@
+"""Named poses: saved in a file that is named, chosen again, removed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of
+from panel_rows import edit, rows_of
+
+from sambot_viz import Visualizer
+from sambot_viz.errors import JointError, UsageError
+from sambot_viz.panels import gate
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.poses import PosesPanel
+from sambot_viz.panels.row import Answer
+from sambot_viz.session import Session
+
+LEFT = "drivewhl_l_joint"
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "some.poses.yaml"
+
+
+@pytest.fixture
+def viz(path: Path) -> Iterator[Visualizer]:
+    with Visualizer(port=0, poses=path) as viz:
+        yield viz
+
+
+@pytest.fixture
+def remade() -> list[Panel]:
+    return []
+
+
+@pytest.fixture
+def panel(session: Session, remade: list[Panel]) -> PosesPanel:
+    return PosesPanel(session, remade.append)
+
+
+def send(panel: PosesPanel, row_id: str, *values: Any) -> Any:
+    row = rows_of(panel)[row_id]
+    assert row.set is not None
+    return row.set(gate.checked(row, [*values]))
+
+
+def names(panel: PosesPanel) -> list[str]:
+    return rows_of(panel)["poses"].value
+
+
+def test_a_pose_is_kept_in_the_file_that_is_named_when_it_is_saved(
+    panel: PosesPanel, viz: Visualizer, path: Path, remade: list[Panel]
+) -> None:
+    viz.set_joint_positions({LEFT: 1.25})
+    assert send(panel, "poses/save", " half ") == Answer(f"Saved pose 'half' in {path}")
+    assert names(panel) == ["half"] and remade == [panel]
+    assert rows_of(panel)["poses"].help == f"Kept in {path}"
+    with Visualizer(port=0, poses=path) as again:
+        other = PosesPanel(session_of(again), remade.append)
+        send(other, "poses/use", "half")
+        assert again.joint_positions[LEFT] == 1.25
+
+
+def test_choosing_a_pose_can_be_undone(
+    panel: PosesPanel, session: Session, viz: Visualizer
+) -> None:
+    viz.set_joint_positions({LEFT: 1.25})
+    send(panel, "poses/save", "half")
+    viz.set_joint_positions({LEFT: 0.5})
+    with session.edits.acting(1):
+        assert send(panel, "poses/use", "half") is None
+    assert viz.joint_positions[LEFT] == 1.25
+    session.edits.undo(1)
+    assert viz.joint_positions[LEFT] == 0.5
+
+
+def test_a_pose_of_another_robot_says_what_is_left_out(path: Path) -> None:
+    path.write_text(f"odd: {{arm: 1.0, {LEFT}: 0.25}}\n")
+    with Visualizer(port=0, poses=path) as viz:
+        panel = PosesPanel(session_of(viz), lambda panel: None)
+        said = send(panel, "poses/use", "odd")
+        assert said == Answer("Without arm, which cannot be set")
+        assert viz.joint_positions[LEFT] == 0.25
+
+
+def test_a_removed_pose_comes_back_by_undo(
+    panel: PosesPanel, session: Session, path: Path
+) -> None:
+    send(panel, "poses/save", "half")
+    with session.edits.acting(1):
+        send(panel, "poses/remove", "half")
+    assert names(panel) == [] and "half" not in path.read_text()
+    session.edits.undo(1)
+    assert names(panel) == ["half"] and "half" in path.read_text()
+
+
+def test_a_pose_needs_a_name_that_is_not_too_long(panel: PosesPanel) -> None:
+    with pytest.raises(JointError, match="a pose needs a name"):
+        edit(panel, "poses/save", ["  "])
+    with pytest.raises(UsageError, match="at most 60 characters"):
+        edit(panel, "poses/save", ["x" * 61])
+
+
+def test_an_unknown_pose_is_refused(panel: PosesPanel) -> None:
+    with pytest.raises(JointError, match="no pose 'half'"):
+        edit(panel, "poses/use", ["half"])
+
+
+def test_a_visitor_keeps_poses_in_memory_only(
+    session: Session, viz: Visualizer
+) -> None:
+    session.poses = session.poses.in_memory()
+    panel = PosesPanel(session, lambda panel: None)
+    assert rows_of(panel)["poses"].help == "Kept in memory only."
+    assert send(panel, "poses/save", "half") == Answer(
+        "Saved pose 'half' in memory only"
+    )
