@@ -96,16 +96,15 @@ ROOMS: Mapping[str, Row] = {
     "session": Row(
         "bundled checks displays drive frames joints meshes options problem_groups "
         "robot rviz tools views viser_private",
-        "numpy viser",
+        "PIL numpy viser",
         "asyncio concurrent",
     ),
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "bundled displays drive frames joints options page problem_groups problem_text "
-        "robot rviz session tools views viser_private",
-        "PIL numpy viser",
-        "asyncio",
+        "_version displays drive frames joints options page problem_groups "
+        "problem_text robot rviz session tools views viser_private",
+        "numpy viser",
     ),
     "server": Row(
         "displays joints meshes open_config options page panels robot rviz session "

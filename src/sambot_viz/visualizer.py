@@ -21,8 +21,9 @@ from sambot_viz.open_config import declarations
 from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.documents import Documents
 from sambot_viz.server.model_thread import ModelThread
-from sambot_viz.server.reload import Documents, Reloader
+from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 from sambot_viz.session.frame_view import FrameView
@@ -104,11 +105,14 @@ class Visualizer:
         document = inputs.document()
         prepare = partial(_set_fixed_frame, fixed_frame=options.fixed_frame)
         prepare(document)
-        documents = Documents(document, None if options.session == "shared" else _copy)
+        shared = options.session == "shared"
+        documents = Documents(
+            document, None if shared else _copy, prepare, inputs.config
+        )
         self._reloader: Reloader | None = None
         models = ModelThread(inputs.load, options.package_path)
         self._server = Server(
-            options, documents, models, listening, Presets(inputs.poses)
+            options, documents, models, listening, Presets(inputs.poses), documents
         )
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
@@ -122,9 +126,7 @@ class Visualizer:
                 self._reloader = Reloader(
                     self._server,
                     inputs.load,
-                    inputs.config,
                     documents,
-                    prepare,
                     options.on_reload,
                 )
         except BaseException:

@@ -1,4 +1,4 @@
-""" "Save picture": what a browser sends is not trusted."""
+"""Save Image: what a browser draws is not trusted."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from PIL import Image
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.panels import picture
+from sambot_viz.session import picture
 
 REQUEST, FILE = "GetRenderRequestMessage", "FileTransferStartDownload"
 
@@ -27,13 +27,24 @@ def viz() -> Iterator[Visualizer]:
 def client(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> ProtocolClient:
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
+    client.wait_until(lambda: "file/picture" in said(client))
     return client
+
+
+def press_save(client: ProtocolClient) -> None:
+    client.set_value("sambot-viz", ["file/picture", [1280, 720]])
+
+
+def said(client: ProtocolClient) -> str:
+    """All that the server has sent to the page in rows."""
+    kinds = ("GuiHtmlMessage", "GuiUpdateMessage")
+    return "".join(str(m.fields) for m in client.messages if m.type in kinds)
 
 
 def ask(client: ProtocolClient) -> str:
     """Press the button; the number of the request that comes."""
     mark = client.mark()
-    client.set_value(client.uuid_of("Save picture"), True)
+    press_save(client)
     client.wait_until(lambda: client.types(mark)[REQUEST] == 1)
     (request,) = (m for m in client.since(mark) if m.type == REQUEST)
     return request.fields["render_uuid"]
@@ -61,6 +72,9 @@ def test_a_picture_of_the_size_that_was_asked_for_comes_as_a_file(
 ) -> None:
     answer(client, ask(client), png(1280, 720))
     client.wait_until(lambda: client.types()[FILE] == 1)
+    (start,) = (m for m in client.messages if m.type == FILE)
+    assert start.fields["filename"] == "sam_bot.png"
+    assert start.fields["save_immediately"]
 
 
 @pytest.mark.parametrize(
@@ -76,9 +90,7 @@ def test_anything_else_is_refused_with_a_word_to_that_browser(
     client: ProtocolClient, payload: bytes, reason: str
 ) -> None:
     answer(client, ask(client), payload)
-    client.wait_until(lambda: client.types()["NotificationShowMessage"] == 1)
-    (note,) = (m for m in client.messages if m.type == "NotificationShowMessage")
-    assert reason in str(note.fields)
+    client.wait_until(lambda: reason in said(client))
     assert client.types()[FILE] == 0
 
 
@@ -87,7 +99,7 @@ def test_a_browser_is_asked_for_one_picture_at_a_time(
 ) -> None:
     number, mark = ask(client), client.mark()
     for _ in range(20):
-        client.set_value(client.uuid_of("Save picture"), True)
+        press_save(client)
     client.settle(viz.viser)
     assert client.types(mark)[REQUEST] == 0
     answer(client, number, png(1280, 720))
@@ -99,7 +111,8 @@ def test_a_browser_that_does_not_answer_can_ask_again_and_keeps_no_thread(
     client: ProtocolClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(picture, "RENDER_TIME", 0.05)
-    ask(client)
-    client.wait_until(lambda: client.types()["NotificationShowMessage"] == 1)
-    ask(client)
-    client.wait_until(lambda: client.types()["NotificationShowMessage"] == 2)
+    for count in (1, 2):
+        ask(client)
+        client.wait_until(
+            lambda count=count: said(client).count("within 0.05 s") == count
+        )

@@ -17,7 +17,7 @@ _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
-_STYLES = ("window.css",)
+_STYLES = ("window.css", "dialogs.css")
 
 
 def with_scripts(html: bytes, panels: bool) -> bytes:
@@ -41,6 +41,11 @@ def with_scripts(html: bytes, panels: bool) -> bytes:
         f"<style>{styles}</style>"
     )
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
+
+
+def licenses() -> bytes:
+    """The licences of the libraries that are in the page."""
+    return _FOLDER.joinpath("vendor", "LICENSES.txt").read_bytes()
 
 
 def _address(path: Path) -> str:

@@ -21,7 +21,33 @@ export const newGesture = () => ++gestures;
  */
 export function send(id, value, gesture) {
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
+  // Without a connection, what was set last is sent as soon as it is back.
+  if (online) post(edit);
+  else if (rows.get(id)?.kind !== "action") waiting.set(id, edit);
+}
+
+/** @param {any[]} edit */
+function post(edit) {
   window.__viserMutable?.sendMessage({ type: "GuiUpdateMessage", uuid: CHANNEL, updates: { value: edit } });
+}
+
+let online = true;
+/** The last edit of each row since the connection was lost. @type {Map<string, any[]>} */
+const waiting = new Map();
+
+/** Whether there is a connection. */
+export function isConnected() {
+  const sender = window.__viserMutable?.sendMessage;
+  // viser then has a function in this place that only complains.
+  return Boolean(sender) && !String(sender).includes("not connected");
+}
+
+/** Hold edits back, or send what was held back. @param {boolean} now */
+export function goOnline(now) {
+  online = now;
+  if (!now) return;
+  for (const edit of waiting.values()) post(edit);
+  waiting.clear();
 }
 
 /** Do what an action row does, if it can be done now. @param {string} id @param {any[]} [args] */

@@ -4,6 +4,8 @@
 import "./bare.js";
 import { html, render } from "./vendor/preact.js";
 import { act, connect, newGesture, rows, send } from "./channel.js";
+import { followConnection } from "./connection.js";
+import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
 import { tellView } from "./panels/views.js";
 import { followMouse, mousePlace } from "./pointer.js";
@@ -25,6 +27,8 @@ const start = () => {
     rightClick: () => act("tools/right_click"),
   });
   tellView();
+  followFile();
+  followConnection();
   connect();
 };
 // The script may be there before the page's body is.

@@ -41,7 +41,10 @@ export class Rows {
   take(scope, what, part) {
     const touched = new Set();
     if (what === "rows") {
+      // A server that was started again may have fewer panels.
+      for (const name of Object.keys(this.whole.get(scope)?.panels || {})) if (!(name in part.panels)) this.replace(name, [], touched);
       this.whole.set(scope, part);
+      touched.add(`whole:${scope}`);
       for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
     } else if (this.whole.get(scope)?.base === part.base) {
       for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
@@ -101,7 +104,8 @@ export class Rows {
   children(key) { return this.below.get(key) || []; }
 
   /**
-   * Call a function after each change of a row, or of the list of a panel ("panel:NAME").
+   * Call a function after each change of a row, of the list of a panel ("panel:NAME"), or
+   * after all rows were sent ("whole:session", "whole:browser").
    * @param {string} key @param {() => void} listener @returns {() => void} stops it
    */
   listen(key, listener) {

@@ -77,3 +77,8 @@ export function fold(id, open) { folds.set({ ...folds.value, [id]: open }); }
 export function select(panel, id) {
   if (selected.value[panel] !== id) selected.set({ ...selected.value, [panel]: id });
 }
+
+/** The ids of the unfolded rows of the displays, which are saved with the config. */
+export function unfolded() {
+  return (rows.panels.get("displays") || []).filter((id) => isOpen(id) && (rows.children(id).length > 0 || rows.get(id)?.lazy));
+}

@@ -3,6 +3,10 @@
 
 import { html, useEffect, useRef } from "./vendor/preact.js";
 import { rows } from "./channel.js";
+import { Connection } from "./connection.js";
+import { Dialogs } from "./dialogs/dialog.js";
+import { FileName } from "./files.js";
+import { MenuBar } from "./menus.js";
 import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
 import { JointsPanel } from "./panels/joints.js";
@@ -49,19 +53,53 @@ const SHEET = {
 /** Hide all panels, or bring them back. */
 export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
 
+/** What the menu Panels lists: a tab is shown when it is the chosen one.
+ * @returns {{name: string, title: string, shown: boolean, toggle: () => void}[]} */
+function panelList() {
+  const away = hidden.value;
+  const has = (/** @type {string} */ name) => Boolean(rows.panels.get(name)?.length);
+  return Object.entries(SHEET).filter(([name]) => has(name)).map(([name, { title }]) => {
+    const side = name in TABS ? "right" : name === "problems" ? "" : "left";
+    const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
+    const byTab = side === "right" || shape.value !== "wide";
+    const shown = byTab ? current === name && !(shape.value === "wide" && away.right)
+      : side ? !away.left && !away[name] : away[name] === false;
+    const toggle = () => {
+      if (byTab && !shown) tab.set(name);
+      if (shape.value === "wide") hidden.set({ ...away, [name]: shown, ...(side && !shown ? { [side]: false } : {}) });
+    };
+    return { name, title, shown, toggle };
+  });
+}
+
+/** The names of the tabs that there are. @param {Record<string, any>} of */
+function tabNames(of) {
+  return Object.keys(of).filter((name) => rows.panels.get(name)?.length && !(shape.value === "wide" && hidden.value[name]));
+}
+
+/** @param {Record<string, any>} of */
+function shownTab(of) {
+  const names = tabNames(of);
+  return names.includes(tab.value) ? tab.value : names[0];
+}
+
 export function Window() {
   const form = shape.use(), away = hidden.use(), size = sizes.use();
   const view = useRef(/** @type {any} */ (null));
   useEffect(() => placeView(view.current), []);
   const style = `--left:${size.left}px;--right:${size.right}px;--bottom:${size.bottom}px`;
   return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
-    ${!away.all && html`<${Toolbar} />`}
+    ${!away.all && html`<div class="top">
+      <${MenuBar} panels=${panelList} hideAll=${togglePanels} small=${form !== "wide"} /><${Toolbar} /><${FileName} />
+    </div>`}
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
     ${!away.all && html`<${StatusBar} />`}
+    <${Connection} />
+    <${Dialogs} />
   </div>`;
 }
 
@@ -92,21 +130,22 @@ export function Section({ title, name, children }) {
 function Left() {
   const away = hidden.use();
   useRow("panel:views");
-  if (away.left) return html`<${Tab} side="left" />`;
+  const views = rows.children("panel:views").length > 0 && !away.views;
+  if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
   return html`<aside class="left">
-    <${DisplaysPanel} />
-    ${rows.children("panel:views").length > 0 && html`<div class="lower" style=${`height:${sizes.value.views}px`}>
+    ${!away.displays && html`<${DisplaysPanel} />`}
+    ${views && html`<div class="lower" style=${`height:${sizes.value.views}px`}>
       <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`}
     <${Splitter} side="left" label="Width of the left panels" />
   </aside>`;
 }
 
 function Right() {
-  const away = hidden.use(), chosen = tab.use();
+  const away = hidden.use();
+  tab.use();
   for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
-  const names = Object.keys(TABS).filter((name) => rows.panels.get(name)?.length);
-  if (away.right) return html`<${Tab} side="right" />`;
-  const current = names.includes(chosen) ? chosen : names[0] || "joints";
+  const names = tabNames(TABS), current = shownTab(TABS);
+  if (away.right || !current) return html`<${Tab} side="right" />`;
   return html`<aside class="right">
     <${Tabs} names=${names} of=${TABS} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}><${TABS[current].content} /></div>
@@ -115,12 +154,11 @@ function Right() {
 }
 
 function Sheet() {
-  const chosen = tab.use();
+  tab.use();
   /** @type {Record<string, {title: string, content: any}>} */
   const of = SHEET;
   for (const name of Object.keys(of)) useRow(`panel:${name}`);
-  const names = Object.keys(of).filter((name) => rows.panels.get(name)?.length);
-  const current = names.includes(chosen) ? chosen : names[0] || "joints";
+  const names = tabNames(of), current = shownTab(of) || "joints";
   return html`<aside class="sheet">
     <${Tabs} names=${names} of=${of} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}><${of[current].content} /></div>
@@ -163,7 +201,15 @@ function Bottom() {
 /** @param {{side: string}} props */
 function Tab({ side }) {
   return html`<button class=${`unfold ${side}`} title=${`Show the ${side} panels`} aria-label=${`Show the ${side} panels`}
-    onClick=${() => hidden.set({ ...hidden.value, [side]: false })}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
+    onClick=${() => unfoldSide(side)}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
+}
+
+/** Show the panels of a side again; when each was hidden by itself, all of them. @param {string} side */
+function unfoldSide(side) {
+  const names = side === "left" ? ["displays", "views"] : Object.keys(TABS);
+  const next = { ...hidden.value, [side]: false };
+  if (names.every((name) => next[name] || !rows.panels.get(name)?.length)) for (const name of names) delete next[name];
+  hidden.set(next);
 }
 
 /** An edge that a hand can move; arrow keys move it too. @param {{side: string, label: string}} props */

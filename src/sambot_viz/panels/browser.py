@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from sambot_viz.panels.edits import UndoPanel
+from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames import FramesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.publisher import Publisher
@@ -25,21 +26,30 @@ class BrowserPanels:
     Args:
         session: what it shows.
         browser: the browser.
+        files: the disk, for those who may use it.
+        keep_unfolded: writes into the document which rows are unfolded.
     """
 
-    def __init__(self, session: Session, browser: Browser) -> None:
+    def __init__(
+        self,
+        session: Session,
+        browser: Browser,
+        files: Files | None,
+        keep_unfolded: Callable[[Collection[str]], None],
+    ) -> None:
         self._notices = NoticePanel()
+        self._keep_unfolded = keep_unfolded
         self._browser = browser
         self._publisher = Publisher(
             browser.client,
             session.worker,
-            self._panels(session),
+            self._panels(session, files),
             "browser",
         )
         browser.listeners.append(self.hear)
 
-    def _panels(self, session: Session) -> list[Panel]:
-        browser = self._browser
+    def _panels(self, session: Session, files: Files | None) -> list[Panel]:
+        browser, keep = self._browser, self._keep_unfolded
         return [
             self._notices,
             ToolsPanel(session, browser),
@@ -48,6 +58,7 @@ class BrowserPanels:
             SelectionPanel(session, browser),
             ToolPropertiesPanel(session, browser),
             FramesPanel(session, browser, self.say),
+            FilesPanel(session, browser, files, keep, self.say, self._remake),
         ]
 
     def close(self) -> None:
@@ -67,6 +78,9 @@ class BrowserPanels:
         """Show a sentence in this browser."""
         self._notices.say(sentence, level)
         self._publisher.remake(self._notices)
+
+    def _remake(self, panel: Panel) -> None:
+        self._publisher.remake(panel)
 
     def answer(self, row_id: str, sentence: str, row: Row | None) -> None:
         """Say why a value was refused; the page shows the value that holds again."""

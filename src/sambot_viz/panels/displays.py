@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import itertools
 import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import partial
 from typing import Any
 
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.status import StatusList
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.expanded import expanded_rows, mark_expanded
+from sambot_viz.panels.expanded import keep_expanded, mark_expanded
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
 from sambot_viz.panels.row import Level, Row
@@ -55,7 +54,13 @@ class DisplaysPanel(Panel):
         self._facts.clear()
         config = self._session.config
         made = [*self._global_rows(), *self._display_rows(config.displays, "")]
-        return [*mark_expanded(made, expanded_rows(config)), *self._actions()]
+        return [*mark_expanded(made, config.expanded), *self._actions()]
+
+    def keep_unfolded(self, unfolded: Collection[str]) -> None:
+        """Write into the document which rows are unfolded, from their ids."""
+        config = self._session.config
+        made = [*self._global_rows(), *self._display_rows(config.displays, "")]
+        keep_expanded(config, made, unfolded)
 
     def values(self) -> dict[str, Any]:
         """What is shown of links and frames that are unfolded."""
@@ -209,29 +214,16 @@ class DisplaysPanel(Panel):
 
     def _actions(self) -> Iterator[Row]:
         yield _action("displays/unfold", (str,), self._unfold)
-        yield _action("displays/add", (str, (str, type(None))), self._add)
         yield _action("displays/duplicate", (str,), self._duplicate)
         yield _action("displays/remove", (str,), self._delete)
         yield _action("displays/rename", (str, str), self._rename)
         yield _action("displays/move", (str, str, int), self._move)
-        kinds = [
-            {"kind": kind, "name": row_text(kind), "help": display.help}
-            for kind, display in sorted(DISPLAYS.items())
-        ]
-        yield Row("displays/types", "", "names", value=kinds)
 
     def _unfold(self, arguments: tuple[str]) -> None:
         (row_id,) = arguments
         if row_id not in self._unfolded:
             self._unfolded.add(row_id)
             self._remake(self)
-
-    def _add(self, arguments: tuple[str, str | None]) -> None:
-        kind, after = arguments
-        if kind not in DISPLAYS:
-            raise UsageError(f"there is no display '{kind}'")
-        behind = None if after is None else self.display_of(after)
-        self._session.add_display(kind, after=behind)
 
     def _duplicate(self, arguments: tuple[str]) -> None:
         self._session.duplicate_display(self.display_of(arguments[0]))

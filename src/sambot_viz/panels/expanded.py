@@ -7,28 +7,14 @@ followed by its number among the rows of the same name.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
 from sambot_viz.panels.row import Row
 from sambot_viz.rviz import RvizConfig
 
-_PANEL, _TREE, _KEY = "Displays", "Property Tree Widget", "Expanded"
-
-
-def expanded_rows(config: RvizConfig) -> frozenset[str] | None:
-    """The paths that the file lists; None when it has no such list."""
-    panels = config.panels
-    for panel in panels if isinstance(panels, list) else ():
-        if not isinstance(panel, dict):
-            continue
-        if str(panel.get("Class", "")).rpartition("/")[2] != _PANEL:
-            continue
-        tree = panel.get(_TREE)
-        listed = tree.get(_KEY) if isinstance(tree, dict) else None
-        if isinstance(listed, list):
-            return frozenset(str(path) for path in listed)
-    return None
+_SHOWN = {"Global Status": "Status"}
+"""Rows whose name in a path is another one."""
 
 
 def row_paths(rows: Iterable[Row]) -> Iterator[tuple[Row, str]]:
@@ -36,14 +22,14 @@ def row_paths(rows: Iterable[Row]) -> Iterator[tuple[Row, str]]:
     paths: dict[str, str] = {}
     seen: Counter[tuple[str, str]] = Counter()
     for row in rows:
-        seen[row.above, row.name] += 1
-        number = seen[row.above, row.name]
-        paths[row.id] = f"{paths.get(row.above, '')}/{row.name}{number}"
+        name = _SHOWN.get(row.name, row.name)
+        seen[row.above, name] += 1
+        paths[row.id] = f"{paths.get(row.above, '')}/{name}{seen[row.above, name]}"
         yield row, paths[row.id]
 
 
 def mark_expanded(
-    rows: Iterable[Row], expanded: frozenset[str] | None
+    rows: Iterable[Row], expanded: Collection[str] | None
 ) -> Iterator[Row]:
     """The rows, unfolded as the file says, if it says anything."""
     for row, path in row_paths(rows):
@@ -53,3 +39,28 @@ def mark_expanded(
             yield replace(row, expanded=row.expanded or path in expanded)
         else:
             yield row
+
+
+def keep_expanded(
+    config: RvizConfig, rows: Iterable[Row], unfolded: Collection[str]
+) -> None:
+    """Write into a document which rows are unfolded.
+
+    Paths below rows that only RViz has, such as those of a display that is not shown
+    here, stay as they are.
+
+    Args:
+        config: the document.
+        rows: of the Displays panel, all of them.
+        unfolded: the ids of the unfolded ones.
+    """
+    paths = {path: row.id in unfolded for row, path in row_paths(rows)}
+    before = config.expanded or ()
+    kept = [p for p in before if paths.get(p, _has_a_row_above(p, paths))]
+    new = [p for p, is_open in paths.items() if is_open and p not in kept]
+    if kept + new != list(before):
+        config.expanded = (*kept, *new)
+
+
+def _has_a_row_above(path: str, paths: Collection[str]) -> bool:
+    return any(path.startswith(f"{known}/") for known in paths)

@@ -7,8 +7,10 @@ from functools import partial
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import gate
+from sambot_viz.panels.add_display import AddDisplayPanel
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.panel import Panel
@@ -28,13 +30,18 @@ class Window:
     Args:
         session: what they show.
         joints: whether there are panels to move joints (``--no-gui`` leaves them out).
+        files: the disk; None when the browsers may not use it.
     """
 
-    def __init__(self, session: Session, joints: bool = True) -> None:
+    def __init__(
+        self, session: Session, joints: bool = True, files: Files | None = None
+    ) -> None:
         self._session = session
+        self._files = files
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
         self._status_bar = StatusBarPanel(session)
+        self._displays = DisplaysPanel(session, self._remake)
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
         )
@@ -46,7 +53,8 @@ class Window:
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
         panels: list[Panel] = [NamesPanel(session), self._status_bar]
-        panels.append(DisplaysPanel(session, self._remake))
+        panels.append(self._displays)
+        panels.append(AddDisplayPanel(session, self._displays.id_of, self._remake))
         if joints:
             panels.append(JointsPanel(session, self._remake))
             panels.append(PosesPanel(session, self._remake))
@@ -70,7 +78,9 @@ class Window:
 
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:
-            self._browsers[browser.client_id] = BrowserPanels(self._session, browser)
+            self._browsers[browser.client_id] = BrowserPanels(
+                self._session, browser, self._files, self._displays.keep_unfolded
+            )
         else:
             panels = self._browsers.pop(browser.client_id, None)
             if panels is not None:

@@ -10,12 +10,13 @@ from sambot_viz.rviz.class_name import kind_of
 from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.display_list import DisplayList
+from sambot_viz.rviz.panel_list import PanelList
 from sambot_viz.rviz.view_list import ViewList
 from sambot_viz.rviz.yaml.document import Document
 from sambot_viz.rviz.yaml.nodes import Collection, Map, Plain, items_of, plain
 
 
-class RvizConfig(DisplayList, ViewList):
+class RvizConfig(DisplayList, ViewList, PanelList):
     """A config: typed values in front, the untouched document behind.
 
     What is not understood is kept and saved: unknown classes, keys, panels, window
@@ -85,7 +86,7 @@ class RvizConfig(DisplayList, ViewList):
 
     @property
     def panels(self) -> Plain:
-        """RViz's panels as text; kept, never used."""
+        """RViz's panels as text; kept, and only `expanded` is used."""
         return plain(self._document.root.get("Panels"))
 
     @property

@@ -1,4 +1,4 @@
-"""Answers the request for the page: that of viser with our scripts in it."""
+"""Answers requests for the page, which is that of viser with our scripts in it."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ from websockets.http11 import Request, Response
 
 from sambot_viz import page
 
+LICENSES = "/sambot/licenses.txt"
+"""Where the licences of the libraries in the page are."""
+
 
 def answer(request: Request, panels: bool = True) -> Response | None:
-    """The response to a request for the page; None for all others.
+    """The response to a request for the page or its licences; None for all others.
 
     Args:
         request: the request.
@@ -24,7 +27,10 @@ def answer(request: Request, panels: bool = True) -> Response | None:
     """
     if request.headers.get("Upgrade") == "websocket":
         return None
-    if request.path.partition("?")[0] not in ("/", "/index.html"):
+    path = request.path.partition("?")[0]
+    if path == LICENSES:
+        return _text(page.licenses())
+    if path not in ("/", "/index.html"):
         return None
     headers = Headers(
         {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(panels)}
@@ -37,6 +43,12 @@ def answer(request: Request, panels: bool = True) -> Response | None:
     if "gzip" in request.headers.get("Accept-Encoding", ""):
         headers["Content-Encoding"] = "gzip"
         content = _packed(panels)
+    headers["Content-Length"] = str(len(content))
+    return Response(http.HTTPStatus.OK, "OK", headers, content)
+
+
+def _text(content: bytes) -> Response:
+    headers = Headers({"Content-Type": "text/plain; charset=utf-8"})
     headers["Content-Length"] = str(len(content))
     return Response(http.HTTPStatus.OK, "OK", headers, content)
 

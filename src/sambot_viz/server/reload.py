@@ -8,61 +8,24 @@ from __future__ import annotations
 
 import logging
 import os.path
-import stat
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.displays.display import Display
 from sambot_viz.errors import ConfigError, Problem, RobotError
-from sambot_viz.open_config import load_config
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.shape_files import assets_of, something_missing
-from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
+from sambot_viz.server.documents import Documents
 from sambot_viz.server.server import Server
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 
 _log = logging.getLogger(__name__)
 
-_MANAGER = "Visualization Manager"
 MOST_FOLDERS = 200
 """Upper bound of the watched folders of a package in which a file is missing."""
-
-
-class Documents:
-    """The .rviz document of the server: one for all browsers, or a copy for each.
-
-    Args:
-        document: as it was read, with the options of the command line applied.
-        copy: makes a copy for a private session; None shares the document itself.
-    """
-
-    def __init__(
-        self, document: RvizConfig, copy: Callable[[RvizConfig], RvizConfig] | None
-    ) -> None:
-        self.current = document
-        self._copy = copy
-
-    def __call__(self) -> RvizConfig:
-        """The document for one more session."""
-        return self.current if self._copy is None else self._copy(self.current)
-
-
-@dataclass(frozen=True, slots=True)
-class _Content:
-    """What a document says of its current view."""
-
-    view: Plain
-
-    @classmethod
-    def of(cls, document: RvizConfig) -> _Content:
-        root = document.raw
-        manager = root.get(_MANAGER) if isinstance(root, dict) else None
-        views = manager.get("Views") if isinstance(manager, dict) else None
-        return cls(views.get("Current") if isinstance(views, dict) else None)
 
 
 class Reloader:
@@ -71,9 +34,7 @@ class Reloader:
     Args:
         server: what shows it.
         load: reads the model from its file.
-        config: the .rviz file, or None when there is none to follow.
-        documents: where sessions take their document from.
-        prepare: applies the options of the command line to a document that was read.
+        documents: where sessions take their document from, and which file it is in.
         report: called with the problems of the model whenever they have changed, and
             with those of a config that was saved.
     """
@@ -82,20 +43,16 @@ class Reloader:
         self,
         server: Server,
         load: Callable[[Path], Robot],
-        config: Path | None,
         documents: Documents,
-        prepare: Callable[[RvizConfig], None],
         report: Callable[[Sequence[Problem]], None] | None = None,
     ) -> None:
         self._server = server
         self._load = load
         robot = server.robot
         self._model = robot.files[0] if robot is not None and robot.files else None
-        self._config = config
         self._documents = documents
-        self._prepare = prepare
+        documents.on_open.append(lambda: server.set_reload_problems("config", ()))
         self._report = report
-        self._shown = _Content.of(documents.current)
         self._suspects: tuple[Path, ...] = ()
         self._reported = () if robot is None else robot.problems
         self._watcher = FileWatcher(
@@ -126,7 +83,8 @@ class Reloader:
             yield from session.displays
 
     def _files(self) -> set[Path]:
-        config = {self._config} if self._config is not None else set[Path]()
+        file = self._documents.file
+        config = {file} if file is not None else set[Path]()
         own = {file for display in self._displays() for file in display.files}
         return self._model_files() | self._asset_files() | config | own
 
@@ -159,8 +117,9 @@ class Reloader:
         self, changed: frozenset[Path], appeared: frozenset[Path]
     ) -> None:
         model, assets = self._model_files(), self._asset_files()
-        if self._config is not None and self._config in changed:
-            self._reload_config(self._config)
+        config = self._documents.file
+        if config is not None and config in changed:
+            self._reload_config(config)
         self._server.for_each_session(lambda s: s.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
@@ -172,7 +131,7 @@ class Reloader:
 
     def _reload_model(self, path: Path) -> None:
         try:
-            if _is_pipe(path):
+            if reload_problems.is_pipe(path):
                 raise RobotError([reload_problems.unreadable("model-unreadable", path)])
             robot = self._load(path)
         except RobotError as error:
@@ -197,24 +156,20 @@ class Reloader:
 
     def _reload_config(self, path: Path) -> None:
         try:
-            if _is_pipe(path):
-                raise ConfigError(
-                    [reload_problems.unreadable("config-unreadable", path)]
-                )
-            document = load_config(path)
+            document = self._documents.read(path)
         except ConfigError as error:
             self._server.set_reload_problems("config", error.problems)
             if self._report is not None:
                 self._report(error.problems)
             return
         text = document.to_yaml()
-        self._prepare(document)
-        self._documents.current = document
-        before, self._shown = self._shown, _Content.of(document)
+        view_before = self._documents.view
+        if not self._documents.replace(path, document):
+            return
         kept: list[Session] = []
 
         def take(session: Session) -> None:
-            if not self._take(session, text, before):
+            if not self._take(session, path, text, view_before):
                 kept.append(session)
 
         self._server.for_each_session(take)
@@ -222,7 +177,9 @@ class Reloader:
             "config", (reload_problems.kept(path),) if kept else ()
         )
 
-    def _take(self, session: Session, text: str, before: _Content) -> bool:
+    def _take(
+        self, session: Session, path: Path, text: str, view_before: Plain
+    ) -> bool:
         """Show the file, unless that would throw away what a user has changed.
 
         The views of browsers stay as they are, unless the file has another view than
@@ -232,13 +189,13 @@ class Reloader:
             False when the changes of a user were kept and the file is not shown.
         """
         with session.lock:
-            if session.config.to_yaml() == text:
-                # The page itself saved the file.
+            if session.config.to_yaml() == text or self._documents.file != path:
+                # The page itself saved the file, or another one was opened.
                 return True
             if session.edits.modified:
                 return False
             session.set_config(self._documents())
-            if self._shown.view != before.view:
+            if self._documents.view != view_before:
                 session.show_view()
             return True
 
@@ -260,12 +217,3 @@ def _folders_in(folder: Path) -> Iterator[Path]:
             pending += [p for p in inner if p.is_dir() and not p.is_symlink()]
         except OSError:
             continue
-
-
-def _is_pipe(path: Path) -> bool:
-    """Whether a path is a pipe or a device: reading it might never end."""
-    try:
-        mode = path.stat().st_mode
-    except (OSError, ValueError):
-        return False
-    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from pathlib import Path
 
 from sambot_viz.errors import Problem
@@ -49,3 +50,12 @@ def unwatched(reason: str) -> Problem:
         "second instead",
         "raise fs.inotify.max_user_watches, or start with --no-watch",
     )
+
+
+def is_pipe(path: Path) -> bool:
+    """Whether a path is a pipe or a device: reading it might never end."""
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))

@@ -19,6 +19,7 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
+from sambot_viz.panels.files import Files
 from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -47,6 +48,8 @@ class Server:
         models: reads other models, for a RobotModel from a file.
         listening: a viser server that listens already; None makes one.
         poses: the named poses; a private session has a copy that writes no file.
+        files: opens and follows .rviz files for the shared session; None leaves Open
+            and Save out.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -60,8 +63,10 @@ class Server:
         models: ModelThread | None = None,
         listening: viser.ViserServer | None = None,
         poses: Presets | None = None,
+        files: Files | None = None,
     ) -> None:
         self.options = options
+        self.files = files
         self._poses = poses or Presets()
         self._make_config = make_config
         self._models = models
@@ -151,7 +156,9 @@ class Server:
         # A model that is being read may change the displays while panels are made.
         with session.lock:
             if self.options.panels and session not in self._windows:
-                self._windows[session] = Window(session, joints=self.options.gui)
+                # Visitors with a session of their own do not use the server's disk.
+                files = self.files if session is self.shared else None
+                self._windows[session] = Window(session, self.options.gui, files)
 
     def _check(self, session: Session) -> None:
         checks = self._checks.get(session)

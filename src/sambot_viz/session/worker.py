@@ -14,8 +14,9 @@ import logging
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
+from typing import Any
 
 Action = Callable[[], object]
 
@@ -82,6 +83,17 @@ class Worker(threading.Thread):
         # A loop that has stopped already has no browsers.
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(action)
+
+    def run_on_loop(self, task: Coroutine[Any, Any, None]) -> None:
+        """Run something on viser's event loop that waits for a browser there."""
+
+        async def reported() -> None:
+            try:
+                await task
+            except Exception as error:
+                self.on_error(error)
+
+        asyncio.run_coroutine_threadsafe(reported(), self._loop)
 
     def close(self) -> None:
         """Drop what was posted, and wait for the action that is running.

@@ -3,6 +3,8 @@
 
 import { html, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
+import { AddDisplay } from "../dialogs/add.js";
+import { show } from "../dialogs/dialog.js";
 import { selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
 
@@ -41,7 +43,7 @@ export function DisplaysPanel() {
     <${Tree} panel="displays" label="Displays" onKey=${key} renaming=${renaming} rename=${rename} />
     <div class="help" aria-live="polite">${row && html`<b>${row.name}</b> ${row.help || ""}`}</div>
     <div class="buttons">
-      <button onClick=${() => act("displays/add", ["rviz_default_plugins/Axes", null])}>Add</button>
+      <button onClick=${() => show(AddDisplay)}>Add</button>
       <button disabled=${!display} onClick=${() => button("duplicate")}>Duplicate</button>
       <button disabled=${!display} onClick=${() => button("remove")}>Remove</button>
       <button disabled=${!display} onClick=${() => display && rename(display.id, null)}>Rename</button>

@@ -1,0 +1,50 @@
+// @ts-check
+/* Help: the keys, and what this program is. */
+
+import { html } from "../vendor/preact.js";
+import { rows } from "../channel.js";
+import { toolKeys } from "../toolbar.js";
+import { Dialog } from "./dialog.js";
+
+/** @type {[string, [string, string][]][]} */
+const KEYS = [
+  ["The view", [
+    ["Left button", "turn"], ["Middle button, or Shift and left", "move"], ["Right button, or wheel", "zoom"],
+    ["F", "look at what is selected, or else at the robot"], ["Z", "bring the view back to its start"],
+    ["H", "hide all panels, show them again"], ["Esc", "leave the tool"],
+  ]],
+  ["Rows", [
+    ["↑ ↓ Home End", "go to another row"], ["→ ←", "unfold, fold"], ["Space", "tick"], ["Enter", "edit the value; accept it"],
+    ["Esc", "put the old value back"], ["↑ ↓ in a number", "one step; with Shift ten, with Alt a tenth"],
+    ["F2, Delete", "rename, remove a display"],
+  ]],
+  ["Everywhere", [
+    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],
+    ["Tab", "to the next field, button or panel"],
+  ]],
+];
+
+/** @param {{close: () => void}} props */
+export function Keys({ close }) {
+  const tools = toolKeys().filter(({ key }) => key).map(({ name, key }) => /** @type {[string, string]} */ ([key.toUpperCase(), name]));
+  return html`<${Dialog} title="Keys" close=${close} submit=${close} wide>
+    <div class="keys">${[...KEYS.slice(0, 1), /** @type {[string, [string, string][]]} */ (["Tools", tools]), ...KEYS.slice(1)].map(([title, list]) => html`
+      <section key=${title}><h3>${title}</h3><table aria-label=${title}>
+        ${list.map(([keys, does]) => html`<tr key=${keys}><th scope="row"><kbd>${keys}</kbd></th><td>${does}</td></tr>`)}
+      </table></section>`)}</div>
+    <p class="soft">The letters act while no text is being typed.</p>
+    <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
+  </${Dialog}>`;
+}
+
+/** @param {{close: () => void}} props */
+export function About({ close }) {
+  return html`<${Dialog} title="About sambot-viz" close=${close} submit=${close}>
+    <p>sambot-viz ${rows.value("names/version")}, under the Apache License 2.0.</p>
+    <p>Shows URDF and xacro robots in the browser, as RViz does, without ROS.</p>
+    <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with Preact (MIT) and htm (Apache-2.0).
+      <a href="./sambot/licenses.txt" target="_blank" rel="noopener">The licences of Preact and htm</a></p>
+    <p class="soft">What is shown of RViz's displays is in docs/displays.md of the program, how to start it in docs/command-line.md.</p>
+    <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
+  </${Dialog}>`;
+}

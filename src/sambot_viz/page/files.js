@@ -1,0 +1,73 @@
+// @ts-check
+/* The .rviz file: its name, saving and opening it, and pictures of the view. */
+
+import { html, useEffect } from "./vendor/preact.js";
+import { act, rows } from "./channel.js";
+import { show } from "./dialogs/dialog.js";
+import { OpenConfig } from "./dialogs/open.js";
+import { SaveAs } from "./dialogs/save_as.js";
+import { SaveImage } from "./dialogs/save_image.js";
+import { folds, unfolded, useRow } from "./state.js";
+
+/** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
+
+/** @returns {FileState} */
+const state = () => rows.value("file/state") || {};
+
+/** Whether the server's disk may be used: a visitor with a session of their own only downloads. */
+export const hasDisk = () => Boolean(rows.get("file/save"));
+
+/** Take what is being typed: it is accepted as if the field were left. */
+function takeTyped() {
+  const field = document.activeElement;
+  if (!(field instanceof HTMLInputElement)) return;
+  field.blur();
+  field.focus();
+}
+
+export function save() {
+  if (!hasDisk()) return;
+  takeTyped();
+  if (state().own) act("file/save", [unfolded()]); else saveAs();
+}
+export function saveAs() { if (hasDisk()) { takeTyped(); show(SaveAs); } }
+export function open() { if (hasDisk()) { takeTyped(); show(OpenConfig); } }
+export function download() { takeTyped(); act("file/download"); }
+export function saveImage() { show(SaveImage); }
+
+/** The name of the file, with a star after an edit; also the title of the page. */
+export function FileName() {
+  const { name, own, modified } = useRow("file/state")?.value || {};
+  const shown = (name || "no file yet") + (modified ? "*" : "");
+  useEffect(() => { document.title = `${shown} - sambot-viz`; }, [shown]);
+  const where = own ? "" : name ? "This config comes with the program; saving asks for a name." : "";
+  return html`<span class="file-name" title=${[modified ? "With changes that are not saved." : "Saved.", where].join(" ")}>${shown}</span>`;
+}
+
+/** The keys of the file menu, which also act while a text is typed. */
+function keys() {
+  addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "s") return;
+    // The browser would save the page.
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.repeat || document.querySelector("dialog[open]")) return;
+    if (event.shiftKey) saveAs(); else save();
+  }, true);
+}
+
+/** Follow the file from now on. */
+export function followFile() {
+  keys();
+  // The config of a visitor goes with the page; that of everyone stays on the server.
+  addEventListener("beforeunload", (event) => {
+    if (state().private && state().modified) event.preventDefault();
+  });
+  // A document that was opened or read again is unfolded as its file says.
+  let shown = rows.value("names/document");
+  rows.listen("names/document", () => {
+    const now = rows.value("names/document");
+    if (shown !== undefined && now !== undefined && now !== shown) folds.set({});
+    shown = now ?? shown;
+  });
+}

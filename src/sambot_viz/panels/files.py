@@ -1,0 +1,222 @@
+"""The .rviz file and pictures, for one browser: open, save, download."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from sambot_viz.errors import ConfigError, UsageError
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.session.config_file import UNNAMED, ConfigFile
+from sambot_viz.session.picture import (
+    LONGEST_SIDE,
+    SHORTEST_SIDE,
+    PictureError,
+    picture_of,
+)
+
+_PICTURE = "robot"
+"""What a picture is called when there is no robot."""
+
+
+class Files(Protocol):
+    """The disk of the server, for those who may use it."""
+
+    def open(self, session: Session, path: Path) -> None:
+        """Show another .rviz file.
+
+        Raises:
+            ConfigError: it cannot be read, or is not a .rviz document.
+        """
+
+    def saved(self, path: Path) -> None:
+        """The document is in this file now."""
+
+
+class FilesPanel(Panel):
+    """What the File menu needs.
+
+    Args:
+        session: whose document it is.
+        browser: who asks, and gets the downloads.
+        files: the disk; None for a visitor, who may only download.
+        keep_unfolded: writes into the document which rows are unfolded, from their
+            ids.
+        say: shows a sentence to this browser.
+        remake: called when there is another answer.
+    """
+
+    name = "files"
+    remade_by = frozenset({"config", "edits", "robot"})
+
+    def __init__(
+        self,
+        session: Session,
+        browser: Browser,
+        files: Files | None,
+        keep_unfolded: Callable[[Collection[str]], None],
+        say: Callable[[str, Level], None],
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self._session = session
+        self._browser = browser
+        self._files = files
+        self._keep_unfolded = keep_unfolded
+        self._say = say
+        self._remake = remake
+        self._file = ConfigFile(session)
+        self._names: Sequence[str] = ()
+        self._answer: Json = None
+        self._answers = 0
+        self._drawing = False
+
+    def rows(self) -> Sequence[Row]:
+        """The name of the file, what can be done, and the last answer."""
+        return [*self._rows()]
+
+    def _rows(self) -> Iterator[Row]:
+        file = self._file
+        state: Json = {
+            "name": file.name,
+            "own": file.target is not None,
+            "modified": self._session.edits.modified,
+            "private": self._files is None,
+        }
+        if self._files is not None:
+            state["folder"] = str(file.folder)
+        yield Row("file/state", "", "names", value=state)
+        yield Row("file/download", "", "action", set=lambda _: self._download())
+        yield Row(
+            "file/picture",
+            "",
+            "action",
+            "picture",
+            takes=(int, int),
+            set=lambda size: self._picture(*size),
+        )
+        yield Row("file/answer", "", "names", value=self._answer)
+        if self._files is not None:
+            yield from self._disk_rows(self._files)
+
+    def _disk_rows(self, files: Files) -> Iterator[Row]:
+        yield Row(
+            "file/save",
+            "",
+            "action",
+            "Save",
+            takes=(list,),
+            set=lambda sent: self._save(files, None, sent[0]),
+        )
+        yield Row(
+            "file/save-as",
+            "",
+            "action",
+            "name",
+            takes=(str, bool, list),
+            set=lambda sent: self._save_as(files, *sent),
+        )
+        yield Row("file/list", "", "action", set=lambda _: self._list())
+        yield Row("file/names", "", "names", value=self._names)
+        yield Row(
+            "file/open",
+            "",
+            "action",
+            "file",
+            takes=(str,),
+            set=lambda sent: self._open(files, sent[0]),
+        )
+
+    def _reply(self, to: str, **content: Json) -> None:
+        """Answer a dialog that waits."""
+        self._answers += 1
+        self._answer = {"number": self._answers, "to": to, **content}
+        self._remake(self)
+
+    # Saving
+
+    def _save_as(
+        self, files: Files, name: str, replace: bool, unfolded: list[Json]
+    ) -> None:
+        path = self._file.path(name)
+        if not replace and self._file.is_taken(path):
+            self._reply("save-as", exists=path.name)
+            return
+        self._save(files, path, unfolded)
+        self._reply("save-as", done=path.name)
+
+    def _save(self, files: Files, path: Path | None, unfolded: list[Json]) -> None:
+        with self._session.lock:
+            self._browser.view.store()
+            self._keep_unfolded({row for row in unfolded if isinstance(row, str)})
+            path = self._file.save(path)
+        files.saved(path)
+        self._say(f"Saved {path.name} in {path.absolute().parent}", "ok")
+
+    # Opening
+
+    def _list(self) -> None:
+        self._names = self._file.names()
+        self._remake(self)
+
+    def _open(self, files: Files, name: str) -> None:
+        path = self._file.listed(name)
+        try:
+            files.open(self._session, path)
+        except ConfigError as error:
+            problem = error.problems[0]
+            place = "" if problem.line is None else f"line {problem.line}: "
+            raise UsageError(
+                f"{path.name} cannot be opened: {place}{problem.message}"
+            ) from error
+        self._reply("open", done=path.name)
+        self._say(f"Opened {path.name} of {path.parent}", "ok")
+
+    # To the user's own computer
+
+    def _download(self) -> None:
+        name = self._file.name or UNNAMED
+        config = self._session.config
+        before = config.detached_view()
+        self._browser.view.store()
+        text = config.to_yaml()
+        config.store_view(before)
+        self._send(name, text.encode())
+
+    def _send(self, name: str, content: bytes) -> None:
+        self._browser.client.send_file_download(name, content, save_immediately=True)
+        self._browser.client.flush()
+
+    def _picture(self, width: int, height: int) -> None:
+        for length in (width, height):
+            if not SHORTEST_SIDE <= length <= LONGEST_SIDE:
+                raise UsageError(
+                    f"a picture has {SHORTEST_SIDE} to {LONGEST_SIDE} pixels on a side"
+                )
+        if self._drawing:
+            raise UsageError("a picture is being drawn already")
+        self._drawing = True
+        self._session.worker.run_on_loop(self._draw(width, height))
+
+    async def _draw(self, width: int, height: int) -> None:
+        """Have the browser draw, and send it the file; runs on the event loop."""
+        robot = self._session.robot
+        name = f"{_PICTURE if robot is None else _plain(robot.name)}.png"
+        sentence, level = f"Saved {name}, {width} × {height} pixels", "ok"
+        try:
+            picture = await picture_of(self._session, self._browser, width, height)
+            self._send(name, picture)
+        except PictureError as error:
+            sentence, level = f"No picture: {error}", "error"
+        finally:
+            self._drawing = False
+        # The loop serves every browser and waits for no lock.
+        self._session.worker.post(lambda: self._say(sentence, level))
+
+
+def _plain(name: str) -> str:
+    """A name that any disk takes."""
+    return "".join(c if c.isalnum() or c in "-_. " else "_" for c in name)[:100]

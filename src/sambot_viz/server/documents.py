@@ -1,0 +1,103 @@
+"""The .rviz document of a server, and the file it comes from."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+from sambot_viz.errors import ConfigError
+from sambot_viz.open_config import load_config
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.rviz.yaml.nodes import Plain
+from sambot_viz.server import reload_problems
+from sambot_viz.session import Session
+
+_MANAGER = "Visualization Manager"
+
+
+class Documents:
+    """The .rviz document of the server: one for all browsers, or a copy for each.
+
+    Args:
+        document: as it was read, with the options of the command line applied.
+        copy: makes a copy for a private session; None shares the document itself.
+        prepare: applies the options of the command line to a document that was read.
+        file: where it was read from; None when no file is to be followed.
+
+    Attributes:
+        file: the file that is shown, and followed.
+        view: the current view that it had when it was read.
+        on_open: called after another file was opened.
+    """
+
+    def __init__(
+        self,
+        document: RvizConfig,
+        copy: Callable[[RvizConfig], RvizConfig] | None,
+        prepare: Callable[[RvizConfig], None],
+        file: Path | None,
+    ) -> None:
+        self._lock = threading.Lock()
+        self._current = document
+        self._copy = copy
+        self._prepare = prepare
+        self.file = file
+        self.view = _view_of(document)
+        self.on_open: list[Callable[[], object]] = []
+
+    def __call__(self) -> RvizConfig:
+        """The document for one more session."""
+        return self._current if self._copy is None else self._copy(self._current)
+
+    def read(self, file: Path) -> RvizConfig:
+        """Read a file, without the options of the command line.
+
+        Raises:
+            ConfigError: it cannot be read, or is not a .rviz document.
+        """
+        if reload_problems.is_pipe(file):
+            problem = reload_problems.unreadable("config-unreadable", file)
+            raise ConfigError([problem])
+        return load_config(file)
+
+    def replace(self, file: Path, document: RvizConfig) -> bool:
+        """Take what was read again from the file that is shown.
+
+        Returns:
+            False when another file was opened meanwhile.
+        """
+        self._prepare(document)
+        with self._lock:
+            if self.file != file:
+                return False
+            self._current, self.view = document, _view_of(document)
+        return True
+
+    def open(self, session: Session, path: Path) -> None:
+        """Show another file in the session of all browsers.
+
+        Raises:
+            ConfigError: it cannot be read, or is not a .rviz document.
+        """
+        document = self.read(path)
+        self._prepare(document)
+        with self._lock:
+            self.file, self.view = path, _view_of(document)
+            self._current = document
+        session.set_config(document)
+        session.show_view()
+        for listener in self.on_open:
+            listener()
+
+    def saved(self, path: Path) -> None:
+        """The page has saved the document into this file: follow it from now on."""
+        with self._lock:
+            self.file = path
+
+
+def _view_of(document: RvizConfig) -> Plain:
+    root = document.raw
+    manager = root.get(_MANAGER) if isinstance(root, dict) else None
+    views = manager.get("Views") if isinstance(manager, dict) else None
+    return views.get("Current") if isinstance(views, dict) else None

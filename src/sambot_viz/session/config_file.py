@@ -1,0 +1,171 @@
+"""The .rviz file of a session: where it is, what may be beside it, and saving it.
+
+A browser may overwrite the config that was opened, and write new files beside it;
+nothing else, because whoever can open the page can press the buttons.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+from sambot_viz import bundled
+from sambot_viz.errors import ConfigError, UsageError
+from sambot_viz.files import is_below
+from sambot_viz.session.session import Session
+from sambot_viz.text import text
+
+ENDING = ".rviz"
+LONGEST_NAME = 200
+"""Most file systems take 255 bytes; a temporary name beside the file is longer."""
+MOST_NAMES = 1000
+"""So many files of a folder are listed."""
+UNNAMED = f"sambot_viz{ENDING}"
+"""What a config without a file is called when it is downloaded."""
+_FORBIDDEN = '<>:"|?*'
+_RESERVED = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\.|$)", re.IGNORECASE)
+"""Names that Windows keeps for devices, with any ending."""
+
+
+class ConfigFile:
+    """The file of a session's document.
+
+    Args:
+        session: whose document it is.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+
+    @property
+    def name(self) -> str:
+        """The file's name; empty when the document was never in a file."""
+        file = self._session.config.file
+        return "" if file is None else Path(file).name
+
+    @property
+    def target(self) -> Path | None:
+        """The file that saving writes; None when it needs another name first."""
+        file = self._session.config.file
+        return None if file is None or _is_bundled(Path(file)) else Path(file)
+
+    @property
+    def folder(self) -> Path:
+        """Where files are saved and opened: beside the config, else the model."""
+        target, robot = self.target, self._session.robot
+        if target is not None:
+            return target.absolute().parent
+        if robot is not None and robot.files:
+            beside = robot.files[0].absolute().parent
+            if not _is_bundled(beside / "any") and os.access(beside, os.W_OK):
+                return beside
+        return Path.cwd()
+
+    def names(self) -> list[str]:
+        """The .rviz files in the folder, by name.
+
+        Raises:
+            UsageError: the folder cannot be read.
+        """
+        try:
+            found = [
+                entry.name
+                for entry in os.scandir(self.folder)
+                if entry.name.endswith(ENDING) and entry.is_file()
+            ]
+        except OSError as error:
+            raise UsageError(
+                f"the folder {self.folder} cannot be read: {error.strerror}"
+            ) from error
+        return sorted(found, key=str.casefold)[:MOST_NAMES]
+
+    def listed(self, name: str) -> Path:
+        """The file in the folder that is shown under a name.
+
+        Raises:
+            UsageError: there is no such file any more.
+        """
+        for found in self.names():
+            if text(found) == name:
+                return self.folder / found
+        raise UsageError(f"there is no file '{name}' in {self.folder} any more")
+
+    def path(self, name: str) -> Path:
+        """The file that a name means, which may not exist yet.
+
+        Args:
+            name: as a user types it; ".rviz" is added.
+
+        Raises:
+            UsageError: no file can, or should, have this name.
+        """
+        name = name.strip()
+        if name.casefold().endswith(ENDING):
+            name = name[: -len(ENDING)]
+        refusal = _refusal(name)
+        if refusal is not None:
+            raise UsageError(f"{refusal}; the file goes into {self.folder}")
+        return self.folder / f"{name}{ENDING}"
+
+    def is_taken(self, path: Path) -> bool:
+        """Whether a path is another file, or a folder, that exists already."""
+        return path != self.target and os.path.lexists(path)
+
+    def save(self, path: Path | None = None) -> Path:
+        """Write the document.
+
+        Args:
+            path: the file, from `path`; None writes its own one.
+
+        Returns:
+            The file that was written.
+
+        Raises:
+            UsageError: there is no file to write, or it cannot be written; what was
+                there is untouched.
+        """
+        with self._session.change("edits"):
+            target = path or self.target
+            if target is None:
+                raise UsageError("this config has no file of its own yet: save it as …")
+            try:
+                self._session.config.save(target)
+            except ConfigError as error:
+                raise UsageError(
+                    f"{target.name} in {target.absolute().parent}: "
+                    f"{error.problems[0].message}. Nothing is lost: save it under "
+                    "another name, or download it"
+                ) from error
+            self._session.edits.saved()
+        return target
+
+
+def _refusal(name: str) -> str | None:
+    """Why a name without its ending is not taken."""
+    if not name:
+        return "give a name, such as my_robot"
+    if "/" in name or "\\" in name:
+        return "give a name without folders"
+    if name.startswith("."):
+        return "a name that begins with a dot would be hidden"
+    bad = [
+        letter for letter in name if letter in _FORBIDDEN or not letter.isprintable()
+    ]
+    if bad:
+        return f"a file name cannot contain {text(bad[0])}"
+    if name.endswith((".", " ")):
+        return "a name cannot end with a dot"
+    if _RESERVED.match(name):
+        return f"Windows keeps the name {name} for a device"
+    if len(f"{name}{ENDING}".encode(errors="replace")) > LONGEST_NAME:
+        return f"the name is too long: it may have {LONGEST_NAME} bytes"
+    return None
+
+
+def _is_bundled(path: Path) -> bool:
+    try:
+        folders = [bundled.configs_folder(), bundled.assets_folder()]
+    except UsageError:
+        return False
+    return is_below(path, [folder.resolve() for folder in folders])

@@ -1,0 +1,111 @@
+"""A picture of the view at a chosen size, drawn by the browser that asks for it.
+
+What comes back is checked: it may be late, no picture at all, or one that takes
+gigabytes to unpack.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import struct
+from dataclasses import replace
+
+import numpy as np
+from PIL import Image
+
+from sambot_viz.errors import SambotVizError
+from sambot_viz.geometry import wxyz_from_matrix
+from sambot_viz.session.browser import Browser
+from sambot_viz.session.session import Session
+from sambot_viz.views.camera import components
+from sambot_viz.viser_private import drawn_by
+
+SHORTEST_SIDE, LONGEST_SIDE = 16, 4096
+"""A browser cannot draw a larger picture [pixels]."""
+RENDER_TIME = 20.0
+"""A browser that has not drawn a picture by then does not get it [s]."""
+_PNG_MARK = b"\x89PNG\r\n\x1a\n"
+
+
+class PictureError(SambotVizError):
+    """A browser did not send the picture that it was asked for."""
+
+
+async def picture_of(
+    session: Session, browser: Browser, width: int, height: int
+) -> bytes:
+    """Have a browser draw its view at a size.
+
+    Args:
+        session: what the browser shows.
+        browser: the browser.
+        width: of the picture [pixels].
+        height: of the picture [pixels]; it shows as much as the window's does.
+
+    Returns:
+        A PNG file of this size, with the background.
+
+    Raises:
+        PictureError: the browser did not draw it.
+    """
+    client, camera = browser.client, browser.view.camera
+    if camera.scale is not None:
+        scale = camera.scale * height / client.camera.image_height
+        # The page's own camera is farther away than viser draws into pictures.
+        camera = replace(camera, scale=scale).as_perspective(height)
+    R = np.stack([camera.right, -camera.image_up, camera.forward], 1)
+    pose = {
+        "wxyz": tuple(map(float, wxyz_from_matrix(R))),
+        "position": tuple(map(float, components(camera.position))),
+        "fov": float(camera.fov),
+    }
+    try:
+        answer = await drawn_by(client, width, height, pose, RENDER_TIME)
+    except TimeoutError:
+        raise PictureError(
+            f"the browser did not draw the picture within {RENDER_TIME:g} s"
+        ) from None
+    background = session.context.background
+    return await asyncio.to_thread(finished, answer, (width, height), background)
+
+
+def finished(
+    answer: bytes, size: tuple[int, int], background: tuple[int, int, int]
+) -> bytes:
+    """The PNG file of a picture, made from what a browser has drawn.
+
+    Args:
+        answer: what the browser sent.
+        size: the width and height that it was asked for [pixels].
+        background: colour behind what was drawn, 0 to 255.
+
+    Raises:
+        PictureError: that is not a PNG file of this size.
+    """
+    # The size is in the first bytes: nothing larger is ever unpacked.
+    if answer[:8] == _PNG_MARK and answer[16:24] != struct.pack(">II", *size):
+        raise PictureError("the browser drew a picture of another size")
+    try:
+        picture: Image.Image = Image.open(io.BytesIO(answer), formats=["PNG"])
+        drawn = np.asarray(picture.convert("RGBA"))
+    except (OSError, ValueError, SyntaxError):
+        raise PictureError("the browser sent something that is not a picture") from None
+    file = io.BytesIO()
+    on_background(drawn, background).save(file, "PNG")
+    return file.getvalue()
+
+
+def on_background(drawn: np.ndarray, color: tuple[int, int, int]) -> Image.Image:
+    """A picture with its background behind it.
+
+    viser puts the background where the window's camera sees it; a picture of
+    another shape has none at its sides.
+
+    Args:
+        drawn: (height, width, 4) uint8, RGBA.
+        color: of the background, 0 to 255.
+    """
+    picture = Image.fromarray(np.ascontiguousarray(drawn, np.uint8), "RGBA")
+    behind = Image.new("RGBA", picture.size, (*color, 255))
+    return Image.alpha_composite(behind, picture).convert("RGB")

@@ -1,0 +1,308 @@
+"""The File menu's rows: saving, opening, downloading, for whom and where."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of
+from protocol_client import ProtocolClient
+
+from sambot_viz import UsageError, Visualizer, bundled, load_config
+from sambot_viz.panels import gate
+from sambot_viz.panels.expanded import keep_expanded
+from sambot_viz.panels.files import FilesPanel
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Row
+from sambot_viz.session import Session
+
+CONFIG = """Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Grid
+      Enabled: true
+      Name: Floor
+"""
+
+
+def names_in(file: Path) -> list[str]:
+    return [display.name for display in load_config(file).displays]
+
+
+class Page:
+    """A browser's File menu: its rows, what it was told, what was unfolded."""
+
+    def __init__(self, viz: Visualizer, session: Session, disk: bool = True) -> None:
+        self.sentences: list[str] = []
+        self.unfolded: set[str] = set()
+        (browser,) = session.browsers.values()
+        files = viz.server.files if disk else None
+        self.panel = FilesPanel(
+            session,
+            browser,
+            files,
+            self.unfolded.update,
+            lambda sentence, level: self.sentences.append(f"{level}: {sentence}"),
+            self.remade,
+        )
+        self.remade(self.panel)
+
+    def remade(self, panel: Panel) -> None:
+        self.rows = {row.id: row for row in panel.rows()}
+
+    def act(self, row_id: str, *values: Any) -> None:
+        row: Row = self.rows[row_id]
+        value = gate.checked(row, list(values))
+        assert row.set is not None
+        row.set(value)
+        self.remade(self.panel)
+
+    def value(self, row_id: str) -> Any:
+        return self.rows[row_id].json().get("value")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "mine.rviz").write_text(CONFIG, "utf-8")
+    (tmp_path / "other.rviz").write_text(CONFIG.replace("Floor", "Ground"), "utf-8")
+    (tmp_path / "notes.txt").write_text("no config", "utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def viz(folder: Path) -> Iterator[Visualizer]:
+    with Visualizer(config=folder / "mine.rviz", port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def client(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> ProtocolClient:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    client.wait_until(lambda: bool(session_of(viz).browsers))
+    return client
+
+
+@pytest.fixture
+def page(viz: Visualizer, client: ProtocolClient) -> Page:
+    return Page(viz, session_of(viz))
+
+
+def test_a_name_and_enter_save_a_new_file_beside_the_opened_one(
+    page: Page, folder: Path
+) -> None:
+    assert page.value("file/state")["folder"] == str(folder)
+    page.act("file/save-as", " my look ", False, [])
+    assert page.value("file/answer")["done"] == "my look.rviz"
+    assert page.sentences == [f"ok: Saved my look.rviz in {folder}"]
+    assert names_in(folder / "my look.rviz") == ["Floor"]
+    assert page.value("file/state")["name"] == "my look.rviz"
+
+
+def test_an_existing_file_is_replaced_only_after_a_question(
+    page: Page, folder: Path
+) -> None:
+    before = (folder / "other.rviz").read_text("utf-8")
+    page.act("file/save-as", "other", False, [])
+    assert page.value("file/answer")["exists"] == "other.rviz"
+    assert (folder / "other.rviz").read_text("utf-8") == before
+    page.act("file/save-as", "other", True, [])
+    assert page.value("file/answer")["done"] == "other.rviz"
+    assert names_in(folder / "other.rviz") == ["Floor"]
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("", "give a name"),
+        (".rviz", "give a name"),
+        ("../up", "without folders"),
+        ("a\\b", "without folders"),
+        ("/etc/passwd", "without folders"),
+        ("CON", "Windows keeps"),
+        ("lpt1.old", "Windows keeps"),
+        ("what?", "cannot contain ?"),
+        ("a:b.rviz", "cannot contain :"),
+        (".hidden", "would be hidden"),
+        ("end.", "end with a dot"),
+        ("x" * 300, "too long"),
+        ("ä" * 150, "too long"),
+    ],
+)
+def test_a_name_that_cannot_be_written_is_refused_with_the_folder(
+    page: Page, folder: Path, name: str, reason: str
+) -> None:
+    before = sorted(os.listdir(folder))
+    with pytest.raises(UsageError, match=reason) as refused:
+        page.act("file/save-as", name, False, [])
+    assert str(folder) in str(refused.value)
+    assert sorted(os.listdir(folder)) == before
+
+
+def test_a_file_that_cannot_be_written_is_reported_and_nothing_is_lost(
+    page: Page, folder: Path, viz: Visualizer
+) -> None:
+    (folder / "taken.rviz").mkdir()
+    session_of(viz).set_global("Frame Rate", 7)
+    with pytest.raises(UsageError, match="Nothing is lost") as refused:
+        page.act("file/save-as", "taken", True, [])
+    assert str(folder) in str(refused.value)
+    page.remade(page.panel)
+    assert page.value("file/state")["modified"]
+    assert page.value("file/state")["name"] == "mine.rviz"
+
+
+def test_saving_takes_the_mark_for_unsaved_changes_away(
+    page: Page, folder: Path, viz: Visualizer
+) -> None:
+    assert not page.value("file/state").get("modified")
+    session_of(viz).set_global("Frame Rate", 7)
+    page.remade(page.panel)
+    assert page.value("file/state")["modified"]
+    page.act("file/save", ["d1", "d1/Offset"])
+    assert not page.value("file/state").get("modified")
+    assert page.unfolded == {"d1", "d1/Offset"}
+    assert load_config(folder / "mine.rviz").global_options.get("Frame Rate") == 7
+
+
+def test_opening_offers_the_files_of_the_folder_and_takes_no_other(
+    page: Page, viz: Visualizer
+) -> None:
+    page.act("file/list")
+    assert page.value("file/names") == ["mine.rviz", "other.rviz"]
+    with pytest.raises(UsageError, match="no file"):
+        page.act("file/open", "notes.txt")
+    page.act("file/open", "other.rviz")
+    assert [d.name for d in session_of(viz).config.displays] == ["Ground"]
+    assert page.value("file/state")["name"] == "other.rviz"
+    assert not page.value("file/state").get("modified")
+
+
+def test_a_broken_file_is_not_opened_and_the_reason_has_its_line(
+    page: Page, folder: Path, viz: Visualizer
+) -> None:
+    (folder / "bad.rviz").write_text("Panels: [\n", "utf-8")
+    with pytest.raises(UsageError, match=r"bad.rviz cannot be opened: line \d"):
+        page.act("file/open", "bad.rviz")
+    assert [d.name for d in session_of(viz).config.displays] == ["Floor"]
+
+
+def test_saving_and_downloading_take_the_view_of_the_browser(
+    page: Page, client: ProtocolClient, folder: Path, viz: Visualizer
+) -> None:
+    (browser,) = session_of(viz).browsers.values()
+    browser.view.set("Distance", 4.5)
+    mark = client.mark()
+    page.act("file/download")
+    client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
+    (part,) = (m for m in client.since(mark) if m.type == "FileTransferPart")
+    assert b"Distance: 4.5" in part.fields["content"]
+    assert session_of(viz).config.view.get("Distance") != 4.5
+    page.act("file/save", [])
+    assert load_config(folder / "mine.rviz").view.get("Distance") == 4.5
+
+
+def test_the_config_comes_as_a_download_of_its_name_without_another_click(
+    page: Page, client: ProtocolClient
+) -> None:
+    mark = client.mark()
+    page.act("file/download")
+    client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
+    (start,) = (m for m in client.since(mark) if m.type == "FileTransferStartDownload")
+    assert start.fields["filename"] == "mine.rviz"
+    assert start.fields["save_immediately"]
+
+
+def test_a_visitor_may_download_and_uses_no_disk_of_the_server(
+    viz: Visualizer, client: ProtocolClient, folder: Path
+) -> None:
+    visitor = Page(viz, session_of(viz), disk=False)
+    state = visitor.value("file/state")
+    assert state["private"] and "folder" not in state
+    assert set(visitor.rows) == {
+        "file/state",
+        "file/download",
+        "file/picture",
+        "file/answer",
+    }
+
+
+@pytest.mark.parametrize("how", ["save-as", "open"])
+def test_the_file_that_was_saved_or_opened_last_is_followed(
+    folder: Path, protocol: Callable[..., ProtocolClient], how: str
+) -> None:
+    with Visualizer(config=folder / "mine.rviz", port=0, watch=True) as viz:
+        client = protocol(viz.viser.get_port())
+        session = session_of(viz)
+        client.wait_until(lambda: bool(session.browsers))
+        page = Page(viz, session)
+        page.act(
+            f"file/{how}", *(["new", False, []] if how == "save-as" else ["other.rviz"])
+        )
+        name = page.value("file/state")["name"]
+        (folder / name).write_text(CONFIG.replace("Floor", "Changed"), "utf-8")
+        client.wait_until(
+            lambda: [d.name for d in session.config.displays] == ["Changed"]
+        )
+        (folder / "mine.rviz").write_text(CONFIG.replace("Floor", "Old"), "utf-8")
+        (folder / name).write_text(CONFIG.replace("Floor", "Again"), "utf-8")
+        client.wait_until(
+            lambda: [d.name for d in session.config.displays] == ["Again"]
+        )
+
+
+@pytest.mark.parametrize("config", [None, bundled.config_path()])
+def test_a_bundled_config_is_saved_beside_the_model_or_where_the_program_works(
+    tmp_path: Path,
+    protocol: Callable[..., ProtocolClient],
+    monkeypatch: pytest.MonkeyPatch,
+    config: Path | None,
+) -> None:
+    model = tmp_path / "robots" / "arm.urdf"
+    model.parent.mkdir()
+    model.write_text('<robot name="arm"><link name="base"/></robot>', "utf-8")
+    work = tmp_path / "work"
+    work.mkdir()
+    monkeypatch.chdir(work)
+    for given, folder in ((model, model.parent), (None, work)):
+        with Visualizer(given, config=config, port=0) as viz:
+            client = protocol(viz.viser.get_port())
+            session = session_of(viz)
+            client.wait_until(lambda session=session: bool(session.browsers))
+            page = Page(viz, session)
+            assert page.value("file/state")["folder"] == str(folder)
+            with pytest.raises(UsageError, match="no file of its own"):
+                page.act("file/save", [])
+            client.close()
+
+
+def test_unfolded_rows_are_written_as_rviz_names_them(folder: Path) -> None:
+    config = load_config(folder / "mine.rviz")
+    rows = [
+        Row("options", "", "group", "Global Options"),
+        Row("status", "", "status", "Global Status"),
+        Row("d1", "", "display", "Grid"),
+        Row("d1/Offset", "d1", "vector", "Offset"),
+        Row("d2", "", "display", "Grid"),
+    ]
+    keep_expanded(config, rows, {"status", "d1", "d1/Offset", "d2"})
+    path = folder / "saved.rviz"
+    config.save(path)
+    expected = ("/Status1", "/Grid1", "/Grid1/Offset1", "/Grid2")
+    assert load_config(path).expanded == expected
+    # What only RViz has, below a row that is there, stays; what is gone goes.
+    config.expanded = ("/Grid2/Other1", "/Gone1", *expected)
+    keep_expanded(config, rows, {"d1"})
+    assert config.expanded == ("/Grid2/Other1", "/Grid1")
+
+
+def test_an_empty_list_of_unfolded_rows_means_that_all_are_folded(
+    folder: Path,
+) -> None:
+    config = load_config(folder / "mine.rviz")
+    assert config.expanded is None
+    config.expanded = ()
+    config.save(folder / "saved.rviz")
+    assert load_config(folder / "saved.rviz").expanded == ()
