@@ -49,7 +49,7 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
         page.set_dark(dark)
         url = viewer_url(address)
         page.goto(url)
-        viewers.append(ViewerPage(page, url))
+        viewers.append(ViewerPage(page, url, touch))
         return viewers[-1]
 
     yield open_one

@@ -64,13 +64,18 @@ def wait_for_turn(viz: Visualizer, viewer: ViewerPage, angle: float) -> None:
     viewer.wait_for_pose(node_of(viz, LINK), T, node_of(viz, "base_link"))
 
 
+def slider(viewer: ViewerPage, joint: str) -> float:
+    """What the slider of a joint shows."""
+    return float(viewer.user.find("slider", joint).value)
+
+
 def test_the_page_shows_robot_and_panels_and_asks_nobody_else(
     viz: Visualizer, open_viewer: Open
 ) -> None:
     viewer = open_viewer(viz.url)
     viewer.wait_for_nodes(node_of(viz, LINK))
     for text in ("Grid", "RobotModel", "TF", "Fixed Frame", LEFT, RIGHT):
-        assert text in viewer.text
+        viewer.user.reads(text)
     pixels = viewer.pixels()
     background = (pixels == (48, 48, 48, 255)).all(axis=2)
     assert np.count_nonzero(background) > background.size / 2
@@ -95,9 +100,9 @@ def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(
     viewer.wait_for_nodes(node_of(viz, LINK))
     before = viewer.pixels()
     place = wheel_place(viz, viewer)
-    viewer.drag_slider(LEFT, 0.65)
-    shown = viewer.slider_value(LEFT)
-    assert shown == pytest.approx(0.3 * np.pi, abs=0.15)
+    viewer.user.drag_slider(viewer.user.find("slider", LEFT), 1.0)
+    shown = slider(viewer, LEFT)
+    assert shown == pytest.approx(1.0, abs=0.15)
     wait_for_turn(viz, viewer, shown)
     after = viewer.pixels()
     assert changed(around(before, place, 80), around(after, place, 80)) > 20
@@ -108,10 +113,12 @@ def test_two_browsers_stay_in_step(viz: Visualizer, open_viewer: Open) -> None:
     first, second = open_viewer(viz.url), open_viewer(viz.url)
     for viewer in (first, second):
         viewer.wait_for_nodes(node_of(viz, LINK))
-    first.press_slider(LEFT, "End")
-    second.wait_for_slider(LEFT, np.pi, atol=0.01)
-    second.press_slider(LEFT, "Home")
-    first.wait_for_slider(LEFT, -np.pi, atol=0.01)
+    first.user.click("slider", LEFT)
+    first.user.keys("End")
+    second.user.until(lambda: slider(second, LEFT) == pytest.approx(np.pi))
+    second.user.click("slider", LEFT)
+    second.user.keys("Home")
+    first.user.until(lambda: slider(first, LEFT) == pytest.approx(-np.pi))
     T = viz.frames.lookup("base_link", LINK).matrix
     for viewer in (first, second):
         viewer.wait_for_pose(node_of(viz, LINK), T, node_of(viz, "base_link"))
@@ -122,18 +129,20 @@ def test_fifty_quick_steps_end_with_pose_and_slider_equal(
 ) -> None:
     viewer = open_viewer(viz.url)
     viewer.wait_for_nodes(node_of(viz, LINK))
-    viewer.press_slider(LEFT, "ArrowRight", times=50)
-    shown = viewer.slider_value(LEFT)
-    assert shown > 0.04
-    wait_for_turn(viz, viewer, shown)
-    assert viz.joint_positions[LEFT] == pytest.approx(shown, abs=1e-6)
+    viewer.user.click("slider", LEFT)
+    viewer.user.until(lambda: abs(viz.joint_positions[LEFT]) < 0.2)
+    start = slider(viewer, LEFT)
+    viewer.user.keys(*["ArrowRight"] * 50)
+    wait_for_turn(viz, viewer, round(start + 0.5, 6))
+    assert slider(viewer, LEFT) == pytest.approx(start + 0.5, abs=0.011)
+    assert viz.joint_positions[LEFT] == slider(viewer, LEFT)
 
 
 def test_center_brings_the_wheels_back(viz: Visualizer, open_viewer: Open) -> None:
     viz.set_joint_positions({LEFT: 1.0, RIGHT: -1.0})
     viewer = open_viewer(viz.url)
-    viewer.wait_for_slider(LEFT, 1.0, atol=0.01)
-    viewer.click_button("Center")
-    viewer.wait_for_slider(LEFT, 0.0)
-    viewer.wait_for_slider(RIGHT, 0.0)
+    viewer.user.until(lambda: slider(viewer, LEFT) == 1.0)
+    viewer.user.click("button", "Center")
+    for joint in (LEFT, RIGHT):
+        viewer.user.until(lambda joint=joint: slider(viewer, joint) == 0.0)
     assert viz.joint_positions[LEFT] == 0.0

@@ -16,7 +16,7 @@ Open = Callable[..., ViewerPage]
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
-    """A server with a red box that a slider moves along x."""
+    """A server with a red box."""
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     black = np.zeros((1, 1, 3), np.uint8)
     server.scene.set_background_image(black, format="png")
@@ -24,21 +24,9 @@ def server() -> Iterator[viser.ViserServer]:
     server.scene.configure_environment_map(None)
     server.scene.configure_default_lights(False)
     server.scene.add_light_ambient("/light", intensity=np.pi)
-    box = server.scene.add_box("/group/box", color=(255, 0, 0))
-    slider = server.gui.add_slider("along x", -1.0, 1.0, 0.1, 0.0)
-
-    @slider.on_update
-    async def _(event: viser.GuiEvent[viser.GuiSliderHandle[float]]) -> None:
-        box.position = (event.target.value, 0.0, 0.0)
-
+    server.scene.add_box("/group/box", color=(255, 0, 0))
     yield server
     server.stop()
-
-
-def translation(x: float) -> np.ndarray:
-    T = np.eye(4)
-    T[0, 3] = x
-    return T
 
 
 def test_the_page_shows_the_box_without_errors_or_foreign_requests(
@@ -56,55 +44,6 @@ def test_the_page_shows_the_box_without_errors_or_foreign_requests(
     assert viewer.errors() == []
     assert viewer.foreign_requests() == []
     assert {url.split(":")[0] for url in viewer.page.requests} == {"http", "ws"}
-
-
-def test_a_slider_is_moved_by_its_label_and_the_pose_reaches_the_picture(
-    server: viser.ViserServer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(server.get_port())
-    viewer.wait_for_nodes("/group/box")
-    before = viewer.project("/group/box")
-    viewer.press_slider("along x", "ArrowRight", times=3)
-    viewer.wait_for_pose("/group/box", translation(0.3))
-    assert viewer.slider_value("along x") == pytest.approx(0.3)
-    assert viewer.pose("/group/box", "/group") == pytest.approx(translation(0.3))
-    assert viewer.project("/group/box") != before
-    viewer.press_slider("along x", "End")
-    viewer.wait_for_pose("/group/box", translation(1.0))
-
-
-def test_two_pages_stay_in_step(server: viser.ViserServer, open_viewer: Open) -> None:
-    first, second = open_viewer(server.get_port()), open_viewer(server.get_port())
-    for viewer in (first, second):
-        viewer.wait_for_nodes("/group/box")
-    first.press_slider("along x", "Home")
-    for viewer in (first, second):
-        viewer.wait_for_pose("/group/box", translation(-1.0))
-        viewer.wait_for_slider("along x", -1.0)
-
-
-def test_fields_checkboxes_and_buttons_are_found_by_their_labels(
-    server: viser.ViserServer, open_viewer: Open
-) -> None:
-    number = server.gui.add_number("how many", 1.0, step=0.1)
-    checkbox = server.gui.add_checkbox("shown", False)
-    button = server.gui.add_button("Go on")
-    answer = server.gui.add_markdown("nothing yet")
-
-    async def tell(_event: object) -> None:
-        answer.content = f"{number.value} {checkbox.value} {button.value}"
-
-    number.on_update(tell)
-    checkbox.on_update(tell)
-    button.on_click(tell)
-    viewer = open_viewer(server.get_port())
-    viewer.enter("how many", "2.5")
-    viewer.wait_for("document.body.innerText.includes('2.5 False')")
-    viewer.click_checkbox("shown")
-    viewer.wait_for("document.body.innerText.includes('2.5 True')")
-    viewer.click_button("Go on")
-    viewer.wait_for("document.body.innerText.includes('2.5 True True')")
-    assert "how many" in viewer.text
 
 
 def test_the_mouse_turns_the_camera_and_the_wheel_comes_nearer(

@@ -233,5 +233,5 @@ def test_a_button_of_the_toolbar_leaves_select(
     session: Session, viewer: ViewerPage
 ) -> None:
     for label in ("Select", "Measure", "Select", "Move Camera"):
-        viewer.click_button(label)
+        viewer.user.click("button", label)
         chosen(session, viewer, label)

@@ -32,7 +32,32 @@ _KEY_CODES = {
     "ArrowDown": 40,
     "Delete": 46,
     "Meta": 91,
+    **{f"F{n}": 111 + n for n in range(1, 13)},
 }
+
+# Character → key of a US keyboard, its code there, and whether Shift is needed.
+_PUNCTUATION = {
+    ";:": ("Semicolon", 186),
+    "=+": ("Equal", 187),
+    ",<": ("Comma", 188),
+    "-_": ("Minus", 189),
+    ".>": ("Period", 190),
+    "/?": ("Slash", 191),
+    "`~": ("Backquote", 192),
+    "[{": ("BracketLeft", 219),
+    "\\|": ("Backslash", 220),
+    "]}": ("BracketRight", 221),
+    "'\"": ("Quote", 222),
+    **{f"{n}{mark}": (f"Digit{n}", 48 + n) for n, mark in enumerate(")!@#$%^&*(")},
+}
+_MARKS = {
+    mark: (code, number, shifted == 1)
+    for pair, (code, number) in _PUNCTUATION.items()
+    for shifted, mark in enumerate(pair)
+}
+
+# What a browser does by itself when these keys are pressed with Control.
+_COMMANDS = {"a": "selectAll", "c": "copy", "v": "paste", "x": "cut"}
 
 
 class Caller(Protocol):
@@ -150,12 +175,28 @@ class Keyboard:
         Raises:
             ValueError: no such key or modifier.
         """
+        self.hold(key, *modifiers)
+        self.release(key, *modifiers)
+
+    def hold(self, key: str, *modifiers: str) -> None:
+        """Press a key and keep it down; again while it is down, it repeats."""
         fields = self._fields(key, modifiers)
+        if "Control" in modifiers and key.lower() in _COMMANDS:
+            fields["commands"] = [_COMMANDS[key.lower()]]
         self._page.call("Input.dispatchKeyEvent", {"type": "keyDown", **fields})
+
+    def release(self, key: str, *modifiers: str) -> None:
+        """Let a key go."""
+        fields = self._fields(key, modifiers)
         fields.pop("text", None)
         self._page.call("Input.dispatchKeyEvent", {"type": "keyUp", **fields})
 
     def type(self, text: str) -> None:
+        """Press the key of each character, one after the other."""
+        for character in text:
+            self.press(character)
+
+    def insert(self, text: str) -> None:
         """Put `text` in as a whole, as an input method does."""
         self._page.call("Input.insertText", {"text": text})
 
@@ -165,11 +206,18 @@ class Keyboard:
             code = "Space" if key == " " else key
             fields: Fields = {"windowsVirtualKeyCode": _KEY_CODES[key], "code": code}
             text = {"Enter": "\r", " ": " "}.get(key, "")
-        elif len(key) == 1:
+        elif key in _MARKS:
+            code, number, shifted = _MARKS[key]
+            bits |= _MODIFIER_BITS["Shift"] if shifted else 0
+            fields, text = {"windowsVirtualKeyCode": number, "code": code}, key
+        elif len(key) == 1 and key.isascii():
             upper = key.upper()
-            name = f"Digit{key}" if key.isdigit() else f"Key{upper}"
-            fields = {"windowsVirtualKeyCode": ord(upper), "code": name}
+            bits |= _MODIFIER_BITS["Shift"] if key != key.lower() else 0
+            fields = {"windowsVirtualKeyCode": ord(upper), "code": f"Key{upper}"}
             text = key
+        elif len(key) == 1:
+            # On another keyboard than the US one; which key it is there, is not known.
+            fields, text = {"windowsVirtualKeyCode": 0, "code": ""}, key
         else:
             raise ValueError(f"no key '{key}'; {did_you_mean(key, _KEY_CODES)}")
         # With Control, Alt or Meta a key is a command and writes nothing.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 from dataclasses import dataclass
+from pathlib import Path
 
 from browser_input import Keyboard, Mouse, Touch
 
@@ -77,6 +78,24 @@ class RecordedPage(BrowserPage):
         """Let the page believe that the system is dark, or light."""
         feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", {"features": [feature]})
+
+    def take_downloads(self, folder: Path) -> None:
+        """Put what the page downloads into a folder."""
+        self._devtools.call(
+            "Browser.setDownloadBehavior",
+            {
+                "behavior": "allow",
+                "browserContextId": self._context,
+                "downloadPath": str(folder),
+            },
+        )
+
+    def allow(self, *permissions: str) -> None:
+        """Let the page do what a user is asked for otherwise."""
+        self._devtools.call(
+            "Browser.grantPermissions",
+            {"permissions": list(permissions), "browserContextId": self._context},
+        )
 
     def screenshot(
         self, clip: tuple[float, float, float, float] | None = None

@@ -4,10 +4,11 @@
         viewer = open_viewer(server.url)
         viewer.wait_for_nodes("/fixed/wheel")
         before = viewer.pixels()
-        viewer.press_slider("wheel_joint", "ArrowRight", times=5)
+        viewer.user.click("button", "Center")
         viewer.wait_until_drawn()
 
-`ViewerPage.page` is the page of the browser itself: mouse, keyboard, console, requests.
+`ViewerPage.page` is the page of the browser itself: mouse, keyboard, console, requests;
+`ViewerPage.user` is someone who uses it.
 The three.js objects are reached through `__viserMutable`, which viser keeps for its own
 tests.
 """
@@ -18,17 +19,17 @@ import base64
 import io
 import json
 from collections.abc import Sequence
-from typing import Any, Literal, cast
+from typing import Any, cast
 from urllib.parse import urlsplit
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 from recorded_page import RecordedPage
+from user import User
 
 Pixels = npt.NDArray[np.uint8]
 Matrix = npt.NDArray[np.float64]
-SliderKey = Literal["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"]
 
 _TWO_FRAMES = (
     "new Promise(done => {{ __viserMutable.requestRender();"
@@ -40,11 +41,6 @@ _PICTURE = """(() => {
   copy.width = shown.width; copy.height = shown.height;
   copy.getContext("2d").drawImage(shown, 0, 0);
   return copy.toDataURL("image/png").split(",")[1];
-})()"""
-_WIDGET = """(() => {
-  const labels = [...document.querySelectorAll("label")];
-  const label = labels.find(l => l.textContent === LABEL);
-  return label ? document.getElementById(label.htmlFor) : null;
 })()"""
 _PROJECT = """(() => {
   const { camera, canvas, nodeRefFromName } = __viserMutable;
@@ -79,14 +75,16 @@ class ViewerPage:
 
     Attributes:
         page: the browser's page.
+        user: who uses it.
         url: where it is.
         expects_errors: set this in a test that provokes errors, or else the fixture
             fails at the end when there were any.
     """
 
-    def __init__(self, page: RecordedPage, url: str) -> None:
+    def __init__(self, page: RecordedPage, url: str, finger: bool = False) -> None:
         """Wait until `page`, which is at `url`, is connected and has drawn."""
         self.page = page
+        self.user = User(page, finger)
         self.url = url
         self.expects_errors = False
         page.wait_for(
@@ -141,12 +139,6 @@ class ViewerPage:
             f"{pose}.every((v, i) => Math.abs(v - {wanted}[i]) < {atol})"
         )
         self.wait_for_frames()
-
-    def wait_for_slider(self, label: str, value: float, atol: float = 1e-6) -> None:
-        """Wait until a slider shows `value`."""
-        self.page.wait_for(
-            f"Math.abs({self.slider_script(label)}.ariaValueNow - {value}) <= {atol}"
-        )
 
     # Looking.
 
@@ -205,76 +197,6 @@ class ViewerPage:
         """All text that the page shows."""
         return str(self.page.evaluate("document.body.innerText"))
 
-    def slider_value(self, label: str) -> float:
-        """What the slider with this label shows."""
-        return float(
-            cast(str, self.page.evaluate(f"{self.slider_script(label)}.ariaValueNow"))
-        )
-
-    def slider_script(self, label: str) -> str:
-        """JavaScript for the slider with this label, for conditions to wait for."""
-        return f"{self._widget(label)}.querySelector('[role=slider]')"
-
-    # Acting.
-
-    def press_slider(self, label: str, key: SliderKey, times: int = 1) -> None:
-        """Press a key while the slider with this label has the focus."""
-        slider = self.slider_script(label)
-        self.page.wait_for(slider)
-        self.page.evaluate(f"{slider}.focus()")
-        for _ in range(times):
-            self.page.keyboard.press(key)
-
-    def drag_slider(self, label: str, fraction: float) -> None:
-        """Drag the slider's thumb with the mouse.
-
-        Args:
-            label: the slider's.
-            fraction: where to let go, from 0 (left end) to 1 (right end).
-        """
-        slider = self.slider_script(label)
-        self.page.wait_for(slider)
-        x, y, left, right = cast(
-            tuple[float, float, float, float],
-            self.page.evaluate(
-                "(thumb => { const t = thumb.getBoundingClientRect();"
-                " const all = thumb.parentElement.getBoundingClientRect();"
-                " return [t.x + t.width / 2, t.y + t.height / 2, all.left, all.right];"
-                f" }})({slider})"
-            ),
-        )
-        self.page.mouse.drag((x, y), (left + fraction * (right - left), y))
-
-    def enter(self, label: str, text: str) -> None:
-        """Replace the text of the input field with this label, then leave it."""
-        widget = self._widget(label)
-        self.page.wait_for(widget)
-        self.page.evaluate(f"(w => {{ w.focus(); w.select(); }})({widget})")
-        self.page.keyboard.type(text)
-        self.page.keyboard.press("Tab")
-
-    def click_checkbox(self, label: str) -> None:
-        """Click the checkbox with this label."""
-        self.page.wait_for(self._widget(label))
-        self.page.evaluate(f"{self._widget(label)}.click()")
-
-    def click_button(self, text: str) -> None:
-        """Click the button with this text with the mouse."""
-        button = (
-            "[...document.querySelectorAll('button')]"
-            f".find(b => b.innerText.trim() === {json.dumps(text)})"
-        )
-        self.page.wait_for(button)
-        x, y = cast(
-            tuple[float, float],
-            self.page.evaluate(
-                f"(b => {{ b.scrollIntoView({{block: 'center'}});"
-                " const r = b.getBoundingClientRect();"
-                f" return [r.x + r.width / 2, r.y + r.height / 2]; }})({button})"
-            ),
-        )
-        self.page.mouse.click(x, y)
-
     # Judging.
 
     def errors(self) -> list[str]:
@@ -290,9 +212,6 @@ class ViewerPage:
         """The addresses asked for that are not on the viewer's own server."""
         own = urlsplit(self.url).netloc
         return [url for url in self.page.requests if urlsplit(url).netloc != own]
-
-    def _widget(self, label: str) -> str:
-        return _WIDGET.replace("LABEL", json.dumps(label))
 
     def _pose_script(self, name: str, parent: str) -> str:
         script = _POSE.replace("PARENT", json.dumps(parent))

@@ -1,0 +1,88 @@
+"""A robot with its server and an open page, which several tests use in turn."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import robots
+from protocol_client import wait_for_workers
+from recorded_page import open_page
+from user import User
+from viewer_page import ViewerPage, viewer_url
+
+from sambot_viz import Visualizer, bundled
+from sambot_viz.export.chromium import Chromium
+
+MODELS: dict[str, Callable[[], str]] = {
+    "T": robots.humanoid,
+    "C": robots.chain,
+    "L": robots.long_names,
+}
+"""Letter of the tasks → URDF; "S" is the robot that comes with the program."""
+
+
+class Desk:
+    """One robot, one server, one page.
+
+    Args:
+        letter: the robot, "S", "T", "C" or "L".
+        chromium: the browser.
+        folder: an empty folder for the model and what is saved.
+
+    Attributes:
+        viz: the program.
+        viewer: the page.
+        user: who uses it.
+        model: the file of the model, which the program follows.
+        downloads: where the browser puts files.
+    """
+
+    def __init__(self, letter: str, chromium: Chromium, folder: Path) -> None:
+        self.folder = folder
+        self.downloads = folder / "downloads"
+        self.downloads.mkdir(parents=True)
+        if letter == "S":
+            shutil.copytree(bundled.assets_folder(), folder, dirs_exist_ok=True)
+            self.model = folder / "sam_bot.urdf.xacro"
+        else:
+            self.model = folder / f"{letter.lower()}.urdf"
+            self.model.write_text(MODELS[letter](), "utf-8")
+        self.viz = Visualizer(self.model, port=0, watch=True)
+        self._chromium = chromium
+        self.viewer = self.open()
+
+    def open(self, width: int = 1280, height: int = 720, *, touch: bool = False):
+        """Open one more page of it; `close` closes it too."""
+        page = open_page(self._chromium, width, height, touch=touch)
+        page.goto(viewer_url(self.viz.url))
+        page.take_downloads(self.downloads)
+        page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
+        return ViewerPage(page, viewer_url(self.viz.url), touch)
+
+    @property
+    def user(self) -> User:
+        """Who uses the page."""
+        return self.viewer.user
+
+    def tidy(self) -> None:
+        """Put everything back as it was, by what the page offers for that."""
+        user = self.user
+        user.keys("Escape", "Escape")
+        user.click("tab", "Joints")
+        user.click("button", "Interact")
+        for _ in range(300):
+            wait_for_workers()
+            self.viewer.wait_for_frames()
+            undo = user.find("button", "Undo")
+            if undo.state("disabled"):
+                break
+            user.click_on(undo)
+        user.click("button", "Zero")
+        user.click("button", "Focus")
+
+    def close(self) -> None:
+        """End page and program."""
+        self.viewer.page.close()
+        self.viz.stop()

@@ -1,0 +1,337 @@
+"""A user at a page: finds things by role and name, and uses mouse, keys and fingers.
+
+    user = User(page)
+    user.click("button", "Add")
+    user.enter(user.row("Joints", "left_wheel_joint").one("textbox"), "1.5")
+    user.until(lambda: viz.joint_positions["left_wheel_joint"] == 1.5)
+
+What is not on the screen is scrolled to with the wheel or a finger. What lies under
+something else cannot be clicked. Everything waits until the page has what is asked for.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any, TypeVar, cast
+
+from ax_tree import Name, Thing, look, row_label, rows_of
+from browser_input import Button, Point
+from recorded_page import RecordedPage
+
+from sambot_viz.export.devtools import BrowserError
+
+T = TypeVar("T")
+PATIENCE = 10.0
+"""How long a user waits for something to appear [s]."""
+
+# Where an element is, how much of it can be seen, what can be scrolled to show more,
+# and what lies over the middle of what can be seen.
+_PLACE = """async function () {
+  await new Promise(done => { requestAnimationFrame(done); setTimeout(done, 100); });
+  const element = this.nodeType === 3 ? this.parentElement : this;
+  let range = element;
+  if (this.nodeType === 3) { range = document.createRange(); range.selectNode(this); }
+  const box = ({left, top, right, bottom}) => ({left, top, right, bottom});
+  const cut = (a, b) => ({left: Math.max(a.left, b.left), top: Math.max(a.top, b.top),
+    right: Math.min(a.right, b.right), bottom: Math.min(a.bottom, b.bottom)});
+  const all = box(range.getBoundingClientRect());
+  let seen = cut(all, {left: 0, top: 0, right: innerWidth, bottom: innerHeight});
+  const scrollers = [];
+  let fixed = getComputedStyle(element).position === "fixed";
+  for (let e = element.parentElement; e && !fixed; e = e.parentElement) {
+    const style = getComputedStyle(e);
+    if (style.overflowX !== "visible" || style.overflowY !== "visible") {
+      const area = box(e.getBoundingClientRect());
+      seen = cut(seen, area);
+      const can = /auto|scroll/;
+      const down = e.scrollHeight > e.clientHeight + 1 && can.test(style.overflowY);
+      const across = e.scrollWidth > e.clientWidth + 1 && can.test(style.overflowX);
+      if (down || across) scrollers.push({...area, down, across});
+    }
+    fixed = style.position === "fixed";
+  }
+  const x = (seen.left + seen.right) / 2, y = (seen.top + seen.bottom) / 2;
+  const hit = document.elementFromPoint(x, y);
+  const free = hit !== null && (element.contains(hit)
+    || [...(element.labels || [])].some(label => label.contains(hit)));
+  const over = hit ? hit.outerHTML.slice(0, 120) : "";
+  return {all, seen, scrollers, x, y, free, over};
+}"""
+_MARK = """function () {
+  const mark = this.querySelector("[aria-hidden=true]");
+  return mark ? (({left, top, width, height}) =>
+    [left + width / 2, top + height / 2])(mark.getBoundingClientRect()) : null;
+}"""
+
+
+class User:
+    """A user at one page.
+
+    Args:
+        page: the page.
+        finger: whether there is a touch screen in place of mouse and keys.
+    """
+
+    def __init__(self, page: RecordedPage, finger: bool = False) -> None:
+        self.page = page
+        self.finger = finger
+        page.call("Accessibility.enable")
+
+    # Looking.
+
+    def see(self) -> Thing:
+        """All that the page shows now."""
+        return look(self.page)
+
+    def until(
+        self, condition: Callable[[], T], timeout: float = PATIENCE, why: str = ""
+    ) -> T:
+        """Return what a condition gives as soon as it is true.
+
+        A condition that raises an AssertionError is not true yet.
+
+        Raises:
+            AssertionError: it did not become true within `timeout` seconds.
+        """
+        end, pause = time.monotonic() + timeout, threading.Event()
+        while True:
+            trouble = ""
+            try:
+                if value := condition():
+                    return value
+            except (AssertionError, BrowserError) as error:
+                trouble = str(error)
+            if time.monotonic() > end:
+                raise AssertionError(trouble or why or f"not true after {timeout:g} s")
+            pause.wait(0.03)
+
+    def find(self, role: str, name: Name = None, *inside: tuple[str, Name]) -> Thing:
+        """Wait for the only thing of a role and name.
+
+        Args:
+            role: its ARIA role.
+            name: its accessible name.
+            inside: role and name of what it is in, from the outside.
+        """
+
+        def found() -> Thing:
+            thing = self.see()
+            for around in inside:
+                thing = thing.one(*around)
+            return thing.one(role, name)
+
+        return self.until(found)
+
+    def there(self, role: str, name: Name = None) -> bool:
+        """Whether there is something of a role and name now."""
+        return bool(self.see().all(role, name))
+
+    def gone(self, role: str, name: Name = None) -> None:
+        """Wait until nothing of a role and name is there."""
+        self.until(lambda: not self.there(role, name), why=f"{role} {name!r} is there")
+
+    def row(self, panel: str, *names: str) -> Thing:
+        """Wait for the row of a panel with the last name, below rows with those before.
+
+        A name may leave out what stands behind a colon, as in "Status: Ok".
+        """
+
+        def found() -> Thing:
+            rows = rows_of(self.see().one("treegrid", panel))
+            fitting = [row for path, row in rows if _is_path(path, names)]
+            known = [row_label(row) for _, row in rows]
+            assert fitting, f"no row {names} in {panel}; there are {known}"
+            return fitting[0]
+
+        return self.until(found)
+
+    def rows(self, panel: str) -> list[str]:
+        """The labels of the rows of a panel that are unfolded."""
+        return [row_label(row) for row in self.see().one("treegrid", panel).all("row")]
+
+    def reads(self, text: str, timeout: float = PATIENCE) -> None:
+        """Wait until the page shows a text."""
+        self.until(lambda: text in self.see().text, timeout, f"{text!r} is not shown")
+
+    def place(self, thing: Thing) -> dict[str, Any]:
+        """Where a thing is, and how much of it can be seen [CSS pixels]."""
+        return cast("dict[str, Any]", self._ask(thing, _PLACE))
+
+    def box(self, thing: Thing) -> tuple[float, float, float, float]:
+        """Left, top, width and height of a thing [CSS pixels]."""
+        box = self.place(thing)["all"]
+        left, top = box["left"], box["top"]
+        return left, top, box["right"] - left, box["bottom"] - top
+
+    def can_see(self, thing: Thing) -> bool:
+        """Whether all of a thing is on the screen, and nothing lies over it."""
+        place = self.place(thing)
+        return bool(place["free"]) and _is_whole(place)
+
+    @property
+    def clipboard(self) -> str:
+        """The text on the clipboard."""
+        return str(self.page.evaluate("navigator.clipboard.readText()"))
+
+    # Mouse and finger.
+
+    def click(self, role: str, name: Name = None, *inside: tuple[str, Name]) -> Thing:
+        """Click what `find` finds."""
+        thing = self.find(role, name, *inside)
+        self.click_on(thing)
+        return thing
+
+    def click_on(self, thing: Thing, button: Button = "left", *modifiers: str) -> None:
+        """Click, or tap with the finger, into the middle of a thing."""
+        x, y = self.go_to(thing)
+        if self.finger:
+            self.page.touch.tap(x, y)
+        else:
+            self.page.mouse.click(x, y, button, *modifiers)
+
+    def go_to(self, thing: Thing) -> Point:
+        """Scroll to a thing; the middle of what can be seen of it.
+
+        Raises:
+            AssertionError: it cannot be brought to the screen, or is covered.
+        """
+        before: object = None
+        for _ in range(200):
+            place = self.place(thing)
+            if _is_whole(place) and place["all"] == before:
+                break
+            # What moves by itself is waited for, what is hidden is scrolled to.
+            if place["all"] == before:
+                self._scroll(thing, place)
+            before = place["all"]
+        else:
+            raise AssertionError(f"{thing.role} {thing.name!r} is not on the screen")
+        assert place["free"], f"over {thing.role} {thing.name!r} lies {place['over']}"
+        return place["x"], place["y"]
+
+    def _scroll(self, thing: Thing, place: dict[str, Any]) -> None:
+        box = place["all"]
+        for area in place["scrollers"]:
+            x, y = (
+                (area["left"] + area["right"]) / 2,
+                (area["top"] + area["bottom"]) / 2,
+            )
+            down = _way(box["top"], box["bottom"], area["top"], area["bottom"])
+            across = _way(box["left"], box["right"], area["left"], area["right"])
+            if area["down"] and down:
+                return self.scroll(x, y, down)
+            if area["across"] and across:
+                return self.scroll(x, y, 0.0, across)
+        raise AssertionError(
+            f"{thing.role} {thing.name!r} is cut off, and nothing there can be scrolled"
+        )
+
+    def scroll(self, x: float, y: float, dy: float, dx: float = 0.0) -> None:
+        """Turn the wheel, or push with the finger, over a point [CSS pixels]."""
+        if not self.finger:
+            return self.page.mouse.wheel(x, y, dy, dx)
+        self.page.call(
+            "Input.synthesizeScrollGesture",
+            {"x": x, "y": y, "yDistance": -dy, "xDistance": -dx, "preventFling": True}
+            | {"gestureSourceType": "touch", "speed": 4000},
+        )
+
+    def drag_slider(self, thing: Thing, *values: float, steps: int = 10) -> None:
+        """Take the handle of a slider, pull it to some values in turn, and let go."""
+        self.go_to(thing)
+        left, top, width, height = self.box(thing)
+        least, most = thing.states["valuemin"], thing.states["valuemax"]
+        handle = min(16.0, height)
+        at = [
+            left + handle / 2 + (width - handle) * (value - least) / (most - least)
+            for value in (float(thing.value), *values)
+        ]
+        y, mouse, touch = top + height / 2, self.page.mouse, self.page.touch
+        if self.finger:
+            touch.start((at[0], y))
+        else:
+            mouse.move(at[0], y)
+            mouse.press()
+        for before, after in pairwise(at):
+            for step in range(1, steps + 1):
+                x = before + (after - before) * step / steps
+                touch.move((x, y)) if self.finger else mouse.move(x, y)
+        touch.end() if self.finger else mouse.release()
+
+    def unfold(self, panel: str, *names: str, fold: bool = False) -> None:
+        """Click the mark before the name of a row, if it is not unfolded yet."""
+        row = self.row(panel, *names)
+        if row.state("expanded") != fold:
+            return
+        self.go_to(row)
+        at = cast("list[float] | None", self._ask(row, _MARK))
+        assert at is not None, f"row {names} has no mark to unfold it"
+        (self.page.touch.tap if self.finger else self.page.mouse.click)(at[0], at[1])
+        self.until(lambda: self.row(panel, *names).state("expanded") != fold)
+
+    # Keys.
+
+    def keys(self, *keys: str) -> None:
+        """Press keys: characters, names as in JavaScript, or "Control+Shift+z"."""
+        for key in keys:
+            *modifiers, last = key.split("+") if len(key) > 1 else [key]
+            self.page.keyboard.press(last, *modifiers)
+
+    def type(self, text: str) -> None:
+        """Press the key of each character."""
+        self.page.keyboard.type(text)
+
+    def enter(self, thing: Thing, text: str, end: str = "Enter") -> None:
+        """Click into a field, which marks what is in it, type, and end with a key."""
+        self.click_on(thing)
+        if not text:
+            self.keys("Control+a", "Delete")
+        self.type(text)
+        if end:
+            self.keys(end)
+
+    def _ask(self, thing: Thing, function: str) -> Any:
+        found = self.page.call("DOM.resolveNode", {"backendNodeId": thing.node})
+        answer = self.page.call(
+            "Runtime.callFunctionOn",
+            {
+                "functionDeclaration": function,
+                "objectId": found["object"]["objectId"],
+                "awaitPromise": True,
+                "returnByValue": True,
+            },
+        )
+        assert "exceptionDetails" not in answer, json.dumps(answer)[:300]
+        return answer["result"].get("value")
+
+
+def _is_path(path: Sequence[str], names: Sequence[str]) -> bool:
+    """Whether the last row of a path has the last name, below rows with the others."""
+    left = list(names)
+    if not _is_label(path[-1], left.pop()):
+        return False
+    for label in reversed(path[:-1]):
+        if left and _is_label(label, left[-1]):
+            left.pop()
+    return not left
+
+
+def _is_label(label: str, name: str) -> bool:
+    return label == name or label.startswith(f"{name}:")
+
+
+def _is_whole(place: dict[str, Any]) -> bool:
+    """Whether all of an element can be seen, or as much as fits."""
+    return all(abs(place["all"][e] - place["seen"][e]) < 1.5 for e in place["all"])
+
+
+def _way(low: float, high: float, least: float, most: float) -> float:
+    """How far to scroll, so that low … high comes between least and most."""
+    most_at_once = 0.8 * (most - least)
+    if low < least:
+        return max(low - least - 4, -most_at_once)
+    return min(high - most + 4, most_at_once) if high > most else 0.0
