@@ -329,11 +329,11 @@ function ColorCell({ row, tab }) {
 function EnumCell({ row, tab }) {
   const options = row.options || [];
   if (row.editable) return html`<${ComboCell} row=${row} tab=${tab} options=${options} />`;
+  const offered = options.includes(row.value) ? options : [row.value, ...options];
   return html`<select class="field" aria-label=${row.name || ""} tabindex=${tab} title=${row.help || ""}
-      disabled=${row.fixed || row.off}
+      disabled=${row.fixed || row.off} value=${row.value}
       onChange=${(/** @type {any} */ e) => send(row.id, e.target.value)}>
-    ${!options.includes(row.value) && html`<option selected>${row.value}</option>`}
-    ${options.map((option) => html`<option selected=${option === row.value}>${option}</option>`)}
+    ${offered.map((option) => html`<option value=${option}>${option}</option>`)}
   </select>`;
 }
 
