@@ -29,6 +29,13 @@ test("f, z, r, h and Esc act on the view and the window", () => {
   assert.equal(press("h"), "hide");
 });
 
+test("the digits of a number pad drive the robot", () => {
+  assert.deepEqual(press("8"), { act: "drive/press", with: ["8"] });
+  assert.deepEqual(press("5"), { act: "drive/press", with: ["5"] });
+  assert.equal(press("7"), undefined);
+  assert.equal(press("F5"), undefined);
+});
+
 test("Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y do it again", () => {
   assert.deepEqual(press("z", { ctrlKey: true }), { act: "edit/undo" });
   assert.deepEqual(press("Z", { metaKey: true, shiftKey: true }), { act: "edit/redo" });

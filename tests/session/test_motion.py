@@ -116,6 +116,7 @@ def test_reset_goes_back_and_odom_stays(
     motion.drive.reset()
     assert pose_in_odom(viz, session) == pytest.approx((0.0, 0.0, 0.0))
     assert len(motion.drive.trail) == 1
+    assert viz.joint_positions[LEFT] == viz.joint_positions[RIGHT] == 0
     assert not motion.moving
 
 

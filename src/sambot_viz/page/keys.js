@@ -43,6 +43,8 @@ export function meaning(event, tools, mouse = [null, null]) {
   if (key === "f") return { act: "tools/focus", with: mouse };
   if (key === "z") return { act: "tools/zero" };
   if (key === "r") return { act: "tools/reset" };
+  // A number pad drives the robot: 8 and 2 forwards and back, 4 and 6 turn, 5 stops.
+  if ("24568".includes(key)) return { act: "drive/press", with: [key] };
   return key === "h" ? "hide" : undefined;
 }
 

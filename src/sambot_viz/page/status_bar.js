@@ -5,6 +5,7 @@
 import { html, useEffect, useState } from "./vendor/preact.js";
 import { act } from "./channel.js";
 import { notice } from "./notices.js";
+import { Driving } from "./panels/drive.js";
 import { useRow } from "./state.js";
 
 /** How long a sentence that is not about a mistake stays [ms]. */
@@ -17,6 +18,7 @@ export function StatusBar() {
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <span class="hint" role="status" title=${hint}>${hint}</span>
     <${Said} />
+    <${Driving} />
     <${Progress} />
     <${Browsers} />
     <${FramesPerSecond} />

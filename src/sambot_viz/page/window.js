@@ -9,6 +9,7 @@ import { FileName } from "./files.js";
 import { MenuBar } from "./menus.js";
 import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
+import { DrivePanel } from "./panels/drive.js";
 import { JointsPanel } from "./panels/joints.js";
 import { ViewsPanel } from "./panels/views.js";
 import { StatusBar } from "./status_bar.js";
@@ -40,7 +41,7 @@ const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   frames: { title: "Frames", content: FramesPanel },
   selection: { title: "Selection", content: () => html`<${Tree} panel="selection" label="Selection" />` },
-  drive: { title: "Drive", content: () => html`<${Tree} panel="drive" label="Drive" />` },
+  drive: { title: "Drive", content: DrivePanel },
   tool_properties: { title: "Tool Properties", content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />` },
 };
 const SHEET = {

@@ -10,6 +10,7 @@ from sambot_viz.panels import gate
 from sambot_viz.panels.add_display import AddDisplayPanel
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.names import NamesPanel
@@ -58,6 +59,7 @@ class Window:
         if joints:
             panels.append(JointsPanel(session, self._remake))
             panels.append(PosesPanel(session, self._remake))
+            panels.append(DrivePanel(session))
         return panels
 
     def _remake(self, panel: Panel) -> None:

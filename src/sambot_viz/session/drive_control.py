@@ -19,6 +19,7 @@ from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import FIXED_FRAME
 from sambot_viz.session.throttle import Throttle
 
 if TYPE_CHECKING:
@@ -139,14 +140,50 @@ class DriveControl:
         if changed:
             self._session.notify("motion")
 
+    def show_motion(self) -> bool:
+        """Make the fixed frame one that the robot moves in, if it is one of its own.
+
+        The view of the browser that drives follows the robot then. Both are edits that
+        can be undone.
+
+        Returns:
+            Whether the fixed frame was another one.
+
+        Raises:
+            FrameError: the root link cannot be attached to odom.
+        """
+        session = self._session
+        with session.lock:
+            if self._drive is None:
+                return False
+            self.enter_odom()
+            fixed = session.context.fixed_frame
+            if fixed not in session.tree.frames or not self._carries(fixed):
+                return False
+            actor = session.edits.actor
+            browser = None if actor is None else session.browsers.get(actor)
+            if browser and browser.view.values.get("Target Frame") == FIXED_FRAME:
+                browser.view.set("Target Frame", self._root)
+            session.set_global("Fixed Frame", ODOM)
+            return True
+
+    def _carries(self, frame: str | None) -> bool:
+        """Whether a frame moves with the robot."""
+        while frame is not None and frame != self._root:
+            frame = self._session.tree.parent(frame)
+        return frame is not None
+
     def reset(self) -> None:
-        """Stop, go back to the start and forget the trail."""
-        with self._session.lock:
+        """Stop, put robot and wheels back to the start and forget the trail."""
+        session = self._session
+        with session.lock:
             self.stop()
-            if self._drive is not None:
+            if self._drive is not None and session.joints is not None:
                 self._drive.reset()
-                if self._root in self._session.added:
-                    self._session.move({}, {self._root: self._matrix()})
+                wheels = self._drive.wheels.left, self._drive.wheels.right
+                start = {name: session.joints.start(name) for name in wheels}
+                placed = self._root in session.added
+                session.move(start, {self._root: self._matrix()} if placed else {})
         self._drawing.request()
 
     def close(self) -> None:

@@ -118,6 +118,11 @@ class EditHistory:
                     self._keep(action)
 
     @property
+    def actor(self) -> int | None:
+        """The browser whose action runs now; None for a program's."""
+        return None if self._action is None else self._action.browser
+
+    @property
     def recording(self) -> bool:
         """Whether there is a browser that could undo what is changed now."""
         return self._action is not None and not self._undoing

@@ -1,0 +1,88 @@
+// @ts-check
+/* The Drive panel: buttons to hold, speeds, and where the robot is. */
+
+import { html, useEffect, useRef } from "../vendor/preact.js";
+import { act } from "../channel.js";
+import { shownUnit } from "../cells.js";
+import { Icon } from "../icons.js";
+import { formatNumber } from "../numbers.js";
+import { degrees, useRow } from "../state.js";
+import { Tree } from "../tree.js";
+
+/** How often a held button says so [ms]. */
+const PERIOD = 100;
+/** What the buttons do: m/s forwards and rad/s to the left. @type {Record<string, [string, number, number]>} */
+const WAYS = {
+  forwards: ["Forwards", 0.5, 0], left: ["Left", 0, 1], right: ["Right", 0, -1], back: ["Back", -0.5, 0],
+};
+
+/** The ways that are held now, with several fingers even. @type {Set<string>} */
+const held = new Set();
+let timer = 0;
+
+function drive() {
+  const ways = [...held].map((name) => WAYS[name]);
+  act("drive/hold", [1, 2].map((part) => ways.reduce((sum, way) => sum + Number(way[part]), 0)));
+}
+
+/** @param {string} name */
+function hold(name) {
+  if (held.has(name)) return;
+  held.add(name);
+  drive();
+  if (!timer) timer = setInterval(drive, PERIOD);
+}
+
+/** @param {string} name */
+function letGo(name) {
+  if (!held.delete(name)) return;
+  if (held.size) return drive();
+  clearInterval(timer);
+  timer = 0;
+  act("drive/stop");
+}
+
+export function DrivePanel() {
+  return html`<div class="drive">
+    <div class="pad" role="group" aria-label="Drive">
+      ${Object.keys(WAYS).map((name) => html`<${HoldButton} key=${name} name=${name} />`)}
+      <button class="halt" aria-keyshortcuts="5" title="Stop (5)" onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button>
+      <button class="home" title="Put robot, wheels and path back to the start" onClick=${() => act("drive/reset")}>Reset</button>
+      <p class="keys">Hold a button, or press 8 2 4 6; 5 stops</p>
+    </div>
+    <${Tree} panel="drive" label="Drive" />
+  </div>`;
+}
+
+/** Drives while it is held, by a mouse, a finger, Space or Enter. @param {{name: string}} props */
+function HoldButton({ name }) {
+  const [label] = WAYS[name];
+  const start = () => hold(name), end = () => letGo(name);
+  useEffect(() => end, []);
+  const element = useRef(/** @type {any} */ (null));
+  /** @param {any} event */
+  const key = (event) => {
+    if (event.key !== " " && event.key !== "Enter") return;
+    event.preventDefault();
+    if (event.type === "keyup") end(); else start();
+  };
+  return html`<button class=${`way go-${name}`} ref=${element} aria-label=${label} title=${`${label}, while it is held`}
+    onPointerDown=${(/** @type {any} */ e) => { if (e.button === 0) { element.current.setPointerCapture(e.pointerId); start(); } }}
+    onPointerUp=${end} onPointerCancel=${end} onLostPointerCapture=${end} onBlur=${end}
+    onKeyDown=${key} onKeyUp=${key}
+    onContextMenu=${(/** @type {any} */ e) => e.preventDefault()}><${Icon} name=${name} /></button>`;
+}
+
+/** In the status bar while the robot drives: how fast, and Stop. */
+export function Driving() {
+  degrees.use();
+  const linear = useRow("drive/linear"), angular = useRow("drive/angular");
+  const rows = [linear, angular].filter((row) => row?.value);
+  if (!linear || !rows.length) return null;
+  const speeds = rows.map((row) => {
+    const { factor, unit } = shownUnit(/** @type {any} */ (row));
+    return `${formatNumber(row?.value * factor, 2)} ${unit}`;
+  });
+  return html`<span class="driving">Driving ${speeds.join(", ")}
+    <button class="halt" title="Stop (5)" onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button></span>`;
+}

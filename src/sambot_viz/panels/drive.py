@@ -1,0 +1,164 @@
+"""The Drive panel: speeds, buttons to hold, keys, and the pose in odom.
+
+Keys are those of a number pad, because viser's camera has WASD, QE and the arrows:
+8 and 2 change the linear speed, 4 and 6 the angular one, 5 stops.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any
+
+from sambot_viz.drive.differential import WheelPair
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Answer, Kind, Row
+from sambot_viz.session import Session
+from sambot_viz.session.drive_control import ODOM
+from sambot_viz.session.motion import HOLD
+
+MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
+"""Limits of the speeds [m/s] and [rad/s]."""
+KEYS = {"8": (0.1, 0.0), "2": (-0.1, 0.0), "4": (0.0, 0.25), "6": (0.0, -0.25)}
+"""What one press of a key adds [m/s] and [rad/s]."""
+STOP_KEY = "5"
+_POSE, _WHEELS = "drive/pose", "drive/wheels"
+_NUMBER = (int, float)
+
+
+class DrivePanel(Panel):
+    """Drives a robot with two wheels; without them the panel is empty.
+
+    Args:
+        session: whose robot is driven.
+    """
+
+    name = "drive"
+    remade_by = frozenset({"robot"})
+    moved_by = frozenset({"joints", "frames", "motion"})
+    period = 0.1
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._drive = session.motion.drive
+
+    def rows(self) -> Sequence[Row]:
+        """The speeds, where the robot is, its wheels, and what can be done."""
+        wheels, robot = self._drive.wheels, self._session.robot
+        if wheels is None or robot is None:
+            return []
+        return [
+            *self._speeds(),
+            *self._pose(robot.root),
+            *_measures(wheels),
+            *self._actions(),
+        ]
+
+    def values(self) -> dict[str, Any]:
+        """The speeds, and the pose in odom."""
+        drive = self._drive
+        if drive.wheels is None:
+            return {}
+        pose = drive.pose
+        return {
+            "drive/linear": drive.v,
+            "drive/angular": drive.w,
+            # A tenth of a millimetre; what nobody sees is not sent.
+            "drive/x": round(pose.x, 4) + 0.0,
+            "drive/y": round(pose.y, 4) + 0.0,
+            "drive/yaw": round(pose.yaw, 4) + 0.0,
+        }
+
+    def _speeds(self) -> Iterator[Row]:
+        value = self.values()
+
+        def speed(row_id: str, name: str, unit: str, most: float, help: str) -> Row:
+            return Row(
+                row_id,
+                "",
+                "slider",
+                name,
+                value=value[row_id],
+                unit=unit,
+                least=-most,
+                most=most,
+                step=0.01,
+                help=help,
+                set=partial(self._set_speed, row_id),
+            )
+
+        yield speed(
+            "drive/linear", "Linear speed", "m/s", MOST_LINEAR, "Forwards, along x."
+        )
+        yield speed(
+            "drive/angular", "Angular speed", "rad/s", MOST_ANGULAR, "To the left."
+        )
+
+    def _pose(self, root: str) -> Iterator[Row]:
+        value = self.values()
+        yield Row(_POSE, "", "group", f"{root} in {ODOM}", expanded=True)
+        for part, unit in (("x", "m"), ("y", "m"), ("yaw", "rad")):
+            row_id = f"drive/{part}"
+            yield _fact(row_id, _POSE, part, value[row_id], unit)
+
+    def _actions(self) -> Iterator[Row]:
+        yield _action("drive/hold", self._hold, _NUMBER, _NUMBER)
+        yield _action("drive/press", self._press, str)
+        yield _action("drive/stop", lambda _: self._drive.stop())
+        yield _action("drive/reset", lambda _: self._drive.reset())
+
+    # What a hand does
+
+    def _set_speed(self, row_id: str, value: float) -> Answer | None:
+        linear = row_id == "drive/linear"
+        v, w = (value, self._drive.w) if linear else (self._drive.v, value)
+        return self._go(v, w)
+
+    def _hold(self, speeds: tuple[float, float]) -> Answer | None:
+        """Drive a little; a button that is held says so again and again."""
+        return self._go(*speeds, seconds=HOLD)
+
+    def _press(self, keys: tuple[str]) -> Answer | None:
+        if keys[0] == STOP_KEY:
+            self._drive.stop()
+            return None
+        if keys[0] not in KEYS:
+            raise UsageError(f"the robot is not driven with the key '{keys[0]}'")
+        more_v, more_w = KEYS[keys[0]]
+        # Sums of tenths, without the last digits of binary numbers.
+        v, w = round(self._drive.v + more_v, 6), round(self._drive.w + more_w, 6)
+        return self._go(v, w)
+
+    def _go(self, v: float, w: float, **how_long: float) -> Answer | None:
+        """Drive; from rest, see to it that the motion can be seen."""
+        v, w = _within(MOST_LINEAR, v), _within(MOST_ANGULAR, w)
+        starts = not self._drive.moving and (v != 0 or w != 0)
+        shown = starts and self._drive.show_motion()
+        self._drive.set_velocity(v, w, **how_long)
+        if not shown:
+            return None
+        return Answer(
+            f"The fixed frame is {ODOM} now, to show the motion; Undo puts it back"
+        )
+
+
+def _measures(wheels: WheelPair) -> Iterator[Row]:
+    yield Row(_WHEELS, "", "group", "Wheels")
+    yield _fact("drive/left", _WHEELS, "Left", wheels.left)
+    yield _fact("drive/right", _WHEELS, "Right", wheels.right)
+    yield _fact("drive/radius", _WHEELS, "Radius", wheels.radius, "m")
+    yield _fact("drive/apart", _WHEELS, "Apart", wheels.separation, "m")
+
+
+def _fact(row_id: str, above: str, name: str, value: Any, unit: str = "") -> Row:
+    kind: Kind = "float" if unit else "fact"
+    return Row(row_id, above, kind, name, value=value, unit=unit)
+
+
+def _action(row_id: str, act: Callable[[Any], object], *takes: Any) -> Row:
+    return Row(row_id, "", "action", takes=takes, set=act)
+
+
+def _within(most: float, value: float) -> float:
+    return min(most, max(-most, value))

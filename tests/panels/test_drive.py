@@ -1,0 +1,171 @@
+"""The Drive panel: speeds, buttons that are held, keys, Stop and Reset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of
+from panel_rows import edit, rows_of
+
+from sambot_viz import Visualizer
+from sambot_viz.errors import FrameError, UsageError
+from sambot_viz.frames import Transform
+from sambot_viz.panels import gate
+from sambot_viz.panels.drive import DrivePanel
+from sambot_viz.panels.row import Answer
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.session.drive_control import DriveControl
+
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+IN_ODOM = Answer("The fixed frame is odom now, to show the motion; Undo puts it back")
+
+
+@pytest.fixture
+def panel(session: Session) -> Iterator[DrivePanel]:
+    """The panel, with steps that only the test takes."""
+    session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    yield DrivePanel(session)
+
+
+@pytest.fixture
+def drive(session: Session) -> DriveControl:
+    return session.motion.drive
+
+
+def send(panel: DrivePanel, row_id: str, value: Any) -> Any:
+    row = rows_of(panel)[row_id]
+    assert row.set is not None
+    return row.set(gate.checked(row, value))
+
+
+def speeds(drive: DriveControl) -> tuple[float, float]:
+    return drive.v, drive.w
+
+
+def test_speeds_are_set_one_by_one_within_their_limits(
+    panel: DrivePanel, drive: DriveControl
+) -> None:
+    edit(panel, "drive/linear", 0.3)
+    edit(panel, "drive/angular", -1)
+    assert speeds(drive) == (0.3, -1)
+    assert (panel.values()["drive/linear"], panel.values()["drive/angular"]) == (
+        0.3,
+        -1,
+    )
+    with pytest.raises(UsageError, match="'Linear speed' cannot be"):
+        edit(panel, "drive/linear", 1.5)
+
+
+def test_a_button_that_is_held_drives_until_it_is_let_go(
+    panel: DrivePanel, session: Session, drive: DriveControl
+) -> None:
+    for _ in range(5):
+        edit(panel, "drive/hold", [0.5, 0])
+        session.motion.advance(0.1)
+    assert drive.pose.x == pytest.approx(0.25)
+    session.motion.advance(1.0)
+    assert not drive.moving
+    assert drive.pose.x == pytest.approx(0.35)
+
+
+def test_a_held_button_drives_no_faster_than_the_limits(
+    panel: DrivePanel, drive: DriveControl
+) -> None:
+    edit(panel, "drive/hold", [50, -50])
+    assert speeds(drive) == (1, -2)
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        ("88", (0.2, 0)),
+        ("2", (-0.1, 0)),
+        ("44", (0, 0.5)),
+        ("86", (0.1, -0.25)),
+        ("885", (0, 0)),
+    ],
+)
+def test_the_keys_of_a_number_pad_change_the_speeds(
+    panel: DrivePanel, drive: DriveControl, keys: str, expected: tuple[float, float]
+) -> None:
+    for key in keys:
+        edit(panel, "drive/press", [key])
+    assert speeds(drive) == pytest.approx(expected)
+
+
+def test_another_key_is_refused(panel: DrivePanel) -> None:
+    with pytest.raises(UsageError, match="not driven with the key '7'"):
+        edit(panel, "drive/press", ["7"])
+
+
+def test_stop_and_reset_put_robot_wheels_and_path_back(
+    panel: DrivePanel, session: Session, drive: DriveControl, viz: Visualizer
+) -> None:
+    edit(panel, "drive/linear", 0.5)
+    session.motion.advance(1.0)
+    assert viz.joint_positions[LEFT] != 0 and len(drive.trail) > 1
+    edit(panel, "drive/stop", None)
+    assert speeds(drive) == (0, 0)
+    assert panel.values()["drive/x"] == 0.5
+    edit(panel, "drive/reset", None)
+    assert (panel.values()["drive/x"], panel.values()["drive/yaw"]) == (0, 0)
+    assert viz.joint_positions[LEFT] == viz.joint_positions[RIGHT] == 0
+    assert len(drive.trail) == 1
+
+
+# What the motion is seen in
+
+
+def target(browser: Browser) -> Any:
+    return browser.view.values["Target Frame"]
+
+
+def test_driving_fixes_a_frame_that_the_robot_moves_in_and_follows_it(
+    panel: DrivePanel, session: Session, browser: Browser
+) -> None:
+    assert session.context.fixed_frame == "base_link"
+    with session.edits.acting(browser.client_id):
+        assert send(panel, "drive/hold", [0.5, 0]) == IN_ODOM
+    assert session.context.fixed_frame == "odom"
+    assert target(browser) == "base_link"
+    with session.edits.acting(browser.client_id):
+        assert send(panel, "drive/hold", [0.5, 0]) is None
+    session.edits.undo(browser.client_id)
+    assert session.context.fixed_frame == "base_link"
+    assert target(browser) == "<Fixed Frame>"
+
+
+def test_a_fixed_frame_in_the_world_stays(panel: DrivePanel, session: Session) -> None:
+    session.motion.drive.enter_odom()
+    session.add_frame("map", "odom", Transform.from_xyz_rpy((1.0, 0.0, 0.0), (0, 0, 0)))
+    session.set_global("Fixed Frame", "map")
+    assert send(panel, "drive/linear", 0.1) is None
+    assert session.context.fixed_frame == "map"
+
+
+def test_a_view_that_follows_a_frame_already_keeps_it(
+    panel: DrivePanel, session: Session, browser: Browser
+) -> None:
+    browser.view.set("Target Frame", "drivewhl_l_link")
+    with session.edits.acting(browser.client_id):
+        assert send(panel, "drive/press", ["8"]) == IN_ODOM
+    assert target(browser) == "drivewhl_l_link"
+
+
+def test_a_robot_that_is_attached_to_another_frame_is_not_driven(
+    panel: DrivePanel, session: Session
+) -> None:
+    session.add_frame("map", "base_link", Transform.from_xyz_rpy((0, 0, 0), (0, 0, 0)))
+    with pytest.raises(FrameError, match="attached to 'map' already"):
+        edit(panel, "drive/linear", 0.1)
+
+
+def test_a_robot_without_two_wheels_has_no_drive_panel(tmp_path: Path) -> None:
+    model = tmp_path / "box.urdf"
+    model.write_text('<robot name="box"><link name="a"/></robot>')
+    with Visualizer(model, port=0, watch=False) as viz:
+        assert [*DrivePanel(session_of(viz)).rows()] == []
