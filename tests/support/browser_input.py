@@ -150,8 +150,17 @@ class Keyboard:
         Raises:
             ValueError: no such key or modifier.
         """
+        self.down(key, *modifiers)
+        self.up(key, *modifiers)
+
+    def down(self, key: str, *modifiers: str) -> None:
+        """Press a key and keep it down; see `press`."""
         fields = self._fields(key, modifiers)
         self._page.call("Input.dispatchKeyEvent", {"type": "keyDown", **fields})
+
+    def up(self, key: str, *modifiers: str) -> None:
+        """Release a key that is down; see `press`."""
+        fields = self._fields(key, modifiers)
         fields.pop("text", None)
         self._page.call("Input.dispatchKeyEvent", {"type": "keyUp", **fields})
 
