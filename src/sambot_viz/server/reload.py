@@ -1,7 +1,8 @@
 """Showing what was saved: the model, its meshes and textures, the config.
 
 A save with a mistake never removes the robot: the last good one stays, with the
-problem beside it, until a save fixes it.
+problem beside it, until a save fixes it. A file that has a mistake from the start is
+shown by its problem alone, and itself as soon as it is saved right.
 """
 
 from __future__ import annotations
@@ -10,18 +11,17 @@ import logging
 import os.path
 import stat
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.displays.display import Display
-from sambot_viz.errors import ConfigError, Problem, RobotError
+from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
 from sambot_viz.open_config import load_config
-from sambot_viz.robot.model import Robot
 from sambot_viz.robot.shape_files import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.server.server import Server
+from sambot_viz.server.sources import Sources
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 
@@ -32,80 +32,52 @@ MOST_FOLDERS = 200
 """Upper bound of the watched folders of a package in which a file is missing."""
 
 
-class Documents:
-    """The .rviz document of the server: one for all browsers, or a copy for each.
-
-    Args:
-        document: as it was read, with the options of the command line applied.
-        copy: makes a copy for a private session; None shares the document itself.
-    """
-
-    def __init__(
-        self, document: RvizConfig, copy: Callable[[RvizConfig], RvizConfig] | None
-    ) -> None:
-        self.current = document
-        self._copy = copy
-
-    def __call__(self) -> RvizConfig:
-        """The document for one more session."""
-        return self.current if self._copy is None else self._copy(self.current)
-
-
-@dataclass(frozen=True, slots=True)
-class _Content:
-    """What a document says of its current view."""
-
-    view: Plain
-
-    @classmethod
-    def of(cls, document: RvizConfig) -> _Content:
-        root = document.raw
-        manager = root.get(_MANAGER) if isinstance(root, dict) else None
-        views = manager.get("Views") if isinstance(manager, dict) else None
-        return cls(views.get("Current") if isinstance(views, dict) else None)
-
-
 class Reloader:
     """Reloads what a server shows when its files are saved.
 
     Args:
         server: what shows it.
-        load: reads the model from its file.
-        config: the .rviz file, or None when there is none to follow.
-        documents: where sessions take their document from.
-        prepare: applies the options of the command line to a document that was read.
-        report: called with the problems of the model whenever they have changed, and
-            with those of a config that was saved.
+        sources: the files, and how they are read and shown.
+        report: called with all problems of the model and the config whenever a save
+            has changed them.
     """
 
     def __init__(
         self,
         server: Server,
-        load: Callable[[Path], Robot],
-        config: Path | None,
-        documents: Documents,
-        prepare: Callable[[RvizConfig], None],
+        sources: Sources,
         report: Callable[[Sequence[Problem]], None] | None = None,
     ) -> None:
         self._server = server
-        self._load = load
-        robot = server.robot
-        self._model = robot.files[0] if robot is not None and robot.files else None
-        self._config = config
-        self._documents = documents
-        self._prepare = prepare
+        self._sources = sources
         self._report = report
-        self._shown = _Content.of(documents.current)
+        robot = server.robot
+        files = () if robot is None else robot.files
+        self._model = sources.model or next(iter(files), None)
+        document = sources.documents.current
+        self._view = _view_in(document)
         self._suspects: tuple[Path, ...] = ()
-        self._reported = () if robot is None else robot.problems
+        self._of_model = () if robot is None else robot.problems
+        self._of_config = document.problems
+        self._reported: tuple[Problem, ...] = ()
+        self._watcher: FileWatcher | None = None
+
+    def start(self) -> None:
+        """Follow the files from now on; saves since they were opened count too."""
+        self._reported = (*self._of_model, *self._of_config)
         self._watcher = FileWatcher(
-            self._files, self._folders, self._changed, self._cannot_watch
+            self._files,
+            self._folders,
+            self._changed,
+            self._cannot_watch,
+            self._sources.opened,
         )
         self._watcher.start()
 
     def close(self) -> None:
         """Stop following the files."""
-        self._watcher.close()
+        if self._watcher is not None:
+            self._watcher.close()
 
     # What is watched
 
@@ -126,7 +98,9 @@ class Reloader:
             yield from session.displays
 
     def _files(self) -> set[Path]:
-        config = {self._config} if self._config is not None else set[Path]()
+        config = set[Path]()
+        if self._sources.config is not None:
+            config.add(self._sources.config)
         own = {file for display in self._displays() for file in display.files}
         return self._model_files() | self._asset_files() | config | own
 
@@ -159,8 +133,9 @@ class Reloader:
         self, changed: frozenset[Path], appeared: frozenset[Path]
     ) -> None:
         model, assets = self._model_files(), self._asset_files()
-        if self._config is not None and self._config in changed:
-            self._reload_config(self._config)
+        config = self._sources.config
+        if config is not None and config in changed:
+            self._reload_config(config)
         self._server.for_each_session(lambda s: s.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
@@ -174,23 +149,42 @@ class Reloader:
         try:
             if _is_pipe(path):
                 raise RobotError([reload_problems.unreadable("model-unreadable", path)])
-            robot = self._load(path)
+            robot = self._sources.load(path)
+            is_first = self._server.robot is None
+            if is_first:
+                # What the command line says of joints could not be checked before.
+                self._server.options.start_pose.state(robot)
         except RobotError as error:
-            files = (Path(p.file) for p in error.problems if p.file is not None)
-            self._suspects = (path, *files)
-            self._server.set_reload_problems("model", error.problems)
-            self._report_changed(error.problems)
+            self.refuse_model(error)
+        except JointError as error:
+            self.refuse_model(RobotError([reload_problems.start_pose(error)]))
         else:
-            if self._watcher.closed:
+            if self._watcher is None or self._watcher.closed:
                 return
             self._suspects = ()
             self._server.set_reload_problems("model", ())
-            self._server.show_robot(robot)
+            self._sources.show(robot)
             self._server.set_reload_problems("fault", ())
-            self._report_changed(robot.problems)
+            self._of_model = robot.problems
+        self._report_changed()
 
-    def _report_changed(self, problems: tuple[Problem, ...]) -> None:
-        """Report the problems of the model if they are not those reported last."""
+    def refuse_model(self, error: RobotError) -> None:
+        """Show why the model is not shown, and follow the files that may fix it."""
+        named = (Path(p.file) for p in error.problems if p.file is not None)
+        model = () if self._model is None else (self._model,)
+        suspects = (*model, *error.files, *named)
+        self._suspects = tuple(dict.fromkeys(map(Path.absolute, suspects)))
+        self._of_model = error.problems
+        self._server.set_reload_problems("model", error.problems)
+
+    def refuse_config(self, error: ConfigError) -> None:
+        """Show why the config is not shown."""
+        self._of_config = error.problems
+        self._server.set_reload_problems("config", error.problems)
+
+    def _report_changed(self) -> None:
+        """Report the problems if they are not those reported last."""
+        problems = (*self._of_model, *self._of_config)
         if self._report is not None and problems != self._reported:
             self._report(problems)
         self._reported = problems
@@ -203,14 +197,16 @@ class Reloader:
                 )
             document = load_config(path)
         except ConfigError as error:
-            self._server.set_reload_problems("config", error.problems)
-            if self._report is not None:
-                self._report(error.problems)
-            return
+            self.refuse_config(error)
+        else:
+            self._show_config(document)
+        self._report_changed()
+
+    def _show_config(self, document: RvizConfig) -> None:
         text = document.to_yaml()
-        self._prepare(document)
-        self._documents.current = document
-        before, self._shown = self._shown, _Content.of(document)
+        self._sources.prepare(document)
+        self._sources.documents.current = document
+        before, self._view = self._view, _view_in(document)
         kept: list[Session] = []
 
         def take(session: Session) -> None:
@@ -218,11 +214,11 @@ class Reloader:
                 kept.append(session)
 
         self._server.for_each_session(take)
-        self._server.set_reload_problems(
-            "config", (reload_problems.kept(path),) if kept else ()
-        )
+        problems = (reload_problems.kept(str(document.file)),) if kept else ()
+        self._server.set_reload_problems("config", problems)
+        self._of_config = problems or document.problems
 
-    def _take(self, session: Session, text: str, before: _Content) -> bool:
+    def _take(self, session: Session, text: str, before: Plain) -> bool:
         """Show the file, unless that would throw away what a user has changed.
 
         The views of browsers stay as they are, unless the file has another view than
@@ -237,8 +233,8 @@ class Reloader:
                 return True
             if session.edits.modified:
                 return False
-            session.set_config(self._documents())
-            if self._shown.view != before.view:
+            session.set_config(self._sources.documents())
+            if self._view != before:
                 session.show_view()
             return True
 
@@ -246,6 +242,14 @@ class Reloader:
         self._server.set_reload_problems("watch", (reload_problems.unwatched(reason),))
         if self._report is not None:
             self._report((reload_problems.unwatched(reason),))
+
+
+def _view_in(document: RvizConfig) -> Plain:
+    """What a document says of its current view."""
+    root = document.raw
+    manager = root.get(_MANAGER) if isinstance(root, dict) else None
+    views = manager.get("Views") if isinstance(manager, dict) else None
+    return views.get("Current") if isinstance(views, dict) else None
 
 
 def _folders_in(folder: Path) -> Iterator[Path]:
