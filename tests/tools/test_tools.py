@@ -471,16 +471,49 @@ def test_over_the_background_focus_looks_one_metre_ahead(browser: Browser) -> No
     assert values["Focal Point"] == pytest.approx((3.0, 0.0, 1.5))
 
 
-def test_the_key_f_looks_at_the_selection_else_at_the_middle_of_the_picture(
+def focal_point(browser: Browser) -> Any:
+    return pytest.approx(browser.view.values["Focal Point"], abs=1e-3)
+
+
+def test_the_key_f_looks_at_what_is_under_the_mouse(browser: Browser) -> None:
+    browser.look_down()
+    browser.tools.focus(on_screen(0.05 * 5 / 4.91, 0.1 * 5 / 4.91))
+    assert focal_point(browser) == (0.05, 0.1, 0.09)
+    browser.look_down()
+    browser.tools.focus(on_screen(1.0, 0.5))
+    assert focal_point(browser) == (1.0, 0.5, 0.0), "on the grid"
+
+
+def test_over_nothing_or_without_a_mouse_the_key_f_shows_the_whole_robot(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("RobotModel")
+    browser.look_down()
+    for at in (None, on_screen(1.5, 1.5), (math.nan, 0.0)):
+        browser.view.set("Distance", 50.0)
+        browser.tools.focus(at)
+        assert 0.5 < browser.view.values["Distance"] < 2.0
+        x, y, z = browser.view.values["Focal Point"]
+        assert abs(x) < 0.1 and abs(y) < 0.01 and abs(z) < 0.1
+
+
+def test_without_a_mouse_the_key_f_looks_at_the_selection_as_select_always_does(
     browser: Browser,
 ) -> None:
-    values = browser.view.values
-    browser.trigger("Focus on the selection")
-    assert values["Focal Point"][2] == pytest.approx(0.09, abs=0.2)
     browser.trigger("Select")
     browser.click_down(-0.12, 0.18)
+    wheel = (-0.12, 0.18, -0.05)
     browser.trigger("Focus on the selection")
-    assert values["Focal Point"] == pytest.approx((-0.12, 0.18, -0.05), abs=1e-6)
+    assert focal_point(browser) == wheel
+    browser.look_down()
+    browser.tools.focus(on_screen(1.0, 0.5))
+    assert focal_point(browser) == wheel
+    browser.trigger("Move Camera")
+    browser.look_down()
+    browser.tools.focus(on_screen(1.0, 0.5))
+    assert focal_point(browser) == (1.0, 0.5, 0.0)
+    browser.trigger("Focus on the selection")
+    assert focal_point(browser) == wheel
 
 
 # Settings.

@@ -133,23 +133,38 @@ class ToolControl:
         with self._browser.change("tools"):
             self.current.cancel()
 
-    def focus(self) -> None:
-        """F: look at the selection, or at what is in the middle of the picture."""
-        rays = self._session.rays
-        with self._session.lock:
-            boxes = rays.boxes_of(self.selection).values()
-            camera = self._browser.view.camera
-        if boxes:
-            low = np.min([box[0] for box in boxes], axis=0)
-            high = np.max([box[1] for box in boxes], axis=0)
-            self.look_at((low + high) / 2)
+    def focus(self, at: ScreenPoint | None = None) -> None:
+        """Key F: look at what is under the mouse, or show the whole robot.
+
+        As in RViz, Select looks at what is selected; so does any tool when it is not
+        known where the mouse is.
+
+        Args:
+            at: where the mouse is, from 0 (left, top) to 1 (right, bottom) of the
+                picture; None when it is not over it.
+        """
+        click = None if at is None else pointed_at(self._browser.client, at)
+        if click is None or isinstance(self.current, SelectTool):
+            with self._session.lock:
+                boxes = self._session.rays.boxes_of(self.selection).values()
+            if boxes:
+                low = np.min([box[0] for box in boxes], axis=0)
+                high = np.max([box[1] for box in boxes], axis=0)
+                self.look_at((low + high) / 2)
+                return
+        if click is None:
+            self._browser.view.fit()
             return
 
         def then(hit: Hit) -> None:
-            if hit.point is not None:
+            if hit.point is None:
+                self._browser.view.fit()
+            else:
                 self.look_at(hit.point)
 
-        rays.follow(lambda s: s.first_hit(camera.position, camera.forward), then)
+        self._session.rays.follow(
+            lambda s: s.first_hit(click.origin, click.direction), then
+        )
 
     # What tools may use (tools.tool.ToolContext)
 
