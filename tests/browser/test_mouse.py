@@ -126,6 +126,10 @@ def show(
         viewer = open_viewer(viz.url, touch=touch)
         viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
         viewer.wait_for(f"window.sambotVizMouse?.kind === {kind!r}")
+        # The camera of the view has taken the place of viser's, at (3, 3, 3).
+        viewer.wait_for(
+            "Math.abs(__viserMutable.cameraControl.distance - Math.sqrt(27)) > 1e-3"
+        )
         (client,) = viz.viser.get_clients().values()
         shown = Shown(viewer, client.camera)
         viewer.wait_until_drawn()
@@ -314,7 +318,9 @@ def test_one_finger_turns_and_two_move_and_zoom(show: Callable[..., Shown]) -> N
     touch, (x, y) = shown.viewer.page.touch, SKY
     touch.start(SKY)
     touch.move((x - 20, y + 30))
+    shown.viewer.wait_for("window.sambotVizMouse.focal")
     touch.end()
+    shown.viewer.wait_for("!window.sambotVizMouse.focal")
     shown.rests()
     assert np.allclose(shown.angles, (1.1, 0.65), atol=1e-4)
     before, metres, up = shown.target, shown.metres, shown.up
@@ -333,3 +339,5 @@ def test_one_finger_turns_and_two_move_and_zoom(show: Callable[..., Shown]) -> N
     assert abs(shown.distance - distance / 2) < 1e-5
     assert shown.target == pytest.approx(wanted, abs=1e-5)
     assert shown.angles == pytest.approx((1.1, 0.65), abs=1e-4)
+    shown.viewer.wait_for_frames()
+    assert not shown.viewer.page.evaluate("window.sambotVizMouse.focal")

@@ -28,8 +28,6 @@
   const POLE = 0.001;
   /** XYOrbit and its kind look over their focal point, by this part of the distance. */
   const RAISED = 0.2;
-  /** A press that moves less than this is a click [px]. */
-  const STILL = 3;
   /** Pictures that viser draws for others see layer 0 only. */
   const DISC_LAYER = 30;
 
@@ -160,11 +158,8 @@
   const onCanvas = (event) => page() && event.target === page().canvas;
   /** The presses that began in the view. @type {Map<number, {x: number, y: number}>} */
   const presses = new Map();
-  /** How far the mouse has moved since it was pressed [px]. */
-  let moved = 0;
   window.addEventListener("pointerdown", (event) => {
     if (!onCanvas(event) || !refresh()) return;
-    if (!presses.size) moved = 0;
     presses.set(event.pointerId, { x: event.clientX, y: event.clientY });
   }, true);
   window.addEventListener("pointermove", (event) => {
@@ -177,9 +172,10 @@
       presses.set(event.pointerId, at);
       return;
     }
+    // The button was released where this page does not hear of it.
+    if (!event.buttons) return release(event);
     const dx = at.x - last.x, dy = at.y - last.y;
     presses.set(event.pointerId, at);
-    moved += Math.abs(dx) + Math.abs(dy);
     // A rectangle, and whatever else viser drags, keeps the camera where it is.
     if (!controls()?.enabled || (!dx && !dy)) return;
     if (event.buttons & 4 || (event.buttons & 1 && event.shiftKey)) move(dx, dy, at);
@@ -193,7 +189,7 @@
   const moveFingers = () => {
     const [a, b] = before, [c, d] = presses.values(), fingers = before.length;
     before = [];
-    if (fingers !== presses.size || !controls()?.enabled) return;
+    if (!fingers || fingers !== presses.size || !controls()?.enabled) return;
     if (fingers === 1) turn(c.x - a.x, c.y - a.y);
     if (fingers === 2) {
       const middle = { x: (c.x + d.x) / 2, y: (c.y + d.y) / 2 };
@@ -209,8 +205,6 @@
     if (before.length) moveFingers();
     if (!presses.delete(event.pointerId)) return;
     if (!presses.size) showFocal(false);
-    if (event.type === "pointerup" && event.button === 2 && moved < STILL)
-      window.dispatchEvent(new CustomEvent("sambot-right-click"));
   };
   window.addEventListener("pointerup", release, true);
   window.addEventListener("pointercancel", release, true);
