@@ -9,46 +9,16 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
+from program import address, running
 
 from sambot_viz import Visualizer
 from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
-
-
-@contextmanager
-def running(*words: str, cwd: Path | None = None) -> Iterator[subprocess.Popen[str]]:
-    """The program as a user starts it, ended by its own handle."""
-    # A job in the background of a script ignores Ctrl-C, and would pass that on.
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        process = subprocess.Popen(
-            [sys.executable, "-m", "sambot_viz", *words],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            cwd=cwd,
-            env={**os.environ, "PYTHONIOENCODING": "utf-8"},
-        )
-    finally:
-        signal.signal(signal.SIGINT, before)
-    try:
-        yield process
-    finally:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
-
-
-def address(process: subprocess.Popen[str]) -> str:
-    assert process.stdout is not None
-    return process.stdout.readline().strip()
 
 
 def test_it_prints_one_line_with_the_address_and_serves_the_page(
@@ -115,9 +85,9 @@ def test_a_snapshot_that_is_ended_removes_what_its_browser_wrote(
 def test_the_students_file_ends_with_the_line_the_cause_and_the_fix(
     shared: Path, capsys: Capture
 ) -> None:
-    model = shared / "data/seed/robot_closed_too_early.urdf.xacro"
-    for command in ([str(model)], ["check", str(model)]):
-        assert main([*command, "--port", "0"] if len(command) == 1 else command) == 1
+    model = str(shared / "data/seed/robot_closed_too_early.urdf.xacro")
+    for words in ([model, "--port", "0", "--no-watch"], ["check", model]):
+        assert main(words) == 1
         out, err = capsys.readouterr()
         said = out + err
         assert "xml-root-closed-early" in said
@@ -229,17 +199,6 @@ def test_the_work_goes_on_when_nothing_reads_standard_error(
     assert "</svg>" in tree.read_text()
 
 
-def test_an_ill_formed_model_is_refused_before_an_address_is_printed(
-    tmp_path: Path,
-) -> None:
-    model = tmp_path / "r.urdf"
-    model.write_text('<robot name="r">\n<link name="a">\n</robot>\n')
-    with running(str(model), "--port", "0", cwd=tmp_path) as process:
-        out, err = process.communicate(timeout=60)
-        assert process.returncode == 1
-        assert out == "" and "r.urdf:2" in err
-
-
 def test_poses_that_a_browser_saves_are_kept_beside_the_model(tmp_path: Path) -> None:
     from protocol_client import ProtocolClient
 
@@ -264,7 +223,7 @@ def test_a_config_with_a_yaml_error_names_the_line(
 ) -> None:
     config = tmp_path / "broken.rviz"
     config.write_text("Panels:\n  - Class: a\n Name: b\n")
-    assert main(["-d", str(config), "--port", "0"]) == 1
+    assert main(["-d", str(config), "--port", "0", "--no-watch"]) == 1
     assert f"{config}:3" in capsys.readouterr().err
 
 

@@ -133,7 +133,9 @@ ROOMS: Mapping[str, Row] = {
     "files": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
-        "bundled open_config options robot rviz", "yourdfpy", "concurrent threading"
+        "bundled joints open_config options robot rviz",
+        "yourdfpy",
+        "concurrent threading",
     ),
     "open_config": Row("displays rviz tools views"),
     "options": Row("frames joints robot rviz", "yourdfpy"),

@@ -31,6 +31,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Literal
 
 Severity = Literal["error", "warning", "info"]
@@ -175,7 +176,16 @@ class _ErrorWithProblems(SambotVizError):
 
 
 class RobotError(_ErrorWithProblems):
-    """The model cannot be shown; `problems` says why."""
+    """The model cannot be shown; `problems` says why.
+
+    Attributes:
+        files: the files that were read or looked for, as far as is known: the model may
+            be right when one of them is saved.
+    """
+
+    def __init__(self, problems: Iterable[Problem], files: Iterable[Path] = ()) -> None:
+        super().__init__(problems)
+        self.files: tuple[Path, ...] = tuple(files)
 
 
 class ConfigError(_ErrorWithProblems):

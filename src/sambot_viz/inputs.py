@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import os.path
+import time
 from collections.abc import Callable
 from concurrent.futures import Future, InvalidStateError, wait
 from pathlib import Path
@@ -10,7 +12,7 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from sambot_viz import bundled
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import ConfigError, Problem, RobotError, UsageError
 from sambot_viz.options import Options, PathLike
 from sambot_viz.robot.opened_model import OpenedModel, open_model
 
@@ -18,6 +20,7 @@ from sambot_viz.robot.opened_model import OpenedModel, open_model
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
+    from sambot_viz.joints.presets import Presets
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
     from sambot_viz.rviz.yaml.document import Document
@@ -32,11 +35,15 @@ class Inputs:
 
     Args:
         options: what the user asked for.
+        may_be_broken: whether a model or a config with a mistake in it is shown as
+            such, until it is saved right, rather than refused.
 
     Attributes:
+        opened: when the files were opened [ns], as `time.time_ns` counts.
         model: the model file; None for a robot from Python.
         config: the .rviz file, or None when none was named and none belongs to the
             model; the bundled one is used then.
+        broken_config: why the config is not shown yet; only with `may_be_broken`.
         poses: the file for named poses, or None to keep them in memory.
 
     Raises:
@@ -45,7 +52,8 @@ class Inputs:
         ConfigError: the config is not a .rviz document.
     """
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: Options, *, may_be_broken: bool = False) -> None:
+        self.opened = time.time_ns()
         self._options = options
         model, config = options.model, options.config
         found = bundled.find(
@@ -54,16 +62,23 @@ class Inputs:
         )
         document = config is not None and not isinstance(config, Path | str)
         self.config = None if document else found.config
-        self._document = None if self.config is None else _open_config(self.config)
+        self._document: Document | None = None
+        self.broken_config: ConfigError | None = None
+        if self.config is not None:
+            self._open_config(self.config, may_be_broken)
+        self._of_config: tuple[Problem, ...] = ()
         self._robot: Future[Robot] = Future()
         self._opened: OpenedModel | None = None
         if model is None or isinstance(model, Path | str):
             self.model = found.model
-            self._opened = open_model(found.model)
+            # A pipe of the shell can be read only once.
+            self._may_be_broken = may_be_broken and os.path.isfile(found.model)
+            self._open_model(found.model)
         else:
-            self.model = None
+            self.model, self._may_be_broken = None, False
             self._robot.set_result(_robot_of(model))
         self.poses = self._poses_file()
+        self._presets: Presets | None = None
 
     @property
     def options(self) -> Options:
@@ -73,7 +88,8 @@ class Inputs:
     @property
     def takes_bundled_config(self) -> bool:
         """Whether the config is the bundled one, which was made for sam_bot."""
-        return self.config is None and self._options.config is None
+        missing = self.config is None and self._options.config is None
+        return missing or self.broken_config is not None
 
     def begin(self) -> None:
         """Load the robot in a thread; a second call does nothing."""
@@ -90,6 +106,32 @@ class Inputs:
         """
         self.begin()
         return self._robot.result()
+
+    def refusal(self) -> RobotError | None:
+        """Why there is no robot to show yet; None when there is one.
+
+        Raises:
+            RobotError: the model cannot be shown, and may not be broken.
+            KeyboardInterrupt: after `give_up`.
+        """
+        try:
+            self.robot()
+        except RobotError as error:
+            if not self._may_be_broken:
+                raise
+            return error
+        return None
+
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong with the model, and with the config once it is a document.
+
+        Raises:
+            RobotError: as `refusal`.
+        """
+        refusal = self.refusal()
+        of_model = self.robot().problems if refusal is None else refusal.problems
+        broken = self.broken_config
+        return (*of_model, *(self._of_config if broken is None else broken.problems))
 
     def wait(self, timeout: float) -> bool:
         """Wait for the robot to be loaded, or refused, at most so long [s].
@@ -130,6 +172,8 @@ class Inputs:
     def document(self) -> RvizConfig:
         """The config as a document; to be called once.
 
+        The bundled one takes the place of one that is broken.
+
         Raises:
             ConfigError: the bundled config cannot be read.
         """
@@ -142,23 +186,44 @@ class Inputs:
             return given
         if self._document is None:
             return load_config(bundled.config_path())
-        return RvizConfig(self._document, declarations())
+        document = RvizConfig(self._document, declarations())
+        self._of_config = document.problems
+        return document
+
+    def presets(self) -> Presets:
+        """The named poses.
+
+        Raises:
+            JointError: their file holds something else.
+        """
+        if self._presets is None:
+            from sambot_viz.joints.presets import Presets
+
+            self._presets = Presets(self.poses)
+        return self._presets
+
+    def _open_model(self, path: Path) -> None:
+        try:
+            self._opened = open_model(path)
+        except RobotError as error:
+            if not self._may_be_broken:
+                raise
+            self._robot.set_exception(error)
+
+    def _open_config(self, path: Path, may_be_broken: bool) -> None:
+        from sambot_viz.rviz.yaml.document import Document
+
+        try:
+            self._document = Document.load(path)
+        except ConfigError as error:
+            if not may_be_broken:
+                raise
+            self.broken_config = error
 
     def _poses_file(self) -> Path | None:
         if self._options.poses is not None:
             return Path(self._options.poses)
         return None if self.model is None else poses_beside(self.model)
-
-
-def _open_config(path: Path) -> Document:
-    """The text of a .rviz file.
-
-    Raises:
-        ConfigError: it is not a .rviz document.
-    """
-    from sambot_viz.rviz.yaml.document import Document
-
-    return Document.load(path)
 
 
 def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:

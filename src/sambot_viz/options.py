@@ -273,7 +273,8 @@ class Options:
     )
     on_reload: Callable[[Sequence[Problem]], None] | None = _option(
         None,
-        "called with what is wrong with the model whenever a reload changes that",
+        "called with what is wrong with the model and the config whenever a reload "
+        "changes that",
     )
     recorded: Mapping[str, float] = field(init=False, repr=False, compare=False)
     transforms: tuple[StaticTransform, ...] = field(

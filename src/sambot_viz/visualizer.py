@@ -11,12 +11,11 @@ from typing import Any, Concatenate, ParamSpec
 
 import viser
 
-from sambot_viz.errors import ServerError
+from sambot_viz.errors import RobotError, ServerError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
-from sambot_viz.joints.presets import Presets
 from sambot_viz.open_config import declarations
 from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
@@ -25,6 +24,7 @@ from sambot_viz.server.documents import Documents
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
+from sambot_viz.server.sources import Sources
 from sambot_viz.session import Session
 from sambot_viz.session.frame_view import FrameView
 
@@ -88,7 +88,9 @@ class Visualizer:
         """Show files that are opened already.
 
         Args:
-            inputs: the model and the config, with their options.
+            inputs: the model and the config, with their options. What is broken in
+                them, if they may be, is shown by its problem, and itself as soon as
+                the file is saved right.
             listening: a viser server that listens already, so that the options' host
                 and port do not count; it is stopped with the visualizer.
 
@@ -105,33 +107,69 @@ class Visualizer:
         document = inputs.document()
         prepare = partial(_set_fixed_frame, fixed_frame=options.fixed_frame)
         prepare(document)
-        shared = options.session == "shared"
-        documents = Documents(
-            document, None if shared else _copy, prepare, inputs.config
+        self._documents = Documents(
+            document,
+            None if options.session == "shared" else _copy,
+            prepare,
+            inputs.config,
         )
+        fits_any = inputs.takes_bundled_config and options.fixed_frame is None
+        self._stand_in = document if fits_any else None
+        self._stand_in_frame = document.global_options.get("Fixed Frame")
         self._reloader: Reloader | None = None
         models = ModelThread(inputs.load, options.package_path)
         self._server = Server(
-            options, documents, models, listening, Presets(inputs.poses), documents
+            options,
+            self._documents,
+            models,
+            listening,
+            inputs.presets(),
+            self._documents,
         )
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
                 self._server.show_panels()
-            robot = inputs.robot()
-            if inputs.takes_bundled_config and options.fixed_frame is None:
-                _fit_fixed_frame(document, robot)
-            self._server.show_robot(robot)
+            refusal = inputs.refusal()
+            if refusal is None:
+                self._show(inputs.robot())
             self._server.show_panels()
             if options.watch:
-                self._reloader = Reloader(
-                    self._server,
-                    inputs.load,
-                    documents,
-                    options.on_reload,
-                )
+                self._follow(inputs, refusal)
         except BaseException:
             self._server.stop()
             raise
+
+    def _show(self, robot: Robot) -> None:
+        """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
+        if self._server.robot is None and self._stand_in is self._documents.current:
+            self._fit_fixed_frame(self._documents.current, robot)
+            for session in self._server.sessions():
+                with session.change("config"):
+                    self._fit_fixed_frame(session.config, robot)
+        self._server.show_robot(robot)
+
+    def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
+        """Take the root of a robot as the fixed frame, unless a user has chosen one."""
+        frame = document.global_options.get("Fixed Frame")
+        if frame == self._stand_in_frame and frame not in robot.links:
+            document.global_options.set("Fixed Frame", plain_name(robot.root))
+
+    def _follow(self, inputs: Inputs, refusal: RobotError | None) -> None:
+        """Show the files again when they are saved."""
+        sources = Sources(
+            inputs.model,
+            inputs.load,
+            self._show,
+            self._documents,
+            inputs.opened,
+        )
+        reloader = Reloader(self._server, sources, inputs.options.on_reload)
+        if refusal is not None:
+            reloader.refuse_model(refusal)
+        if inputs.broken_config is not None:
+            reloader.refuse_config(inputs.broken_config)
+        reloader.start()
+        self._reloader = reloader
 
     @property
     def server(self) -> Server:
@@ -245,12 +283,6 @@ def _copy(document: RvizConfig) -> RvizConfig:
 def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:
     if fixed_frame is not None:
         document.global_options.set("Fixed Frame", fixed_frame)
-
-
-def _fit_fixed_frame(document: RvizConfig, robot: Robot) -> None:
-    """Let the bundled config, which is sam_bot's, fit any robot: its root serves."""
-    if document.global_options.get("Fixed Frame") not in robot.links:
-        document.global_options.set("Fixed Frame", plain_name(robot.root))
 
 
 Visualizer.__doc__ = f"{inspect.cleandoc(Visualizer.__doc__ or '')}\n\n{keyword_help()}"

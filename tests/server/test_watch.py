@@ -262,7 +262,6 @@ def test_what_a_save_includes_newly_is_followed_from_then_on(
         '<child link="mast"/></joint></robot>'
     )
     extra.write_text(text, "utf-8")
-    os.utime(sam_bot.model)
     sam_bot.wait_for(lambda: "mast" in sam_bot.viz.frames.frames)
     extra.write_text(text.replace('"mast"', '"tall_mast"'), "utf-8")
     sam_bot.wait_for(lambda: "tall_mast" in sam_bot.viz.frames.frames)
@@ -438,9 +437,11 @@ def test_a_session_that_fails_does_not_keep_the_others_from_a_save(
         raise ZeroDivisionError("it happens")
 
     with Visualizer(model, watch=True, session="private") as viz:
-        clients = [protocol(viz.viser.get_port()) for _ in range(2)]
-        for client in clients:
-            client.wait_until(lambda c=client: c.types()["BoxMessage"] > 0)
+        clients: list[ProtocolClient] = []
+        for _ in range(2):
+            # One after the other: the first session is that of the first client.
+            clients.append(protocol(viz.viser.get_port()))
+            clients[-1].wait_until(lambda: clients[-1].types()["BoxMessage"] > 0)
         first = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
         for name in ("show_robot", "refresh"):
             monkeypatch.setattr(first, name, fail)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os.path
 import signal
 import sys
 import threading
@@ -38,10 +39,21 @@ move its joints; without --host only this machine can
 """
 
 
+_WAITING = """\
+sambot-viz: note: the page is open; it shows the file as soon as it is saved right
+"""
+
+
 def run(words: list[str]) -> int:
-    """Serve until Ctrl-C."""
-    given, options = parse(parser(), words, on_reload=_report_reload)
-    inputs = Inputs(options)
+    """Serve until Ctrl-C.
+
+    While files are followed, a model or a config with a mistake is served too: the page
+    shows the mistake, and the robot once it is fixed.
+    """
+    report = _Reports()
+    given, options = parse(parser(), words, on_reload=report)
+    report.model = options.model
+    inputs = Inputs(options, may_be_broken=options.watch)
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
     from sambot_viz.server.access import only_this_machine
@@ -51,16 +63,15 @@ def run(words: list[str]) -> int:
     _stop_on_signals(stop, inputs)
     server = listen(options.host, options.port, options.allowed_origins, options.panels)
     try:
+        _refuse_early(inputs)
         _announce(url_of(server), given.open)
         if not only_this_machine(options.host):
             sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         inputs.begin()
-        from sambot_viz.commands.posed_frames import start_state
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer.of_inputs(inputs, server):
-            problem_text.write(inputs.robot().problems, model=options.model)
-            start_state(inputs.robot(), options)
+            _report_start(inputs)
             stop.wait()
     except KeyboardInterrupt:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
@@ -84,12 +95,54 @@ def parser() -> Parser:
     return made
 
 
-def _report_reload(problems: Sequence[Problem]) -> None:
-    """Write what is wrong after a reload, on the terminal as in the page."""
-    if problems:
-        problem_text.write(problems)
-    else:
-        sys.stderr.write("sambot-viz: all problems are fixed\n")
+def _refuse_early(inputs: Inputs) -> None:
+    """Raise what ends the program before an address is printed.
+
+    Only what needs the robot makes the page wait for it.
+
+    Raises:
+        SambotVizError: options that cannot be, or a model that will not be followed.
+    """
+    options = inputs.options
+    if options.transforms:
+        from sambot_viz.frames import FrameTree
+
+        tree = FrameTree()
+        for added in options.transforms:
+            tree.set_static(added.parent, added.child, added.transform)
+    if inputs.poses is not None and os.path.exists(inputs.poses):
+        inputs.presets()
+    if not options.watch or options.joint_positions or options.zeros:
+        if inputs.refusal() is None:
+            options.start_pose.state(inputs.robot())
+
+
+def _report_start(inputs: Inputs) -> None:
+    """Write what is wrong with the model, the config and the start pose."""
+    from sambot_viz.commands.posed_frames import start_state
+
+    options = inputs.options
+    problem_text.write(inputs.problems(), model=options.model)
+    if inputs.refusal() is None:
+        start_state(inputs.robot(), options)
+    if inputs.refusal() is not None or inputs.broken_config is not None:
+        sys.stderr.write(_WAITING)
+
+
+class _Reports:
+    """Writes what is wrong after a reload, on the terminal as in the page.
+
+    Attributes:
+        model: the model as the user wrote it.
+    """
+
+    model: object = None
+
+    def __call__(self, problems: Sequence[Problem]) -> None:
+        if problems:
+            problem_text.write(problems, model=self.model)
+        else:
+            sys.stderr.write("sambot-viz: all problems are fixed\n")
 
 
 def _announce(url: str, open_it: bool) -> None:

@@ -19,7 +19,11 @@ from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
 from sambot_viz.robot.xacro.diagnose.library import report_library
 from sambot_viz.robot.xacro.diagnose.prefix import missing_prefixes, undeclared_prefix
 from sambot_viz.robot.xacro.expand import expand_model
-from sambot_viz.robot.xacro.result import ExpansionError, ExpansionXmlError
+from sambot_viz.robot.xacro.result import (
+    ExpansionError,
+    ExpansionXmlError,
+    XacroFailure,
+)
 from sambot_viz.robot.xml.decode import declared_as_utf8
 from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 from sambot_viz.robot.xml.element import Element
@@ -121,9 +125,12 @@ class _Loader:
         except ExpansionXmlError as error:
             fault = error.fault
             file = source.label if fault.text == source.text else error.file
-            raise RobotError(explain_xml(fault.text, file, fault)) from None
+            files = map(Path, error.files)
+            raise RobotError(explain_xml(fault.text, file, fault), files) from None
         except ExpansionError as error:
-            raise RobotError(explain_xacro(error.failure, source.label)) from None
+            raise RobotError(
+                explain_xacro(error.failure, source.label), _wanted(error.failure)
+            ) from None
 
     def _robot(
         self, root: Element, expanded: ExpandedModel | None, problems: list[Problem]
@@ -134,11 +141,11 @@ class _Loader:
             root, findings, files.mesh, files.texture, expanded is not None
         )
         problems += findings.problems
+        read = expanded.files if expanded is not None else ()
         if urdf is None or findings.rejected:
             raise RobotError(
-                report_library(problems, self.opened.document, source.path)
+                report_library(problems, self.opened.document, source.path), read
             )
-        read = expanded.files if expanded is not None else ()
         own = (Path(os.path.abspath(source.path)),) if source.path is not None else ()
         return Robot(
             urdf.name,
@@ -150,6 +157,22 @@ class _Loader:
             tuple(dict.fromkeys((*own, *read))),
             files.roots,
         )
+
+
+def _wanted(failure: XacroFailure) -> list[Path]:
+    """The files that an expansion read or looked for, and a missing package's places.
+
+    A place that is not a folder is the name of a path variable's entry.
+    """
+    files = [Path(name) for name in failure.files]
+    missing = failure.missing_package
+    if missing is not None:
+        files += [
+            Path(place) / missing.name
+            for place in missing.searched
+            if os.path.isdir(place)
+        ]
+    return files
 
 
 def _note_ending(source: ModelSource, xacro: Element) -> list[Problem]:

@@ -26,6 +26,7 @@ class Documents:
         file: where it was read from; None when no file is to be followed.
 
     Attributes:
+        current: the document that is shown, as it was read last.
         file: the file that is shown, and followed.
         view: the current view that it had when it was read.
         on_open: called after another file was opened.
@@ -39,7 +40,7 @@ class Documents:
         file: Path | None,
     ) -> None:
         self._lock = threading.Lock()
-        self._current = document
+        self.current = document
         self._copy = copy
         self._prepare = prepare
         self.file = file
@@ -48,7 +49,7 @@ class Documents:
 
     def __call__(self) -> RvizConfig:
         """The document for one more session."""
-        return self._current if self._copy is None else self._copy(self._current)
+        return self.current if self._copy is None else self._copy(self.current)
 
     def read(self, file: Path) -> RvizConfig:
         """Read a file, without the options of the command line.
@@ -71,7 +72,7 @@ class Documents:
         with self._lock:
             if self.file != file:
                 return False
-            self._current, self.view = document, _view_of(document)
+            self.current, self.view = document, _view_of(document)
         return True
 
     def open(self, session: Session, path: Path) -> None:
@@ -84,7 +85,7 @@ class Documents:
         self._prepare(document)
         with self._lock:
             self.file, self.view = path, _view_of(document)
-            self._current = document
+            self.current = document
         session.set_config(document)
         session.show_view()
         for listener in self.on_open:

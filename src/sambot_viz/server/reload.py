@@ -1,7 +1,8 @@
 """Showing what was saved: the model, its meshes and textures, the config.
 
 A save with a mistake never removes the robot: the last good one stays, with the
-problem beside it, until a save fixes it.
+problem beside it, until a save fixes it. A file that has a mistake from the start is
+shown by its problem alone, and itself as soon as it is saved right.
 """
 
 from __future__ import annotations
@@ -12,13 +13,13 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from sambot_viz.displays.display import Display
-from sambot_viz.errors import ConfigError, Problem, RobotError
-from sambot_viz.robot.model import Robot
+from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
 from sambot_viz.robot.shape_files import assets_of, something_missing
+from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
-from sambot_viz.server.documents import Documents
 from sambot_viz.server.server import Server
+from sambot_viz.server.sources import Sources
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 
@@ -33,36 +34,47 @@ class Reloader:
 
     Args:
         server: what shows it.
-        load: reads the model from its file.
-        documents: where sessions take their document from, and which file it is in.
-        report: called with the problems of the model whenever they have changed, and
-            with those of a config that was saved.
+        sources: the files, and how they are read and shown.
+        report: called with all problems of the model and the config whenever a save
+            has changed them.
     """
 
     def __init__(
         self,
         server: Server,
-        load: Callable[[Path], Robot],
-        documents: Documents,
+        sources: Sources,
         report: Callable[[Sequence[Problem]], None] | None = None,
     ) -> None:
         self._server = server
-        self._load = load
-        robot = server.robot
-        self._model = robot.files[0] if robot is not None and robot.files else None
-        self._documents = documents
-        documents.on_open.append(lambda: server.set_reload_problems("config", ()))
+        self._sources = sources
         self._report = report
+        robot = server.robot
+        files = () if robot is None else robot.files
+        self._model = sources.model or next(iter(files), None)
+        self._documents = sources.documents
+        self._documents.on_open.append(self._opened)
         self._suspects: tuple[Path, ...] = ()
-        self._reported = () if robot is None else robot.problems
+        self._of_model = () if robot is None else robot.problems
+        self._of_config = self._documents.current.problems
+        self._reported: tuple[Problem, ...] = ()
+        self._watcher: FileWatcher | None = None
+
+    def start(self) -> None:
+        """Follow the files from now on; saves since they were opened count too."""
+        self._reported = (*self._of_model, *self._of_config)
         self._watcher = FileWatcher(
-            self._files, self._folders, self._changed, self._cannot_watch
+            self._files,
+            self._folders,
+            self._changed,
+            self._cannot_watch,
+            self._sources.opened,
         )
         self._watcher.start()
 
     def close(self) -> None:
         """Stop following the files."""
-        self._watcher.close()
+        if self._watcher is not None:
+            self._watcher.close()
 
     # What is watched
 
@@ -133,53 +145,77 @@ class Reloader:
         try:
             if reload_problems.is_pipe(path):
                 raise RobotError([reload_problems.unreadable("model-unreadable", path)])
-            robot = self._load(path)
+            robot = self._sources.load(path)
+            is_first = self._server.robot is None
+            if is_first:
+                # What the command line says of joints could not be checked before.
+                self._server.options.start_pose.state(robot)
         except RobotError as error:
-            files = (Path(p.file) for p in error.problems if p.file is not None)
-            self._suspects = (path, *files)
-            self._server.set_reload_problems("model", error.problems)
-            self._report_changed(error.problems)
+            self.refuse_model(error)
+        except JointError as error:
+            self.refuse_model(RobotError([reload_problems.start_pose(error)]))
         else:
-            if self._watcher.closed:
+            if self._watcher is None or self._watcher.closed:
                 return
             self._suspects = ()
             self._server.set_reload_problems("model", ())
-            self._server.show_robot(robot)
+            self._sources.show(robot)
             self._server.set_reload_problems("fault", ())
-            self._report_changed(robot.problems)
+            self._of_model = robot.problems
+        self._report_changed()
 
-    def _report_changed(self, problems: tuple[Problem, ...]) -> None:
-        """Report the problems of the model if they are not those reported last."""
+    def refuse_model(self, error: RobotError) -> None:
+        """Show why the model is not shown, and follow the files that may fix it."""
+        named = (Path(p.file) for p in error.problems if p.file is not None)
+        model = () if self._model is None else (self._model,)
+        suspects = (*model, *error.files, *named)
+        self._suspects = tuple(dict.fromkeys(map(Path.absolute, suspects)))
+        self._of_model = error.problems
+        self._server.set_reload_problems("model", error.problems)
+
+    def refuse_config(self, error: ConfigError) -> None:
+        """Show why the config is not shown."""
+        self._of_config = error.problems
+        self._server.set_reload_problems("config", error.problems)
+
+    def _report_changed(self) -> None:
+        """Report the problems if they are not those reported last."""
+        problems = (*self._of_model, *self._of_config)
         if self._report is not None and problems != self._reported:
             self._report(problems)
         self._reported = problems
+
+    def _opened(self) -> None:
+        """Another config was opened in the page."""
+        self._of_config = self._documents.current.problems
+        self._server.set_reload_problems("config", ())
 
     def _reload_config(self, path: Path) -> None:
         try:
             document = self._documents.read(path)
         except ConfigError as error:
-            self._server.set_reload_problems("config", error.problems)
-            if self._report is not None:
-                self._report(error.problems)
-            return
+            self.refuse_config(error)
+        else:
+            self._show_config(path, document)
+        self._report_changed()
+
+    def _show_config(self, path: Path, document: RvizConfig) -> None:
         text = document.to_yaml()
-        view_before = self._documents.view
+        before = self._documents.view
         if not self._documents.replace(path, document):
             return
         kept: list[Session] = []
 
         def take(session: Session) -> None:
-            if not self._take(session, path, text, view_before):
+            if not self._take(session, path, text, before):
                 kept.append(session)
 
         self._server.for_each_session(take)
-        self._server.set_reload_problems(
-            "config", (reload_problems.kept(path),) if kept else ()
-        )
+        problems = (reload_problems.kept(str(path)),) if kept else ()
+        self._server.set_reload_problems("config", problems)
+        self._of_config = problems or document.problems
 
-    def _take(
-        self, session: Session, path: Path, text: str, view_before: Plain
-    ) -> bool:
+    def _take(self, session: Session, path: Path, text: str, before: Plain) -> bool:
         """Show the file, unless that would throw away what a user has changed.
 
         The views of browsers stay as they are, unless the file has another view than
@@ -190,12 +226,12 @@ class Reloader:
         """
         with session.lock:
             if session.config.to_yaml() == text or self._documents.file != path:
-                # The page itself saved the file, or another one was opened.
+                # The page itself saved the file, or opened another one meanwhile.
                 return True
             if session.edits.modified:
                 return False
             session.set_config(self._documents())
-            if self._documents.view != view_before:
+            if self._documents.view != before:
                 session.show_view()
             return True
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import stat
 from pathlib import Path
 
-from sambot_viz.errors import Problem
+from sambot_viz.errors import JointError, Problem
 
 
 def unreadable(code: str, path: Path) -> Problem:
@@ -19,15 +19,25 @@ def unreadable(code: str, path: Path) -> Problem:
     )
 
 
-def kept(path: Path) -> Problem:
+def start_pose(error: JointError) -> Problem:
+    """The joint positions of the command line do not fit the first robot."""
+    return Problem(
+        "error",
+        "start-position-refused",
+        f"the robot cannot start as the command line says: {error}",
+        "correct the name in the model, or start again with other --joint or --zeros",
+    )
+
+
+def kept(file: str) -> Problem:
     """The config was saved elsewhere, and a user has changed it in the page."""
     return Problem(
         "warning",
         "config-changes-kept",
-        f"{path.name} was saved elsewhere, but the page has unsaved changes; "
+        f"{Path(file).name} was saved elsewhere, but the page has unsaved changes; "
         "they are kept, and the new version of the file is not shown",
         "save the config from the page, or load the file again",
-        str(path),
+        file,
     )
 
 

@@ -51,6 +51,7 @@ class FileWatcher:
             appeared in the folders; it runs in the watcher's thread, one call at a
             time.
         on_trouble: called once, with the reason, when the system cannot watch.
+        since: files that were saved after this time [ns] count as changed; default now.
     """
 
     def __init__(
@@ -59,6 +60,7 @@ class FileWatcher:
         folders: Callable[[], Iterable[Path]],
         on_change: OnChange,
         on_trouble: Callable[[str], None],
+        since: int | None = None,
     ) -> None:
         self._files = files
         self._more_folders = folders
@@ -66,13 +68,16 @@ class FileWatcher:
         self._on_trouble = on_trouble
         self._stop = threading.Event()
         self._looked = time.time_ns()
-        self._known: dict[Path, Stamp | None] = self._stamps()
+        self._known: dict[Path, Stamp | None] = {
+            path: None if since is not None and _saved_since(now, since) else now
+            for path, now in self._stamps().items()
+        }
         self._thread = threading.Thread(
             target=self._run, name="sambot-viz-watch", daemon=True
         )
 
     def start(self) -> None:
-        """Watch from now on; what changed since the construction is found too."""
+        """Watch from now on; what was saved before, since `since`, is found too."""
         self._thread.start()
 
     def close(self) -> None:

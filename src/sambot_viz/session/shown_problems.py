@@ -9,6 +9,7 @@ from sambot_viz.problem_groups import in_order
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session
+    from sambot_viz.session.problem_list import Reloaded
 
 
 def problems_of(session: Session) -> list[Problem]:
@@ -26,10 +27,21 @@ def problems_of(session: Session) -> list[Problem]:
 
 
 def last_good_note(session: Session) -> str:
-    """A sentence that says that the picture is not what the file says, or nothing."""
-    faults = session.problems.of_saves.get("model", ())
-    if not any(fault.severity == "error" for fault in faults):
-        return ""
-    if session.robot is None:
-        return "The model has a mistake: the robot appears as soon as it is fixed."
-    return "Showing the last good version: what was saved has a mistake."
+    """What the page shows instead of files with a mistake, in words; or nothing."""
+    notes: list[str] = []
+    if _has_error(session, "model"):
+        notes.append(
+            "The model has a mistake: the robot appears as soon as it is fixed."
+            if session.robot is None
+            else "Showing the last good version: what was saved has a mistake."
+        )
+    if _has_error(session, "config"):
+        notes.append(
+            "The config has a mistake: its displays appear as soon as it is fixed."
+        )
+    return " ".join(notes)
+
+
+def _has_error(session: Session, of: Reloaded) -> bool:
+    faults = session.problems.of_saves.get(of, ())
+    return any(fault.severity == "error" for fault in faults)

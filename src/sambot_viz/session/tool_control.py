@@ -135,22 +135,24 @@ class ToolControl:
             self.current.cancel()
 
     def focus(self, at: ScreenPoint | None = None) -> None:
-        """F: look at what is under the mouse, or else show the whole robot.
+        """Key F: look at what is under the mouse, or show the whole robot.
 
-        With Select, and for a button, what is selected comes first.
+        As in RViz, Select looks at what is selected; so does any tool when it is not
+        known where the mouse is.
 
         Args:
-            at: where the mouse is, as in `hover`; None when it is not in the picture.
+            at: where the mouse is, from 0 (left, top) to 1 (right, bottom) of the
+                picture; None when it is not over it.
         """
-        rays = self._session.rays
-        if at is None or isinstance(self.current, SelectTool):
-            boxes = rays.boxes_of(self.selection).values()
+        click = None if at is None else pointed_at(self._browser.client, at)
+        if click is None or isinstance(self.current, SelectTool):
+            with self._session.lock:
+                boxes = self._session.rays.boxes_of(self.selection).values()
             if boxes:
                 low = np.min([box[0] for box in boxes], axis=0)
                 high = np.max([box[1] for box in boxes], axis=0)
                 self.look_at((low + high) / 2)
                 return
-        click = None if at is None else pointed_at(self._browser.client, at)
         if click is None:
             self._browser.view.fit()
             return
@@ -161,7 +163,9 @@ class ToolControl:
             else:
                 self.look_at(hit.point)
 
-        rays.follow(lambda s: s.first_hit(click.origin, click.direction), then)
+        self._session.rays.follow(
+            lambda s: s.first_hit(click.origin, click.direction), then
+        )
 
     # What tools may use (tools.tool.ToolContext)
 

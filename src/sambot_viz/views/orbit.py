@@ -33,13 +33,11 @@ ORBIT_PROPERTIES: tuple[Property, ...] = (
         minimum=0.001,
         unit="m",
         help="Size of the mark at the focal point while the mouse moves the view.",
-        support="none",
     ),
     BoolProperty(
         "Focal Shape Fixed Size",
         default=True,
         help="Keep the size of that mark in metres, not on the screen.",
-        support="none",
     ),
     FloatProperty(
         "Yaw",

@@ -11,12 +11,7 @@ RAISED = 0.2
 
 
 class XYOrbitView(OrbitView):
-    """Looks at a point of the ground.
-
-    A page turns the camera about the middle of the picture, which is above the focal
-    point; RViz turns it about the focal point itself. What the camera shows then is
-    kept exactly, so the focal point may leave the ground a little.
-    """
+    """Looks at a point of the ground."""
 
     kind = "rviz_default_plugins/XYOrbit"
     help = "Moves around a point of the ground, which stays low in the picture."

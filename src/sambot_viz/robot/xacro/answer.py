@@ -59,7 +59,7 @@ def read_answer(answer: Mapping[str, Any], file: str) -> ExpandedModel:
     if "xml_fault" in answer:
         message, line, column, code = answer["xml_fault"]
         fault = XmlFault(message, line, column, answer["text"], code)
-        raise ExpansionXmlError(answer["file"], fault)
+        raise ExpansionXmlError(answer["file"], fault, tuple(answer["files"]))
     problems = [_warning(*entry) for entry in answer["warnings"]]
     problems += [
         missing_prefix(tag, is_macro, Place(*place))
@@ -137,6 +137,7 @@ def _failure(data: Mapping[str, Any]) -> XacroFailure:
         includes=tuple(data["includes"]),
         missing_package=_lookup(*missing) if missing else None,
         definitions=tuple(Definition(*entry) for entry in data["definitions"]),
+        files=tuple(data["files"]),
     )
 
 

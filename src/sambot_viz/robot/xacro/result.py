@@ -59,6 +59,7 @@ class XacroFailure:
         includes: files being read, innermost first; the last is the main file.
         missing_package: the failed look-up of ``$(find name)``, or None.
         definitions: what was defined so far, for near names.
+        files: the files that were read or looked for, beside the model.
     """
 
     kind: str
@@ -73,6 +74,7 @@ class XacroFailure:
     includes: tuple[str, ...] = ()
     missing_package: Lookup | None = None
     definitions: tuple[Definition, ...] = ()
+    files: tuple[str, ...] = ()
 
 
 class ExpansionError(Exception):
@@ -84,9 +86,13 @@ class ExpansionError(Exception):
 
 
 class ExpansionXmlError(Exception):
-    """A file that xacro reads is not XML: `file`, and the `fault` in it."""
+    """A file that xacro reads is not XML: `file`, and the `fault` in it.
 
-    def __init__(self, file: str, fault: XmlFault) -> None:
+    `files` are those that were read or looked for, beside the model.
+    """
+
+    def __init__(self, file: str, fault: XmlFault, files: tuple[str, ...] = ()) -> None:
         super().__init__(str(fault))
         self.file = file
         self.fault = fault
+        self.files = files

@@ -25,17 +25,26 @@ class PackageNotFoundError(KeyError):
 
 
 class XacroFiles:
-    """Replaces ament_index_python, and finds files that xacro does not find."""
+    """Replaces ament_index_python, and finds files that xacro does not find.
+
+    Args:
+        index: where packages are.
+        guard: checks the paths of a model that is not trusted.
+        warn: takes what is doubtful.
+        named: gets the absolute name of every file that the model names.
+    """
 
     def __init__(
         self,
         index: PackageIndex,
         guard: Guard | None,
         warn: Callable[[str], object],
+        named: list[str],
     ) -> None:
         self._index = index
         self._guard = guard
         self._warn = warn
+        self._named = named
         self._roots: list[Path] = []
         if guard is not None:
             guard.roots = self._roots
@@ -45,7 +54,10 @@ class XacroFiles:
         original: Callable[[str], str] = xacro.abs_filename_spec
 
         def find(spec: str) -> str:
-            return self._find(spec, original, xacro)
+            path = self._find(spec, original, xacro)
+            if not glob.has_magic(path):
+                self._named.append(os.path.abspath(path))
+            return path
 
         xacro.abs_filename_spec = find
         packages: Any = types.ModuleType("ament_index_python.packages")

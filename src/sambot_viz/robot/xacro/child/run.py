@@ -52,6 +52,7 @@ def run(job: dict[str, Any]) -> bytes:
                 "xml_fault": [fault.message, fault.line, fault.column, fault.code],
                 "file": expansion.reading,
                 "text": fault.text,
+                "files": expansion.wanted,
             }
         )
     except Exception as error:
@@ -78,7 +79,13 @@ class Expansion:
         self._main_text: str | None = job["text"]
         self.reading = ""
         self._guard = Guard(job["folder"]) if job["untrusted"] else None
+        self._named: list[str] = []
         self._patch()
+
+    @property
+    def wanted(self) -> list[str]:
+        """The files beside the model that were read or looked for, so far."""
+        return list(dict.fromkeys([*self._files, *self._named]))
 
     def result(self) -> dict[str, Any]:
         """Expand and describe the outcome.
@@ -99,7 +106,7 @@ class Expansion:
             "xml": text,
             "nodes": nodes,
             "names": names,
-            "files": list(dict.fromkeys(self._files)),
+            "files": [name for name in self.wanted if os.path.isfile(name)],
             "warnings": self._warnings,
             "unprefixed": self._unprefixed(document.documentElement),
         }
@@ -139,6 +146,7 @@ class Expansion:
             "includes": stack,
             "missing_package": getattr(cause, "missing_package", None),
             "definitions": list(self._definitions.values()),
+            "files": self.wanted,
         }
 
     def _patch(self) -> None:
@@ -163,7 +171,7 @@ class Expansion:
             x._global_symbols["xacro"][name] = function
         folder = Path(job["folder"]) if job["folder"] else None
         index = PackageIndex(folder, job["package_path"], job["environment"])
-        XacroFiles(index, self._guard, self._warn).install(x)
+        XacroFiles(index, self._guard, self._warn, self._named).install(x)
         if self._guard is not None:
             self._guard.install(x)
 

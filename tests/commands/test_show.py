@@ -1,0 +1,113 @@
+"""`sambot-viz`: what it does with a model or a config that has a mistake."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from program import address, running
+from protocol_client import ProtocolClient
+
+ARM = """<robot name="arm">
+<link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+<link name="b"/>
+<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>
+</robot>
+"""
+WITHOUT_JOINT = "\n".join(line for line in ARM.splitlines() if "<joint" not in line)
+NOT_XML = ARM.replace("</robot>", "</rob>")
+RVIZ = "Visualization Manager:\n  Displays: []\n"
+BROKEN_RVIZ = "Panels:\n  - Class: a\n Name: b\n"
+
+
+def read_until(process: subprocess.Popen[str], text: str) -> str:
+    """What standard error says up to a line with a text."""
+    assert process.stderr is not None
+    said = ""
+    for line in process.stderr:
+        said += line
+        if text in line:
+            return said
+    raise AssertionError(f"it ended without {text!r}: {said}")
+
+
+@pytest.mark.parametrize(
+    ("broken", "code", "message"),
+    [
+        (NOT_XML, "xml-closing-tag-misspelt", "opened on line 1 is closed by"),
+        (WITHOUT_JOINT, "root-not-unique", "there is more than one root link"),
+    ],
+)
+def test_a_broken_model_is_served_and_its_robot_comes_when_it_is_fixed(
+    tmp_path: Path,
+    broken: str,
+    code: str,
+    message: str,
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    model = tmp_path / "arm.urdf"
+    model.write_text(broken)
+    with running("arm.urdf", "--port", "0", cwd=tmp_path) as process:
+        client = protocol(int(address(process).rsplit(":", 1)[1]))
+        said = read_until(process, "the page is open")
+        assert said.startswith("arm.urdf:") and f"error[{code}]" in said
+        client.wait_until(lambda: message in str(client.messages))
+        assert client.types()["BoxMessage"] == 0
+
+        model.write_text(ARM)
+
+        assert read_until(process, "fixed") == "sambot-viz: all problems are fixed\n"
+        client.wait_until(lambda: client.types()["BoxMessage"] == 1)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=10) == 0
+
+
+def test_a_broken_config_is_served_with_the_default_displays_until_it_is_fixed(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "arm.urdf").write_text(ARM)
+    config = tmp_path / "own.rviz"
+    config.write_text(BROKEN_RVIZ)
+    words = ("arm.urdf", "-d", "own.rviz", "--port", "0")
+    with running(*words, cwd=tmp_path) as process:
+        assert address(process).startswith("http://")
+        said = read_until(process, "the page is open")
+        assert said.startswith("own.rviz:3:2: error[config-yaml]")
+        config.write_text(RVIZ)
+        assert read_until(process, "fixed") == "sambot-viz: all problems are fixed\n"
+
+
+@pytest.mark.parametrize(
+    ("model", "config", "words", "said"),
+    [
+        (NOT_XML, RVIZ, ["--no-watch"], "arm.urdf:5:1: error"),
+        (WITHOUT_JOINT, RVIZ, ["--no-watch"], "error[root-not-unique]"),
+        (ARM, BROKEN_RVIZ, ["--no-watch"], "own.rviz:3:2: error"),
+        (ARM, RVIZ, ["--joint", "k=1"], "no joint 'k'"),
+        (ARM, RVIZ, ["--zeros", "k=1"], "no joint 'k'"),
+        (ARM, RVIZ, ["--poses", "arm.urdf"], "arm.urdf"),
+        (
+            ARM,
+            RVIZ,
+            [f"--static-transform=0 0 0 0 0 0 {ends}" for ends in ("a b", "b a")],
+            "the frames would form a ring",
+        ),
+    ],
+)
+def test_what_will_not_be_served_ends_with_1_and_without_an_address(
+    model: str,
+    config: str,
+    words: list[str],
+    said: str,
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "arm.urdf").write_text(model)
+    (tmp_path / "own.rviz").write_text(config)
+    words = ["arm.urdf", "-d", "own.rviz", "--port", "0", *words]
+    with running(*words, cwd=tmp_path) as process:
+        out, err = process.communicate(timeout=30)
+        assert (process.returncode, out) == (1, "")
+        assert said in err
