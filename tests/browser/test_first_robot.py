@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
-from inside import node_of
+from inside import node_of, session_of
 from viewer_page import Pixels, ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -67,6 +69,41 @@ def wait_for_turn(viz: Visualizer, viewer: ViewerPage, angle: float) -> None:
 def slider(viewer: ViewerPage, joint: str) -> float:
     """What the slider of a joint shows."""
     return float(viewer.user.find("slider", joint).value)
+
+
+@pytest.fixture
+def at_first() -> Iterator[Visualizer]:
+    """sam_bot as it is shown without a config."""
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height(
+    at_first: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(at_first.url)
+    viewer.wait_for_nodes(node_of(at_first, LINK))
+    # The panels come after the robot and make the view narrower.
+    viewer.wait_for("document.body.innerText.includes('Fixed Frame')")
+    session = session_of(at_first)
+    (browser,) = session.browsers.values()
+    width = "__viserMutable.canvas.getBoundingClientRect().width"
+    end = time.monotonic() + 20
+    while browser.client.camera.image_width != round(viewer.page.evaluate(width)):
+        assert time.monotonic() < end
+        viewer.wait_until_drawn()
+    viewer.wait_until_drawn()
+    box = session.rays.robot_box()
+    assert box is not None
+    places = [
+        viewer.project("", place) for place in product(*np.transpose(box).tolist())
+    ]
+    columns, rows = np.transpose(places)
+    height, across = viewer.pixels().shape[:2]
+    assert 0 < columns.min() < columns.max() < across
+    assert 0 < rows.min() < rows.max() < height
+    assert np.ptp(rows) > height / 3
+    assert not session.edits.modified
 
 
 def test_the_page_shows_robot_and_panels_and_asks_nobody_else(

@@ -27,3 +27,18 @@ def test_a_narrow_picture_is_filled_to_its_edges(tmp_path: Path) -> None:
     assert np.abs(corners.astype(int) - BACKGROUND).max() <= 1
     drawn = np.abs(pixels.astype(int) - BACKGROUND).max(axis=-1) > 12
     assert drawn.mean() > 0.02
+
+
+def test_the_robot_is_10_m_away_as_in_rviz_unless_it_is_to_fit(tmp_path: Path) -> None:
+    heights: list[int] = []
+    for words in ([], ["--fit"]):
+        file = tmp_path / "robot.png"
+        size = ["--size", "320x240"]
+        assert main(["snapshot", "-o", str(file), *size, *words]) == 0
+        with Image.open(file) as image:
+            pixels = np.asarray(image.convert("RGB")).astype(int)
+        # The body is cyan: grid, axes and names are not.
+        body = (pixels[..., 1] > pixels[..., 0] + 40) & (pixels[..., 2] > 100)
+        heights.append(np.ptp(np.flatnonzero(body.any(axis=1))))
+    assert heights[0] < 240 / 10
+    assert 240 / 3 < heights[1] < 240 * 0.75

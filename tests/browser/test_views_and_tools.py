@@ -187,6 +187,32 @@ def test_keys_choose_tools_and_clicks_select_and_measure(
     viewer.wait_for("document.body.innerText.includes('[Length: ')")
 
 
+def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
+    session: Session, viewer: ViewerPage
+) -> None:
+    tools, mouse = tools_of(session), viewer.page.mouse
+    session.set_global("Background Color", (255, 0, 255))
+    for display in session.displays:
+        if "Alpha" in display.config.properties:
+            is_robot = display.kind.endswith("/RobotModel")
+            session.set_property(display, "Alpha", 1.0 if is_robot else 0.0)
+    viewer.page.keyboard.press("s")
+    chosen(session, viewer, "Select")
+    until(viewer, lambda: bool((viewer.pixels()[5, 5, :3] == (255, 0, 255)).all()))
+    # Edges are smoothed: what is only tinged is not taken for a pixel of the robot.
+    robot = viewer.pixels()[..., 1] > 0
+    left, right = np.flatnonzero(robot.any(axis=0))[[0, -1]].tolist()
+    rows = np.flatnonzero(robot.any(axis=1))
+    top, bottom = float(rows[0]), float(rows[-1])
+    # Where the picture begins on the page.
+    x = place(viewer, (0.0, 0.0, 0.0))[0] - viewer.project("", (0.0, 0.0, 0.0))[0]
+    for outside, edge, inwards in ((left - 40, left, 1), (right + 40, right, -1)):
+        mouse.drag((x + outside, top), (x + edge + 2 * inwards, bottom))
+        until(viewer, lambda: len(tools.selection) > 0)
+        mouse.drag((x + outside, top), (x + edge - 2 * inwards, bottom))
+        until(viewer, lambda: not tools.selection)
+
+
 def test_the_panels_can_be_hidden(viewer: ViewerPage) -> None:
     assert "Joints" in viewer.text
     viewer.page.keyboard.press("h")

@@ -260,6 +260,55 @@ def test_a_frame_is_selected_by_its_axes_and_a_link_beside_them(
     assert list(browser.tools.selection) == [Selectable("link", wheel)]
 
 
+def test_the_axes_of_a_link_hide_it(open_browser: Callable[..., Browser]) -> None:
+    browser = open_browser("RobotModel")
+    (model,) = browser.session.displays
+    browser.trigger("Select")
+    for on, selected in ((True, []), (False, ["drivewhl_l_link"])):
+        browser.session.set_entry(model, "Links", "drivewhl_l_link", "Show Axes", on)
+        browser.click_down(-0.12, 0.18)
+        assert browser.selected == selected
+
+
+@pytest.mark.parametrize(
+    ("name", "height"),
+    [("Mass Properties/Mass", 0.2758), ("Mass Properties/Inertia", 0.0775)],
+)
+def test_masses_and_inertias_can_be_measured(
+    open_browser: Callable[..., Browser], tmp_path: Path, name: str, height: float
+) -> None:
+    """Of 1 t: a ball of lead, and a box of 0.155 m."""
+    model = tmp_path / "m.urdf"
+    model.write_text(
+        '<robot name="m"><link name="base_link"><inertial><mass value="1000"/>'
+        '<inertia ixx="4" iyy="4" izz="4" ixy="0" ixz="0" iyz="0"/></inertial>'
+        "</link></robot>",
+        "utf-8",
+    )
+    browser = open_browser("RobotModel")
+    browser.session.show_robot(load_robot(model))
+    (display,) = browser.session.displays
+    browser.session.set_property(display, name, True)
+    browser.trigger("Focus Camera")
+    browser.click_down(0.0, 0.0)
+    assert focal_point(browser) == (0.0, 0.0, height)
+
+
+def test_the_arrow_of_a_joint_can_be_measured(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("RobotModel")
+    (model,) = browser.session.displays
+    browser.session.set_property(model, "Alpha", 0.0)
+    browser.session.set_entry(
+        model, "Joints", "drivewhl_l_joint", "Show Joint Axis", True
+    )
+    browser.trigger("Measure")
+    for y in (0.25, 0.28):
+        browser.click_down(-0.12, y)
+    assert browser.tools.status.startswith("[Length: 0.03m] ")
+
+
 def test_frames_and_links_that_are_not_drawn_are_not_selected(
     open_browser: Callable[..., Browser],
 ) -> None:

@@ -38,7 +38,7 @@ def run(words: list[str]) -> int:
     start_state(inputs.robot(), options)
 
     from sambot_viz.export.chromium import Chromium
-    from sambot_viz.export.view_picture import snapshot
+    from sambot_viz.export.view_picture import LONGEST_WAIT, snapshot
     from sambot_viz.visualizer import Visualizer
 
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
@@ -48,6 +48,9 @@ def run(words: list[str]) -> int:
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
             camera = session.camera
+            if given.fit:
+                viz.server.wait_for_meshes(LONGEST_WAIT)
+                camera = session.camera_on_robot(width, height)
             picture = snapshot(viz.server, chromium, width, height, camera)
     _write(output, picture)
     return 0
@@ -68,6 +71,12 @@ def parser() -> Parser:
         default="800x600",
         metavar="WxH",
         help="size [pixels] (default: %(default)s)",
+    )
+    add(
+        "--fit",
+        action="store_true",
+        help="show the whole robot, whatever distance the config says (RViz's default "
+        "is 10 m)",
     )
     return made
 

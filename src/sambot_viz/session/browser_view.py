@@ -1,9 +1,11 @@
 """The view of one browser: its type, its numbers, and the camera that they describe.
 
-A browser begins with a copy of the document's view, which is its own from then on. Its
-mouse moves its camera, and the numbers follow. The document takes over the view of the
-browser that saves it (`store`). With `Session.follow_presenter`, all browsers show what
-the browser shows whose camera moved last.
+A browser begins with a copy of the document's view, which is its own from then on.
+Where the file does not say how near the camera is, it shows the whole robot until the
+user takes another view. The mouse moves the camera, and the numbers follow. The
+document takes over the view of the browser that saves it (`store`). With
+`Session.follow_presenter`, all browsers show what the browser shows whose camera moved
+last.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import short_name
 from sambot_viz.session.browser_camera import BrowserCamera, same_picture
 from sambot_viz.session.document_view import target_of, view_of
+from sambot_viz.session.robot_framing import RobotFraming, window_of
 from sambot_viz.session.saved_views import SavedViews
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.tools.picking.pick_scene import Corners
@@ -59,10 +62,11 @@ class BrowserView(SavedViews):
         self._browser = browser
         self._camera = BrowserCamera(browser.client)
         self._target = WORLD
+        self._framing = RobotFraming(session, browser.client)
         self._take(session.config.detached_view())
         self._reader = Throttle(session.worker, READ_PERIOD, self._read)
         if self._camera.is_fresh:
-            self._point()
+            self._begin()
         else:
             self._keep_camera()
 
@@ -148,16 +152,13 @@ class BrowserView(SavedViews):
         """
         found = self._session.rays.robot_box() if box is None else box
         if found is not None:
-            low, high = found
-            window = self._browser.client.camera
-            size = max(1, window.image_width), max(1, window.image_height)
-            self._move(lambda: self.view.fit(low, high, *size, self._target))
+            self._move(lambda: self._values_for(found))
 
     def show(self) -> None:
         """Take the document's view, after a program has set another one."""
         with self._browser.change("view"):
             self._take(self._session.config.detached_view())
-            self._point()
+            self._begin()
 
     def store(self) -> None:
         """Write the view into the document, which is about to be saved."""
@@ -176,6 +177,22 @@ class BrowserView(SavedViews):
 
     # Inside
 
+    def _begin(self) -> None:
+        """Show a view of the document for the first time."""
+        self._point()
+        self._framing.begin(self.view)
+        self._frame_robot()
+
+    def _frame_robot(self) -> None:
+        box = self._framing.box()
+        if box is not None:
+            with self._browser.change("view"):
+                self._apply(self._values_for(box))
+                self._point()
+
+    def _values_for(self, box: Corners) -> Values:
+        return self.view.fit(*box, *window_of(self._browser.client), self._target)
+
     def _take(self, config: ViewConfig) -> None:
         self._config = config
         self.view = view_of(config)
@@ -192,6 +209,7 @@ class BrowserView(SavedViews):
     def _edit(self, label: str, merge: object = None) -> Generator[None]:
         """Change the view, move the camera, and record that."""
         config, before = self._config, dict(self.values)
+        self._framing.stop()
         with self._browser.change("view"):
             yield
             self._target = target_of(self._session, self.view, self._target)
@@ -213,6 +231,7 @@ class BrowserView(SavedViews):
     def _restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:
         if self._config is not shown:
             raise UsageError("another view was shown since")
+        self._framing.stop()
         with self._browser.change("view"):
             if config is not shown:
                 self._take(config)
@@ -227,6 +246,7 @@ class BrowserView(SavedViews):
 
     def _move(self, values: Callable[[], Values]) -> None:
         """Move the camera from where it is now; as with a mouse, that is no edit."""
+        self._framing.stop()
         with self._browser.change("view"):
             self._take_camera()
             self._apply(values())
@@ -245,7 +265,10 @@ class BrowserView(SavedViews):
         """The browser reports its camera; most reports are echoes of what we sent."""
         with self._session.lock:
             if not self._camera.take():
+                # The window may have another size now.
+                self._frame_robot()
                 return
+            self._framing.stop()
         self._reader.request()
 
     def _read(self) -> None:
@@ -266,6 +289,7 @@ class BrowserView(SavedViews):
 
     def follow(self, presenter: BrowserView) -> None:
         """Show what another browser shows."""
+        self._framing.stop()
         with self._browser.change("view"):
             if self._config.class_id != presenter._config.class_id:
                 self._take(self._session.config.detached_view(presenter._config))
@@ -276,6 +300,8 @@ class BrowserView(SavedViews):
     def _hear(self, event: Event) -> None:
         if event in ("joints", "frames", "robot"):
             self._follow_target()
+        if event in ("robot", "status"):
+            self._frame_robot()
 
     def _follow_target(self) -> None:
         """Move the camera with the target frame."""

@@ -35,8 +35,8 @@ class PickRays:
     ) -> None:
         """Follow rays through what is drawn now, then act.
 
-        Millions of triangles take most of a second. A thread of its own does that, so
-        that neither browsers nor the session wait.
+        A rectangle over millions of triangles takes seconds. A thread of its own does
+        that, so that neither browsers nor the session wait.
         """
         snapshot = self._scene.snapshot()
         if snapshot.triangles <= INLINE:

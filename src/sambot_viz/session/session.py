@@ -111,6 +111,20 @@ class Session(RobotEdits):
         view = view_of(self.config.view)
         return view.camera(target_of(self, view))
 
+    def camera_on_robot(self, width: int, height: int) -> Camera:
+        """That camera, moved to where it shows the whole robot.
+
+        Args:
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+        """
+        view = view_of(self.config.detached_view())
+        target, box = target_of(self, view), self.rays.robot_box()
+        if box is not None:
+            for path, value in view.fit(*box, width, height, target).items():
+                view.config.set(path, value)
+        return view.camera(target)
+
     def show_view(self) -> None:
         """Give all browsers the document's view, which `set_config` does not."""
         with self.change():

@@ -48,6 +48,7 @@ class FPSView(View):
     kind = "rviz_default_plugins/FPS"
     help = "Stays at a position and looks around, as in a first-person game."
     properties = FPS_PROPERTIES
+    nearness = "Position"
 
     @property
     def position(self) -> Vector:

@@ -46,6 +46,7 @@ class TopDownOrthoView(View):
     help = "Looks straight down, without perspective."
     properties = TOP_DOWN_ORTHO_PROPERTIES
     orthographic = True
+    nearness = "Scale"
 
     @property
     def scale(self) -> float:

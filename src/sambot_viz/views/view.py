@@ -58,6 +58,8 @@ class View:
         properties: the declaration of everything a user can set.
         follows_yaw: whether it turns with the target frame.
         orthographic: whether parallel lines stay parallel in its picture.
+        nearness: the property that says how near the camera is; where a file does not
+            give it, the robot decides (`fit`).
         config: its values in the document.
     """
 
@@ -66,6 +68,7 @@ class View:
     properties: ClassVar[tuple[Property, ...]]
     follows_yaw: ClassVar[bool] = False
     orthographic: ClassVar[bool] = False
+    nearness: ClassVar[str] = "Distance"
 
     def __init__(self, config: ViewConfig) -> None:
         self.config = config
@@ -152,6 +155,11 @@ class View:
     def moved(self, camera: Camera, before: Target, now: Target) -> Camera:
         """A camera of the fixed frame after its target has moved."""
         return to_fixed(to_target(camera, self._turned(before)), self._turned(now))
+
+    @property
+    def gives_nearness(self) -> bool:
+        """Whether the file, or a user, has said how near the camera is."""
+        return self.config.is_given(self.nearness)
 
     @property
     def near(self) -> float:

@@ -5,20 +5,31 @@ Sizes and colours are RViz's (docs/rviz-facts.md); no Alpha changes them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.drawn_shape import DrawnShape, Triangles
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
 from sambot_viz.displays.robot_model.trail import Trail
 from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
-from sambot_viz.displays.scene.solids import Arrow, add_arrows, add_axes, sphere
-from sambot_viz.geometry import Vector3, wxyz_from_matrix
+from sambot_viz.displays.scene.solids import (
+    Arrow,
+    add_arrows,
+    add_axes,
+    arrow_triangles,
+    axes_triangles,
+    sphere,
+)
+from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
+from sambot_viz.meshes.primitives import unit_box
 from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link, Robot
+from sambot_viz.robot.model import Inertial, Link, Robot
 
 AXES_LENGTH, AXES_DIAMETER = 0.1, 0.01
 SHAFT, HEAD = (0.15, 0.05), (0.05, 0.08)
@@ -32,7 +43,8 @@ class _Mark:
     """Something drawn at a node."""
 
     path: str
-    handles: tuple[Handle, ...]
+    handles: tuple[Handle, ...] = ()
+    shape: DrawnShape | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +114,12 @@ class RobotMarks:
             if self._context.nodes.connected(frame):
                 trail.follow(position_of(tree.lookup(fixed, frame).matrix))
 
+    def drawn_shapes(self) -> Iterator[DrawnShape]:
+        """What is drawn now, without the trails, which are lines."""
+        for mark in self._marks.values():
+            if mark.shape is not None:
+                yield mark.shape
+
     def clear(self) -> None:
         """Take everything out of the scene."""
         for mark in self._marks.values():
@@ -140,50 +158,53 @@ class RobotMarks:
             return bool(known.handles)
         if known is not None:
             remove_all(known.handles)
-        handles = self._make(what, node, thing)
-        self._marks[what, name] = _Mark(node, handles)
-        return bool(handles)
+        made, mark = self._make(what, node, thing), _Mark(node)
+        if made is not None:
+            mark = _Mark(node, made[0], DrawnShape(made[1], made[2], frame))
+        self._marks[what, name] = mark
+        return made is not None
 
-    def _make(self, what: str, node: str, thing: Link | Joint) -> tuple[Handle, ...]:
+    def _make(self, what: str, node: str, thing: Link | Joint) -> _Made | None:
         scene = self._context.scene
         if isinstance(thing, Joint):
             return self._make_joint(what, node, thing)
         if what == "a":
-            return (add_axes(scene, node, AXES_LENGTH, AXES_DIAMETER),)
+            axes = add_axes(scene, node, AXES_LENGTH, AXES_DIAMETER)
+            return (axes,), _AXES, np.eye(4)
         if thing.inertial is None:
-            return ()
+            return None
         if what == "m":
             diameter = ball_diameter(thing.inertial.mass)
-            at = position_of(thing.inertial.origin.matrix)
-            return (self._ball(node, diameter, at),) if diameter > 0 else ()
+            return self._ball(node, diameter, thing.inertial) if diameter > 0 else None
         box = inertia_box(thing.inertial)
         if box is None:
-            return ()
-        return (
-            scene.add_box(
-                node,
-                RED,
-                box.size,
-                wxyz=box.wxyz,
-                position=box.position,
-                **_NO_SHADOWS,
-            ),
+            return None
+        handle = scene.add_box(
+            node, RED, box.size, wxyz=box.wxyz, position=box.position, **_NO_SHADOWS
         )
+        w, x, y, z = box.wxyz
+        T = np.eye(4)
+        T[:3, :3] = np.array(rotation_from_xyzw((x, y, z, w))) * box.size
+        T[:3, 3] = box.position
+        return (handle,), unit_box(), T
 
-    def _ball(self, node: str, diameter: float, at: Vector3) -> Handle:
-        shape = sphere()
-        return self._context.scene.add_mesh_simple(
+    def _ball(self, node: str, diameter: float, inertial: Inertial) -> _Made:
+        shape, T = sphere(), np.eye(4)
+        T[:3, :3] *= diameter
+        T[:3, 3] = inertial.origin.matrix[:3, 3]
+        handle = self._context.scene.add_mesh_simple(
             node,
             shape.vertices,
             shape.faces,
             color=RED,
             flat_shading=True,
             scale=diameter,
-            position=at,
+            position=position_of(T),
             **_NO_SHADOWS,
         )
+        return (handle,), shape, T
 
-    def _make_joint(self, what: str, node: str, joint: Joint) -> tuple[Handle, ...]:
+    def _make_joint(self, what: str, node: str, joint: Joint) -> _Made | None:
         scene, T_link_joint = self._context.scene, joint.origin.matrix
         if what == "j":
             axes = add_axes(scene, node, AXES_LENGTH, AXES_DIAMETER)
@@ -191,13 +212,17 @@ class RobotMarks:
                 wxyz_from_matrix(T_link_joint),
                 position_of(T_link_joint),
             )
-            return (axes,)
+            return (axes,), _AXES, T_link_joint
         if not any(joint.axis):
-            return ()
+            return None
         # RViz leaves the rotation of the joint out, which is a mistake of RViz.
         x, y, z = (float(c) for c in T_link_joint[:3, :3] @ joint.axis)
         arrow = Arrow(position_of(T_link_joint), (x, y, z), SHAFT, HEAD)
-        return add_arrows(scene, node, [arrow], GREEN, GREEN)
+        handles = add_arrows(scene, node, [arrow], GREEN, GREEN)
+        return handles, arrow_triangles((arrow,)), np.eye(4)
 
 
+_Made = tuple[tuple[Handle, ...], Triangles, Matrix]
+"""The nodes of a mark, and the same as triangles with their pose in the link."""
+_AXES = axes_triangles(AXES_LENGTH, AXES_DIAMETER)
 _NO_SHADOWS: dict[str, Any] = {"cast_shadow": False, "receive_shadow": False}

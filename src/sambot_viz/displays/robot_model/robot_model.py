@@ -235,7 +235,8 @@ class RobotModelDisplay(Display):
             self._marks.moved()
 
     def drawn_shapes(self) -> Iterator[DrawnShape]:
-        """The shapes of the links."""
+        """The shapes of the links, and marks, which select nothing, as in RViz."""
+        yield from self._marks.drawn_shapes()
         for (link, _, _), (_, node) in self._shapes.items():
             frame = self.frame_of(link)
             # A link of another robot is found by its frame, not in the opened robot.

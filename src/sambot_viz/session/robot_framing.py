@@ -1,0 +1,63 @@
+"""Showing the whole robot at first, where the config says no distance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import viser
+
+from sambot_viz.tools.picking.pick_scene import Corners
+from sambot_viz.views.view import View
+
+if TYPE_CHECKING:
+    from sambot_viz.session import Session
+
+Size = tuple[int, int]
+"""Width and height [pixels]."""
+
+
+def window_of(client: viser.ClientHandle) -> Size:
+    """The size of a browser's 3D view."""
+    camera = client.camera
+    return max(1, camera.image_width), max(1, camera.image_height)
+
+
+class RobotFraming:
+    """When a browser's camera is to be moved so that it shows the whole robot.
+
+    That is when the robot comes, once its meshes are read, and in a window of another
+    size; never after the user has moved the camera.
+
+    Args:
+        session: what is shown.
+        client: the browser.
+    """
+
+    def __init__(self, session: Session, client: viser.ClientHandle) -> None:
+        self._session = session
+        self._client = client
+        self._wanted = False
+        self._window: Size | None = None
+        self._complete = False
+
+    def begin(self, view: View) -> None:
+        """A view of the document is shown."""
+        self._wanted = not view.gives_nearness
+        self._window, self._complete = None, False
+
+    def stop(self) -> None:
+        """The user, or a program, has taken another view."""
+        self._wanted = False
+
+    def box(self) -> Corners | None:
+        """The box to show now; None when the camera is to stay as it is."""
+        session, window = self._session, window_of(self._client)
+        if not self._wanted or session.robot is None:
+            return None
+        all_read = session.context.assets.progress is None
+        if window == self._window and (self._complete or not all_read):
+            return None
+        found = session.rays.robot_box()
+        if found is not None:
+            self._window, self._complete = window, all_read
+        return found

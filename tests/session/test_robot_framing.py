@@ -1,0 +1,233 @@
+"""The camera shows the whole robot at first, where the file says no distance."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from camera_reports import report, told, vector3
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer, bundled
+from sambot_viz.inputs import Inputs
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import Content, MeshCache
+from sambot_viz.options import Options
+from sambot_viz.server import server as server_module
+from sambot_viz.session import Session
+from sambot_viz.session.browser_view import BrowserView
+from sambot_viz.views.camera import FILLED_HEIGHT, FILLED_WIDTH
+
+FRESH = (3.0, 3.0, 3.0)
+Protocol = Callable[..., ProtocolClient]
+
+
+def opened(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
+    """A page of 640 x 480 pixels that was just opened."""
+    client = protocol(viz.viser.get_port(), camera=False)
+    report(client, FRESH)
+    client.settle(viz.viser)
+    return client
+
+
+def session_of(viz: Visualizer) -> Session:
+    return viz.server.sessions()[0]
+
+
+def view_of(viz: Visualizer) -> BrowserView:
+    return list(session_of(viz).browsers.values())[-1].view
+
+
+def echo(client: ProtocolClient, size: tuple[int, int] = (640, 480)) -> None:
+    """Report the camera that the page was sent, from a window of some size."""
+    position, look_at = told(client)[-1], told(client, "LookAt")[-1]
+    report(client, vector3(position), vector3(look_at), size=size)
+
+
+def filled(viz: Visualizer, size: tuple[int, int] = (640, 480)) -> tuple[float, float]:
+    """Which parts of the width and the height the box around the robot fills."""
+    box = session_of(viz).rays.robot_box()
+    assert box is not None
+    camera = view_of(viz).camera
+    corners = np.stack(np.meshgrid(*np.transpose(box)), axis=-1).reshape(-1, 3)
+    seen = corners - camera.position
+    ahead = np.tan(camera.fov / 2) * (seen @ camera.forward)
+    across = np.abs(seen @ camera.right) / ahead * size[1] / size[0]
+    return float(across.max()), float(np.abs(seen @ camera.image_up / ahead).max())
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Callable[[str], Path]:
+    """The bundled config with something more in its current view."""
+
+    def write(more: str) -> Path:
+        path = tmp_path / "own.rviz"
+        text = bundled.config_path().read_text()
+        path.write_text(text.replace("Value: Orbit (rviz)", more))
+        return path
+
+    return write
+
+
+def test_without_a_distance_the_whole_robot_fills_the_picture_and_nothing_is_changed(
+    protocol: Protocol,
+) -> None:
+    with Visualizer() as viz:
+        client = opened(viz, protocol)
+        across, above = filled(viz)
+        assert above == pytest.approx(FILLED_HEIGHT, abs=0.01)
+        assert across < FILLED_WIDTH
+        assert told(client)[-1] == pytest.approx(view_of(viz).camera.position)
+        assert not session_of(viz).edits.modified
+
+
+@pytest.mark.parametrize("more", ["Distance: 10", "Distance: 2.5"])
+def test_a_distance_of_the_file_is_taken_exactly(
+    more: str, config: Callable[[str], Path], protocol: Protocol
+) -> None:
+    with Visualizer(config=config(more)) as viz:
+        opened(viz, protocol)
+        values = view_of(viz).values
+        assert values["Distance"] == float(more.split()[1])
+        assert values["Focal Point"] == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "name"),
+    [
+        ("TopDownOrtho", "Scale: 10", "Scale"),
+        ("FPS", "Position: {X: 5, Y: 5, Z: 10}", "Position"),
+        ("XYOrbit", "Distance: 10", "Distance"),
+        ("ThirdPersonFollower", "Distance: 10", "Distance"),
+    ],
+)
+def test_every_view_shows_the_robot_unless_the_file_says_how_near_it_is(
+    kind: str, given: str, name: str, tmp_path: Path, protocol: Protocol
+) -> None:
+    text = bundled.config_path().read_text()
+    path = tmp_path / "own.rviz"
+    values: list[object] = []
+    for more in (given, "Name: Mine"):
+        kinds = text.replace(
+            "rviz_default_plugins/Orbit", f"rviz_default_plugins/{kind}"
+        )
+        path.write_text(kinds.replace("Value: Orbit (rviz)", more))
+        with Visualizer(config=path) as viz:
+            opened(viz, protocol)
+            values.append(view_of(viz).values[name])
+    assert values[0] in (10.0, (5.0, 5.0, 10.0))
+    assert values[1] not in (10.0, (5.0, 5.0, 10.0))
+
+
+def test_a_window_of_another_size_shows_the_whole_robot_again(
+    protocol: Protocol,
+) -> None:
+    with Visualizer() as viz:
+        client = opened(viz, protocol)
+        echo(client, size=(200, 480))
+        client.settle(viz.viser)
+        across, above = filled(viz, (200, 480))
+        assert across == pytest.approx(FILLED_WIDTH, abs=0.01)
+        assert above < FILLED_HEIGHT
+
+
+def test_a_camera_that_the_user_has_moved_stays(protocol: Protocol) -> None:
+    with Visualizer() as viz:
+        client = opened(viz, protocol)
+        echo(client)
+        client.settle(viz.viser)
+        report(client, (4.0, 1.0, 2.0))
+        client.settle(viz.viser)
+        report(client, (4.0, 1.0, 2.0), size=(200, 480))
+        client.settle(viz.viser)
+        assert view_of(viz).camera.position == pytest.approx((4.0, 1.0, 2.0))
+
+
+def test_a_value_that_was_set_stays(protocol: Protocol) -> None:
+    with Visualizer() as viz:
+        client = opened(viz, protocol)
+        view_of(viz).set("Distance", 7.0)
+        echo(client, size=(200, 480))
+        client.settle(viz.viser)
+        assert view_of(viz).values["Distance"] == 7.0
+
+
+def test_a_saved_model_leaves_the_camera_where_it_is(
+    tmp_path: Path, protocol: Protocol
+) -> None:
+    model = tmp_path / "r.urdf"
+    box = '<visual><geometry><box size="{0} {0} {0}"/></geometry></visual>'
+    text = f'<robot name="r"><link name="a">{box}</link></robot>'
+    model.write_text(text.format(1))
+    with Visualizer(model, watch=True) as viz:
+        client = opened(viz, protocol)
+        before = dict(view_of(viz).values)
+        mark = client.mark()
+        model.write_text(text.format(5))
+        client.wait_until(lambda: client.types(mark)["BoxMessage"] == 1)
+        client.settle(viz.viser)
+        assert dict(view_of(viz).values) == before
+
+
+def test_the_robot_of_a_fixed_model_is_shown_whole(
+    tmp_path: Path, protocol: Protocol
+) -> None:
+    model = tmp_path / "r.urdf"
+    box = '<visual><geometry><box size="3 3 3"/></geometry></visual>'
+    text = f'<robot name="r"><link name="a">{box}</link></robot>'
+    model.write_text(text.replace("</robot>", ""))
+    options = Options(model, watch=True)
+    with Visualizer.of_inputs(Inputs(options, may_be_broken=True)) as viz:
+        client = opened(viz, protocol)
+        assert view_of(viz).values["Distance"] == 10.0
+        model.write_text(text)
+        client.wait_until(lambda: client.types()["BoxMessage"] == 1)
+        client.settle(viz.viser)
+        assert filled(viz)[1] == pytest.approx(FILLED_HEIGHT, abs=0.01)
+
+
+class Gated(MeshCache):
+    """Reads files only as soon as the gate is open."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.gate = threading.Event()
+
+    def read(self, asset: Asset) -> Content:
+        assert self.gate.wait(20)
+        return super().read(asset)
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_the_robot_is_shown_whole_once_its_meshes_are_read_unless_the_camera_was_moved(
+    moved: bool, tmp_path: Path, protocol: Protocol, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cache = Gated()
+    monkeypatch.setattr(server_module, "MeshCache", lambda: cache)
+    (tmp_path / "m.obj").write_text(
+        "v 0 0 0\nv 7 0 0\nv 0 7 0\nv 0 0 7\nf 1 2 3\nf 1 3 4\n"
+    )
+    model = tmp_path / "r.urdf"
+    mesh = '<visual><geometry><mesh filename="m.obj"/></geometry></visual>'
+    model.write_text(f'<robot name="r"><link name="a">{mesh}</link></robot>')
+    try:
+        with Visualizer(model) as viz:
+            client = opened(viz, protocol)
+            assert view_of(viz).values["Distance"] < 3.0
+            echo(client)
+            client.settle(viz.viser)
+            if moved:
+                report(client, (4.0, 1.0, 2.0))
+                client.settle(viz.viser)
+            cache.gate.set()
+            viz.server.wait_for_meshes(20)
+            client.settle(viz.viser)
+            if moved:
+                assert view_of(viz).camera.position == pytest.approx((4.0, 1.0, 2.0))
+            else:
+                assert filled(viz)[1] == pytest.approx(FILLED_HEIGHT, abs=0.01)
+    finally:
+        cache.gate.set()
