@@ -24,8 +24,6 @@ export function shownUnit(row, inDegrees = degrees.value) {
   return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
 }
 
-export { refusals, refuse };
-
 /**
  * The value cell of a row.
  * @param {{row: Row, tab: number}} props tab: whether the Tab key stops here (0 or -1)
