@@ -101,5 +101,5 @@ def test_the_body_has_a_mass_and_children(
     found = facts(panel)
     assert found["Mass"] == "2.5 kg"
     assert found["Children"] == "post"
-    assert found["Joints to its children"] == "stands"
+    assert found["Child joints"] == "stands"
     assert found["Written at"] == "post.urdf:2"

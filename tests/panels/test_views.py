@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import pytest
 from panel_rows import edit, row_named, rows_of
 
+from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
@@ -82,3 +86,34 @@ def test_the_page_is_told_what_its_mouse_has_to_know(panel: ViewsPanel) -> None:
         "focalSize": 0.05,
         "focalFixed": True,
     }
+
+
+def test_an_unknown_type_is_shown_as_orbit_and_says_so(
+    session: Session, browser: Browser, panel: ViewsPanel, tmp_path: Path
+) -> None:
+    assert "view/:unknown" not in rows_of(panel)
+    path = tmp_path / "spiral.rviz"
+    text = bundled.config_path().read_text("utf-8")
+    path.write_text(text.replace("rviz_default_plugins/Orbit", "a/Spiral"), "utf-8")
+    session.set_config(load_config(path))
+    browser.view.show()
+    rows = rows_of(panel)
+    assert "not known here" in rows["view/:unknown"].value
+    assert rows["view/type"].value == ORBIT
+    edit(panel, "view/type", ABOVE)
+    assert "view/:unknown" not in rows_of(panel)
+
+
+def test_with_follow_the_presenter_the_others_see_what_one_does(
+    session: Session,
+    browser: Browser,
+    panel: ViewsPanel,
+    join: Callable[[], Browser],
+) -> None:
+    other = ViewsPanel(session, join())
+    edit(panel, "view/Distance", 5.0)
+    assert rows_of(other)["view/Distance"].value != 5.0
+    edit(other, "view/:follow", True)
+    assert rows_of(panel)["view/:follow"].value is True
+    edit(panel, "view/Distance", 4.0)
+    assert rows_of(other)["view/Distance"].value == 4.0

@@ -11,6 +11,7 @@ from browser_input import Caller
 
 Name = str | re.Pattern[str] | None
 """An exact name, a pattern that is searched in it, or any name."""
+Role = str | re.Pattern[str]
 
 
 @dataclass(eq=False, slots=True)
@@ -41,11 +42,11 @@ class Thing:
         for child in self.children:
             yield from child.walk()
 
-    def all(self, role: str, name: Name = None) -> list[Thing]:
+    def all(self, role: Role, name: Name = None) -> list[Thing]:
         """What is in it of a role, with a name."""
-        return [t for t in self.walk() if t.role == role and fits(t.name, name)]
+        return [t for t in self.walk() if fits(t.role, role) and fits(t.name, name)]
 
-    def one(self, role: str, name: Name = None) -> Thing:
+    def one(self, role: Role, name: Name = None) -> Thing:
         """The only thing in it of a role, with a name.
 
         Raises:
@@ -54,7 +55,7 @@ class Thing:
         found = self.all(role, name)
         if len(found) != 1:
             shown = getattr(name, "pattern", name)
-            known = sorted({t.name for t in self.walk() if t.role == role})
+            known = sorted({t.name for t in self.walk() if fits(t.role, role)})
             raise AssertionError(
                 f"{len(found)} things of role {role} named {shown!r} in "
                 f"{self.role} {self.name!r}; there are {known}"

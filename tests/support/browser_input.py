@@ -85,6 +85,11 @@ class Mouse:
         self._at: Point = (0.0, 0.0)
         self._pressed: Button | None = None
 
+    @property
+    def at(self) -> Point:
+        """Where it is."""
+        return self._at
+
     def move(self, x: float, y: float, *modifiers: str) -> None:
         """Move to (x, y), dragging when a button is held."""
         self._at = (x, y)

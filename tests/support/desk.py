@@ -8,7 +8,7 @@ from pathlib import Path
 
 import robots
 from protocol_client import wait_for_workers
-from recorded_page import open_page
+from recorded_page import RecordedPage, open_page
 from user import User
 from viewer_page import ViewerPage, viewer_url
 
@@ -49,11 +49,13 @@ class Desk:
         else:
             self.model = folder / f"{letter.lower()}.urdf"
             self.model.write_text(MODELS[letter](), "utf-8")
-        self.viz = Visualizer(self.model, port=0, watch=True)
         self._chromium = chromium
+        self.viz = Visualizer(self.model, port=0, watch=True)
         self.viewer = self.open()
 
-    def open(self, width: int = 1280, height: int = 720, *, touch: bool = False):
+    def open(
+        self, width: int = 1280, height: int = 720, *, touch: bool = False
+    ) -> ViewerPage:
         """Open one more page of it; `close` closes it too."""
         page = open_page(self._chromium, width, height, touch=touch)
         page.goto(viewer_url(self.viz.url))
@@ -66,12 +68,29 @@ class Desk:
         """Who uses the page."""
         return self.viewer.user
 
+    @property
+    def page(self) -> RecordedPage:
+        """The page of the browser itself."""
+        return self.viewer.page
+
+    @property
+    def fixed_frame(self) -> str:
+        """The frame in which all is drawn."""
+        (session,) = self.viz.server.sessions()
+        return str(session.config.global_options.get("Fixed Frame"))
+
+    def restart(self) -> None:
+        """End program and page, and start both again."""
+        self.close()
+        self.viz = Visualizer(self.model, port=0, watch=True)
+        self.viewer = self.open()
+
     def tidy(self) -> None:
         """Put everything back as it was, by what the page offers for that."""
         user = self.user
         user.keys("Escape", "Escape")
         user.click("tab", "Joints")
-        user.click("button", "Interact")
+        user.click("button", "Interact", ("toolbar", "Tools"))
         for _ in range(300):
             wait_for_workers()
             self.viewer.wait_for_frames()
@@ -79,8 +98,9 @@ class Desk:
             if undo.state("disabled"):
                 break
             user.click_on(undo)
-        user.click("button", "Zero")
-        user.click("button", "Focus")
+        tools = ("toolbar", "Tools")
+        user.click("button", "Zero", tools)
+        user.click("button", "Focus", tools)
 
     def close(self) -> None:
         """End page and program."""

@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, TypeVar, cast
 
-from ax_tree import Name, Thing, look, row_label, rows_of
+from ax_tree import Name, Role, Thing, look, row_label, rows_of
 from browser_input import Button, Point
 from recorded_page import RecordedPage
 
@@ -67,6 +67,15 @@ _MARK = """function () {
     [left + width / 2, top + height / 2])(mark.getBoundingClientRect()) : null;
 }"""
 
+_CUT_OFF = """function () {
+  const element = this.nodeType === 3 ? this.parentElement : this;
+  return element.scrollWidth > element.clientWidth + 1;
+}"""
+_TIP = """(() => {
+  const under = document.elementFromPoint(X, Y)?.closest("[title]");
+  return under ? under.title : "";
+})()"""
+
 
 class User:
     """A user at one page.
@@ -109,7 +118,7 @@ class User:
                 raise AssertionError(trouble or why or f"not true after {timeout:g} s")
             pause.wait(0.03)
 
-    def find(self, role: str, name: Name = None, *inside: tuple[str, Name]) -> Thing:
+    def find(self, role: Role, name: Name = None, *inside: tuple[Role, Name]) -> Thing:
         """Wait for the only thing of a role and name.
 
         Args:
@@ -126,26 +135,33 @@ class User:
 
         return self.until(found)
 
-    def there(self, role: str, name: Name = None) -> bool:
+    def there(self, role: Role, name: Name = None) -> bool:
         """Whether there is something of a role and name now."""
         return bool(self.see().all(role, name))
 
-    def gone(self, role: str, name: Name = None) -> None:
+    def gone(self, role: Role, name: Name = None) -> None:
         """Wait until nothing of a role and name is there."""
         self.until(lambda: not self.there(role, name), why=f"{role} {name!r} is there")
 
     def row(self, panel: str, *names: str) -> Thing:
         """Wait for the row of a panel with the last name, below rows with those before.
 
-        A name may leave out what stands behind a colon, as in "Status: Ok".
+        A name may leave out what stands behind a colon, as in "Status: Ok". A browser
+        names rows of a long list only near the screen: the user scrolls through it.
         """
+        at = 0
 
         def found() -> Thing:
+            nonlocal at
             rows = rows_of(self.see().one("treegrid", panel))
             fitting = [row for path, row in rows if _is_path(path, names)]
-            known = [row_label(row) for _, row in rows]
-            assert fitting, f"no row {names} in {panel}; there are {known}"
-            return fitting[0]
+            if fitting:
+                return fitting[0]
+            if any(path[-1] == "" for path, _ in rows):
+                at = (at + 15) % len(rows)
+                self.go_to(rows[at][1])
+            known = [path[-1] for path, _ in rows if path[-1]]
+            raise AssertionError(f"no row {names} in {panel}; there are {known}")
 
         return self.until(found)
 
@@ -172,6 +188,15 @@ class User:
         place = self.place(thing)
         return bool(place["free"]) and _is_whole(place)
 
+    def is_cut_off(self, thing: Thing) -> bool:
+        """Whether some of a text does not fit and is left out, as by an ellipsis."""
+        return bool(self._ask(thing, _CUT_OFF))
+
+    def tip_under_the_mouse(self) -> str:
+        """The text that a browser shows after a moment where the mouse is."""
+        x, y = self.page.mouse.at
+        return str(self.page.evaluate(_TIP.replace("X", str(x)).replace("Y", str(y))))
+
     @property
     def clipboard(self) -> str:
         """The text on the clipboard."""
@@ -179,7 +204,7 @@ class User:
 
     # Mouse and finger.
 
-    def click(self, role: str, name: Name = None, *inside: tuple[str, Name]) -> Thing:
+    def click(self, role: Role, name: Name = None, *inside: tuple[Role, Name]) -> Thing:
         """Click what `find` finds."""
         thing = self.find(role, name, *inside)
         self.click_on(thing)
@@ -287,9 +312,12 @@ class User:
 
     def enter(self, thing: Thing, text: str, end: str = "Enter") -> None:
         """Click into a field, which marks what is in it, type, and end with a key."""
-        self.click_on(thing)
+        if thing.state("focused"):
+            self.keys("Control+a")
+        else:
+            self.click_on(thing)
         if not text:
-            self.keys("Control+a", "Delete")
+            self.keys("Delete")
         self.type(text)
         if end:
             self.keys(end)

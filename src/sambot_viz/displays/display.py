@@ -168,6 +168,10 @@ class Display:
         """The links, joints or frames that have rows of their own."""
         return ()
 
+    def notes(self) -> Mapping[str, str]:
+        """Path of a property → what is worth knowing about the value it has."""
+        return {}
+
     @property
     def problems(self) -> tuple[Problem, ...]:
         """What was found in the files that the display is drawn from."""

@@ -17,7 +17,7 @@ _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
-_STYLES = ("window.css", "dialogs.css")
+_STYLES = ("window.css", "tree.css", "dialogs.css")
 
 
 def with_scripts(html: bytes, panels: bool) -> bytes:

@@ -24,8 +24,6 @@ export function shownUnit(row, inDegrees = degrees.value) {
   return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
 }
 
-export { refusals, refuse };
-
 /**
  * The value cell of a row.
  * @param {{row: Row, tab: number}} props tab: whether the Tab key stops here (0 or -1)
@@ -40,6 +38,13 @@ export function Box({ row, tab }) {
   return html`<input type="checkbox" class="box" aria-label=${row.name || ""} tabindex=${tab}
     checked=${Boolean(row.value)} disabled=${row.fixed || row.off}
     onChange=${(/** @type {any} */ e) => send(row.id, e.target.checked)} />`;
+}
+
+/** Enter in a cell of a tree: the text is accepted, and its row has the focus again.
+ * @param {HTMLElement} field */
+export function leave(field) {
+  const row = field.closest("[data-row]");
+  if (row instanceof HTMLElement) row.focus();
 }
 
 /** The first click marks the whole text, as typing is meant to replace it. @param {any} event */
@@ -58,7 +63,7 @@ export function focusWhole(event) {
  *   step: changes the value by so many steps; settle: the key is up again
  *   grab: a press that may become a drag
  */
-export function Field({ row, shown, accept, tab, step, settle, grab, mode, kind = "", title = row.help || "" }) {
+export function Field({ row, shown, accept, tab, step, settle, grab, mode, kind = "", title }) {
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
   const element = useRef(/** @type {any} */ (null));
@@ -83,9 +88,13 @@ export function Field({ row, shown, accept, tab, step, settle, grab, mode, kind 
   /** @param {any} event */
   const key = (event) => {
     const ctrl = event.ctrlKey || event.metaKey;
-    if (event.key === "Enter") { event.preventDefault(); done(); element.current.select(); }
-    else if (event.key === "Escape" && (typing.current || why)) {
-      event.stopPropagation();
+    if (event.key === "Enter") {
+      event.preventDefault();
+      done();
+      // A number stays in the hand: the arrow keys step it.
+      if (step) element.current.select(); else leave(element.current);
+    } else if (event.key === "Escape" && (typing.current || why)) {
+      // The tree takes the focus back to the row.
       put();
       refuse(row.id);
     } else if (step && !ctrl && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
@@ -170,12 +179,12 @@ function useHeld(row) {
 
 /** @param {{row: Row, tab: number}} props */
 export function NumberCell({ row, tab }) {
-  return html`<${NumberField} row=${row} tab=${tab} held=${useHeld(row)} title=${row.help || ""} />`;
+  return html`<${NumberField} row=${row} tab=${tab} held=${useHeld(row)} />`;
 }
 
 /** A number that is typed, stepped with the arrow keys or dragged sideways.
- * @param {{row: Row, tab: number, held: Held, title?: string}} props */
-function NumberField({ row, tab, held, title = "" }) {
+ * @param {{row: Row, tab: number, held: Held}} props */
+function NumberField({ row, tab, held }) {
   degrees.use();
   const { unit, factor, step } = shownUnit(row);
   const free = !row.fixed && !row.off;
@@ -219,7 +228,7 @@ function NumberField({ row, tab, held, title = "" }) {
     };
   };
   return html`<span class="number">
-    <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept} title=${title}
+    <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept}
       step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined}
       shown=${formatNumber(held.value * factor, factor === 1 ? 6 : 4)} />
     ${unit && html`<span class="unit">${unit}</span>`}
@@ -314,12 +323,13 @@ function VectorCell({ row, tab }) {
 /** @param {{row: Row, tab: number}} props */
 function ColorCell({ row, tab }) {
   const hex = "#" + row.value.map((/** @type {number} */ part) => part.toString(16).padStart(2, "0")).join("");
+  // All that is picked until the picker is closed is one step for undo.
   const gesture = useRef(0);
   return html`<span class="color">
     <input type="color" value=${hex} tabindex=${tab} disabled=${row.fixed || row.off}
       aria-label=${`${row.name}, choose`}
-      onFocus=${() => { gesture.current = newGesture(); }}
-      onInput=${(/** @type {any} */ e) => send(row.id, e.target.value, gesture.current || newGesture())} />
+      onInput=${(/** @type {any} */ e) => send(row.id, e.target.value, gesture.current ||= newGesture())}
+      onChange=${() => { gesture.current = 0; }} />
     <${Field} row=${row} tab=${tab} shown=${row.value.join("; ")}
       accept=${(/** @type {string} */ typed) => { send(row.id, typed); }} />
   </span>`;
@@ -330,7 +340,7 @@ function EnumCell({ row, tab }) {
   const options = row.options || [];
   if (row.editable) return html`<${ComboCell} row=${row} tab=${tab} options=${options} />`;
   const offered = options.includes(row.value) ? options : [row.value, ...options];
-  return html`<select class="field" aria-label=${row.name || ""} tabindex=${tab} title=${row.help || ""}
+  return html`<select class="field" aria-label=${row.name || ""} tabindex=${tab}
       disabled=${row.fixed || row.off} value=${row.value}
       onChange=${(/** @type {any} */ e) => send(row.id, e.target.value)}>
     ${offered.map((option) => html`<option value=${option}>${option}</option>`)}
@@ -347,13 +357,13 @@ function FrameCell({ row, tab }) {
 /** @param {{row: Row, tab: number, options: string[]}} props */
 function ComboCell({ row, tab, options }) {
   return html`<${Combo} label=${row.name || ""} value=${String(row.value ?? "")} options=${options}
-    tab=${tab} title=${refusals.get(row.id) || row.help || ""} invalid=${refusals.has(row.id)} off=${row.fixed || row.off}
-    accept=${(/** @type {string} */ chosen) => { refuse(row.id); send(row.id, chosen); }} />`;
+    tab=${tab} title=${refusals.get(row.id)} invalid=${refusals.has(row.id)} off=${row.fixed || row.off}
+    accept=${(/** @type {string} */ chosen) => { refuse(row.id); send(row.id, chosen); }} leave=${leave} />`;
 }
 
 /** @param {{row: Row, tab: number}} props */
 function FactCell({ row, tab }) {
-  return html`<span class="fact" title=${String(row.value)}>${row.value}</span>
+  return html`<span class="fact" title=${row.kind === "fact" ? String(row.value) : undefined}>${row.value}</span>
     ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;
 }
 
@@ -368,5 +378,5 @@ const CELLS = {
   bool: Box, int: NumberCell, float: NumberCell, slider: SliderCell, text: TextCell,
   file: TextCell, vector: VectorCell, color: ColorCell, enum: EnumCell, frame: FrameCell,
   fact: FactCell, display: (/** @type {any} */ { row, tab }) => row.fixed ? null : html`<${Box} row=${row} tab=${tab} />`,
-  status: (/** @type {any} */ { row, tab }) => (row.name !== "Status" && row.name !== "Global Status" ? html`<${FactCell} row=${row} tab=${tab} />` : null),
+  status: (/** @type {any} */ { row, tab }) => (row.whole ? null : html`<${FactCell} row=${row} tab=${tab} />`),
 };

@@ -20,6 +20,13 @@ export const newGesture = () => ++gestures;
  * @param {string} id @param {any} value @param {number} [gesture]
  */
 export function send(id, value, gesture) {
+  const row = rows.get(id);
+  if (row?.part !== undefined) {
+    // A number of a vector goes with the others; until the answer is here, they are as shown.
+    value = rows.value(row.in).with(row.part, value);
+    id = row.in;
+    rows.hope(id, value);
+  }
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
   // Without a connection, what was set last is sent as soon as it is back.
   if (online) post(edit);

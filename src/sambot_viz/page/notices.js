@@ -20,7 +20,10 @@ export const refusals = new Map();
 export function refuse(id, why) {
   const told = [...refusals.keys()];
   refusals.clear();
-  if (why) refusals.set(id, why);
+  if (why) {
+    refusals.set(id, why);
+    rows.putBack(id);
+  }
   for (const other of new Set([...told, id])) rows.notify(other);
 }
 

@@ -10,7 +10,7 @@
  *   id: string, in: string, kind: string, name?: string, value?: any, unit?: string,
  *   min?: number, max?: number, step?: number, options?: string[], editable?: boolean,
  *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean,
- *   open?: boolean, bold?: boolean, lazy?: boolean, [key: string]: any,
+ *   open?: boolean, bold?: boolean, lazy?: boolean, part?: number, [key: string]: any,
  * }} Row
  * @typedef {{base: number, panels: Record<string, Row[]>, rows?: Record<string, any>}} Part
  */
@@ -28,8 +28,8 @@ export class Rows {
     this.whole = new Map();
     /** @type {Map<string, Set<() => void>>} */
     this.listeners = new Map();
-    /** @type {Map<string, any>} */
-    this.drafts = new Map();
+    /** What the server has said of rows that show something newer. @type {Map<string, any>} */
+    this.held = new Map();
   }
 
   /**
@@ -57,6 +57,7 @@ export class Rows {
    * @param {string} name @param {Row[]} rows @param {Set<string>} touched
    */
   replace(name, rows, touched) {
+    rows = rows.flatMap((row) => [row, ...partsOf(row)]);
     const before = this.panels.get(name) || [];
     const ids = rows.map((row) => row.id);
     const kept = new Set(ids);
@@ -69,6 +70,7 @@ export class Rows {
       const key = row.in || `panel:${name}`;
       if (!below.has(key)) below.set(key, []);
       /** @type {string[]} */ (below.get(key)).push(row.id);
+      this.held.delete(row.id);
       if (!same(this.byId.get(row.id), row)) { this.byId.set(row.id, row); touched.add(row.id); }
     }
     for (const id of ids) if (!below.has(id)) this.below.delete(id);
@@ -81,6 +83,36 @@ export class Rows {
 
   /** @param {string} id @param {any} patch @param {Set<string>} touched */
   patch(id, patch, touched) {
+    if ("value" in patch) this.held.delete(id);
+    this.show(id, patch, touched);
+  }
+
+  /**
+   * Show a value that the server has not confirmed yet.
+   * @param {string} id @param {any} value
+   */
+  hope(id, value) {
+    if (!this.held.has(id)) this.held.set(id, this.value(id));
+    this.showNow(id, value);
+  }
+
+  /** Show what the server has said last: it has refused what is hoped for. @param {string} id */
+  putBack(id) {
+    if (!this.held.has(id)) return;
+    const value = this.held.get(id);
+    this.held.delete(id);
+    this.showNow(id, value);
+  }
+
+  /** @param {string} id @param {any} value */
+  showNow(id, value) {
+    const touched = new Set();
+    this.show(id, { value }, touched);
+    for (const key of touched) this.notify(key);
+  }
+
+  /** @param {string} id @param {any} patch @param {Set<string>} touched */
+  show(id, patch, touched) {
     const row = this.byId.get(id);
     if (!row) return;
     const changed = Object.keys(patch).filter((key) => !same(row[key] ?? null, patch[key]));
@@ -92,6 +124,11 @@ export class Rows {
     }
     this.byId.set(id, next);
     touched.add(id);
+    for (const part of partsOf(next)) {
+      if (same(this.byId.get(part.id), part)) continue;
+      this.byId.set(part.id, part);
+      touched.add(part.id);
+    }
   }
 
   /** @param {string} id */
@@ -119,6 +156,15 @@ export class Rows {
   notify(key) {
     for (const listener of [...(this.listeners.get(key) || [])]) listener();
   }
+}
+
+/** A row for each number of a vector. @param {Row} row @returns {Row[]} */
+function partsOf(row) {
+  if (row.kind !== "vector" || !row.parts) return [];
+  const { unit, step, fixed, off, help } = row;
+  const shared = Object.fromEntries(Object.entries({ unit, step, fixed, off, help }).filter(([, value]) => value !== undefined));
+  return row.parts.map((/** @type {string} */ name, /** @type {number} */ part) => (
+    { id: `${row.id}/.${name}`, in: row.id, kind: "float", name, value: row.value[part], part, ...shared }));
 }
 
 /** Whether two values from JSON are equal. @param {any} a @param {any} b @returns {boolean} */

@@ -65,6 +65,8 @@ export const selected = new Cell({});
 /** Angles in degrees. @type {Cell<boolean>} */
 export const degrees = new Cell(false, "degrees");
 
+/** How wide the names of a panel's rows are, as a part of the panel. @type {Cell<Record<string, number>>} */
+export const splits = new Cell({}, "splits");
 /** @param {string} id */
 export function isOpen(id) {
   return folds.value[id] ?? Boolean(rows.get(id)?.open);

@@ -52,9 +52,9 @@ function ToolButton({ id }) {
 }
 
 /** @param {{icon: string, name: string, keys: string, help: string, bare?: boolean, onClick: () => void}} props
- *   bare: without its word */
+ *   bare: without its word, and on a phone only in the menu */
 function Button({ icon, name, keys, help, bare, onClick }) {
-  return html`<button class="tool" aria-label=${name} aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
+  return html`<button class=${bare ? "tool rare" : "tool"} aria-label=${name} aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
     onClick=${onClick}><${Icon} name=${icon} />${!bare && html` <span class="word">${name}</span>`}</button>`;
 }
 
@@ -63,7 +63,7 @@ function EditButton({ id, icon, keys }) {
   const row = useRow(id);
   if (!row) return null;
   const title = row.value ? `${row.name}: ${row.value} (${keys})` : `${row.name} (${keys})`;
-  return html`<button class="tool" disabled=${row.off} title=${title} aria-label=${row.name}
+  return html`<button class="tool rare" disabled=${row.off} title=${title} aria-label=${row.name}
     aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(id)}><${Icon} name=${icon} /></button>`;
 }
 

@@ -4,31 +4,32 @@ from __future__ import annotations
 
 import itertools
 import weakref
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
-from typing import Any
 
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.status import StatusList
+from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.display_actions import DisplayActions
 from sambot_viz.panels.expanded import keep_expanded, mark_expanded
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
-from sambot_viz.panels.row import Level, Row
+from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_rows
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import GROUP, row_text
 from sambot_viz.session import Session
 
-OPTIONS, STATUS = "options", "status"
-_LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
+OPTIONS = "options"
 
 
 class DisplaysPanel(Panel):
     """Global Options, and each display with its status, properties and entries.
 
-    The rows of a single link, joint or frame, and of statuses that are fine, are only
-    made when a page has unfolded what they are below: a robot has hundreds.
+    The rows of links, joints and frames, and of statuses that are fine, are only made
+    when a page has unfolded what they are below: a robot has hundreds.
 
     Args:
         session: whose displays these are.
@@ -46,23 +47,30 @@ class DisplaysPanel(Panel):
             weakref.WeakKeyDictionary()
         )
         self._count = itertools.count(1)
+        self._actions = DisplayActions(session, self.display_of)
+        self._lazy: set[str] = set()
         self._unfolded: set[str] = set()
         self._facts: list[tuple[str, EntryList, str]] = []
 
     def rows(self) -> Sequence[Row]:
         """All rows; a row comes after the one above it."""
-        self._facts.clear()
-        config = self._session.config
-        made = [*self._global_rows(), *self._display_rows(config.displays, "")]
-        return [*mark_expanded(made, config.expanded), *self._actions()]
+        return [
+            *mark_expanded(self._tree(), self._session.config.expanded),
+            *self._actions.rows(),
+            Row("displays/unfold", "", "action", takes=(str,), set=self._unfold),
+        ]
 
     def keep_unfolded(self, unfolded: Collection[str]) -> None:
         """Write into the document which rows are unfolded, from their ids."""
-        config = self._session.config
-        made = [*self._global_rows(), *self._display_rows(config.displays, "")]
-        keep_expanded(config, made, unfolded)
+        keep_expanded(self._session.config, self._tree(), unfolded)
 
-    def values(self) -> dict[str, Any]:
+    def _tree(self) -> list[Row]:
+        self._facts.clear()
+        self._lazy.clear()
+        configs = self._session.config.displays
+        return [*self._global_rows(), *self._display_rows(configs, "")]
+
+    def values(self) -> Mapping[str, Json]:
         """What is shown of links and frames that are unfolded."""
         return {
             _fact_id(row_id, key): value
@@ -85,9 +93,20 @@ class DisplaysPanel(Panel):
             UsageError: it is not there any more.
         """
         for config, number in self._numbers.items():
-            if f"d{number}" == row_id and _is_in(config, self._session):
+            if f"d{number}" == row_id and self._session.config.holds(config):
                 return config
         raise UsageError("this display is not there any more")
+
+    def _is_unfolded(self, row_id: str) -> bool:
+        """Whether a page wants the rows below this one; else it may ask for them."""
+        self._lazy.add(row_id)
+        return row_id in self._unfolded
+
+    def _unfold(self, arguments: tuple[str]) -> None:
+        (row_id,) = arguments
+        if row_id in self._lazy and row_id not in self._unfolded:
+            self._unfolded.add(row_id)
+            self._remake(self)
 
     # The rows
 
@@ -97,24 +116,7 @@ class DisplaysPanel(Panel):
         yield from property_rows(
             session.config.global_options, OPTIONS, session.set_global
         )
-        status = session.drawn.global_status()
-        yield Row(
-            STATUS,
-            "",
-            "status",
-            "Global Status",
-            value=status.level,
-            level=_LEVELS[status.level],
-            expanded=status.level != "Ok",
-        )
-        yield Row(
-            f"{STATUS}/Fixed Frame",
-            STATUS,
-            "status",
-            "Fixed Frame",
-            value=status.text,
-            level=_LEVELS[status.level],
-        )
+        yield from global_status_rows(session)
 
     def _display_rows(
         self, configs: Sequence[DisplayConfig], above: str
@@ -123,11 +125,12 @@ class DisplaysPanel(Panel):
         for config in configs:
             row_id, display = self.id_of(config), displays.get(id(config))
             yield self._head(config, display, row_id, above)
-            if display is not None:
-                yield from self._status_rows(display, row_id)
-                yield from self._property_rows(display, row_id)
-            elif config.kind != GROUP:
+            if display is None:
                 yield _unsupported(config, row_id)
+            elif config.kind != GROUP:
+                if display.shown:
+                    yield from self._status_rows(display, row_id)
+                yield from self._property_rows(display, row_id)
             yield from self._display_rows(config.displays, row_id)
 
     def _head(
@@ -135,7 +138,7 @@ class DisplaysPanel(Panel):
     ) -> Row:
         level = None
         if display is not None and display.shown:
-            level = _LEVELS[display.status.level]
+            level = LEVELS[display.status.level]
         elif not config.supported:
             level = "info"
         return Row(
@@ -148,50 +151,51 @@ class DisplaysPanel(Panel):
             icon=config.kind.rpartition("/")[2],
             help=_help(config, display),
             bold=True,
-            extra={"display": config.kind, "known": config.supported},
+            extra={"display": config.kind, "group": config.kind == GROUP},
             set=partial(self._session.set_enabled, config),
         )
 
-    def _status_rows(self, display: Display, row_id: str) -> Iterator[Row]:
-        if not display.shown:
-            return
-        status, status_id = display.status, f"{row_id}/:status"
-        lazy = status.level == "Ok"
-        yield Row(
-            status_id,
-            row_id,
-            "status",
-            "Status",
-            value=status.level,
-            level=_LEVELS[status.level],
-            expanded=not lazy,
-            extra={"lazy": True} if lazy and status.rows else None,
-        )
-        if not lazy or status_id in self._unfolded:
-            yield from _statuses(status, status_id)
+    def _status_rows(self, display: Display, above: str) -> Iterator[Row]:
+        row_id = f"{above}/:status"
+        unfolded = self._is_unfolded(row_id)
+        return status_rows(self._session, display, row_id, above, all_rows=unfolded)
 
-    def _property_rows(self, display: Display, row_id: str) -> Iterator[Row]:
+    def _property_rows(self, display: Display, above: str) -> Iterator[Row]:
         item = display.config
         change = partial(self._session.set_property, display)
         entries = {found.title: found for found in display.entries()}
+        notes = display.notes()
+        of_list: dict[str, list[Row]] = {}
         for path, declared in item.declared.items():
             if not is_listed(item, declared):
                 continue
-            found = entries.get(path)
-            if declared.property.open_keys and found is None:
+            if declared.property.open_keys and path not in entries:
                 continue
-            yield property_row(item, declared, row_id, change)
-            if found is not None:
-                yield from self._entry_rows(display, found, f"{row_id}/{path}")
+            row = property_row(item, declared, above, change)
+            # The links of a robot come after the properties of their list.
+            for title in [t for t in of_list if not path.startswith(f"{t}/")]:
+                yield from of_list.pop(title)
+            if path in entries:
+                found = entries[path]
+                unfolded = self._is_unfolded(row.id)
+                row = replace(row, extra={"lazy": bool(found.names) and not unfolded})
+                if unfolded:
+                    of_list[path] = [*self._entry_rows(display, found, row.id)]
+            yield row
+            if path in notes:
+                yield Row(f"{row.id}/:note", row.above, "note", value=notes[path])
+        for rows in of_list.values():
+            yield from rows
 
     def _entry_rows(
         self, display: Display, entries: EntryList, above: str
     ) -> Iterator[Row]:
         for name in entries.names:
-            item, row_id = entries.item(name), f"{above}/{name}"
+            item, row_id = entries.item(name), _entry_id(above, name)
             change = partial(self._session.set_entry, display, entries.title, name)
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
+            unfolded = self._is_unfolded(row_id)
             yield Row(
                 row_id,
                 above,
@@ -199,59 +203,22 @@ class DisplaysPanel(Panel):
                 name,
                 value=item.get("Value") if box else None,
                 icon=entries.singular,
-                extra={"lazy": True, "entry": True},
+                extra={"lazy": not unfolded, "entry": True},
                 set=partial(change, "Value") if box else None,
             )
-            if row_id in self._unfolded:
-                self._facts.append((row_id, entries, name))
-                for path in wanted:
-                    if path != "Value" and path in item.declared:
-                        yield property_row(item, item.declared[path], row_id, change)
-                for key, value in entries.facts(name).items():
-                    yield Row(_fact_id(row_id, key), row_id, "fact", key, value)
-
-    # What the page can ask for
-
-    def _actions(self) -> Iterator[Row]:
-        yield _action("displays/unfold", (str,), self._unfold)
-        yield _action("displays/duplicate", (str,), self._duplicate)
-        yield _action("displays/remove", (str,), self._delete)
-        yield _action("displays/rename", (str, str), self._rename)
-        yield _action("displays/move", (str, str, int), self._move)
-
-    def _unfold(self, arguments: tuple[str]) -> None:
-        (row_id,) = arguments
-        if row_id not in self._unfolded:
-            self._unfolded.add(row_id)
-            self._remake(self)
-
-    def _duplicate(self, arguments: tuple[str]) -> None:
-        self._session.duplicate_display(self.display_of(arguments[0]))
-
-    def _delete(self, arguments: tuple[str]) -> None:
-        self._session.remove_display(self.display_of(arguments[0]))
-
-    def _rename(self, arguments: tuple[str, str]) -> None:
-        row_id, name = arguments
-        if not name.strip():
-            raise UsageError("a display needs a name")
-        self._session.rename_display(self.display_of(row_id), name.strip())
-
-    def _move(self, arguments: tuple[str, str, int]) -> None:
-        row_id, group, index = arguments
-        into = self.display_of(group) if group else None
-        self._session.move_display(self.display_of(row_id), index, into)
+            if not unfolded:
+                continue
+            self._facts.append((row_id, entries, name))
+            for path in wanted:
+                if path != "Value" and path in item.declared:
+                    yield property_row(item, item.declared[path], row_id, change)
+            for key, value in entries.facts(name).items():
+                yield Row(_fact_id(row_id, key), row_id, "fact", key, value)
 
 
-def _action(row_id: str, takes: tuple[Any, ...], act: Callable[[Any], object]) -> Row:
-    return Row(row_id, "", "action", takes=takes, set=act)
-
-
-def _statuses(status: StatusList, above: str) -> Iterator[Row]:
-    for key, row in status.rows.items():
-        yield Row(
-            f"{above}/{key}", above, "status", key, row.text, level=_LEVELS[row.level]
-        )
+def _entry_id(above: str, name: str) -> str:
+    """The id of a link, joint or frame; its name may hold slashes."""
+    return f"{above}/={name.replace('%', '%25').replace('/', '%2F')}"
 
 
 def _fact_id(row_id: str, key: str) -> str:
@@ -264,8 +231,7 @@ def _unsupported(config: DisplayConfig, above: str) -> Row:
         above,
         "note",
         "Status",
-        f"Displays of type {row_text(config.kind)} are not shown yet. It stays in the "
-        "file as it is.",
+        f"{_help(config, None)} It stays in the file as it is.",
         level="info",
     )
 
@@ -273,12 +239,7 @@ def _unsupported(config: DisplayConfig, above: str) -> Row:
 def _help(config: DisplayConfig, display: Display | None) -> str:
     if display is not None:
         return display.help
-    if config.kind == GROUP:
-        return "Displays that are switched on and off together."
-    return f"Displays of type {row_text(config.kind)} are not shown yet."
-
-
-def _is_in(config: DisplayConfig, session: Session) -> bool:
-    siblings = config.parent.displays if config.parent else session.config.displays
-    inside = any(config is sibling for sibling in siblings)
-    return inside and (config.parent is None or _is_in(config.parent, session))
+    kind = row_text(config.kind)
+    if config.kind in NOT_SHOWN:
+        return f"{NOT_SHOWN[config.kind]} {kind} is not shown: it {REASON}."
+    return f"{kind} is not shown: this version does not know this type."

@@ -41,7 +41,7 @@ def _pose(tree: FrameTree, name: str, frame: str) -> Iterator[Fact]:
     yield "Position", f"{shown_numbers(transform.translation.tolist())} m"
     yield "Orientation", f"{shown_numbers(transform.rotation_xyzw.tolist())} (xyzw)"
     degrees = shown_numbers([math.degrees(angle) for angle in rpy], 3)
-    yield "Roll, pitch, yaw", f"{shown_numbers(rpy)} rad ({degrees} °)"
+    yield "RPY", f"{shown_numbers(rpy)} rad ({degrees} °)"
 
 
 def _relations(tree: FrameTree, name: str) -> Iterator[Fact]:
@@ -63,7 +63,7 @@ def _written(session: Session, name: str) -> Iterator[Fact]:
             yield from _joint(session, joint)
     below = [joint.name for joint in robot.joints.values() if joint.parent == name]
     if below:
-        yield "Joints to its children", ", ".join(below)
+        yield "Child joints", ", ".join(below)
     yield from _link(link)
 
 

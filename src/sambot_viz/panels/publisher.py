@@ -8,6 +8,7 @@ since, written again with every change. A browser that joins applies both.
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Literal, Protocol
@@ -24,6 +25,10 @@ PERIOD = 0.05
 """Shortest time between two messages with rows [s]."""
 MOST_CHANGES = 16_000
 """When the changes are longer than this, all rows are sent again [characters]."""
+FEW_CHANGES = 2000
+TIDY_PERIOD = 5.0
+"""For changes longer than `FEW_CHANGES`, all rows are sent again this often [s];
+a step of one joint is a few bytes again then."""
 
 Scope = Literal["session", "browser"]
 
@@ -55,6 +60,7 @@ class Publisher:
         self._panels = tuple(panels)
         self._scope = scope
         self._base = 0
+        self._tidied_at = time.monotonic()
         self._rows: dict[str, dict[str, Row]] = {panel.name: {} for panel in panels}
         self._sent: dict[str, dict[str, Json]] = {}
         self._replaced: dict[str, list[dict[str, Json]]] = {}
@@ -119,8 +125,10 @@ class Publisher:
 
     def _send(self) -> None:
         changes = self._element("changes", self._difference())
-        if len(changes) > MOST_CHANGES:
+        tidy = time.monotonic() - self._tidied_at >= TIDY_PERIOD
+        if len(changes) > (FEW_CHANGES if tidy else MOST_CHANGES):
             self._base += 1
+            self._tidied_at = time.monotonic()
             self._replaced.clear()
             self._patches.clear()
             self._all.content = self._whole()

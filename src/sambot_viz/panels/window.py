@@ -7,13 +7,13 @@ from functools import partial
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import gate
-from sambot_viz.panels.add_display import AddDisplayPanel
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.names import NamesPanel
+from sambot_viz.panels.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.poses import PosesPanel
 from sambot_viz.panels.publisher import Publisher
@@ -55,7 +55,7 @@ class Window:
         session = self._session
         panels: list[Panel] = [NamesPanel(session), self._status_bar]
         panels.append(self._displays)
-        panels.append(AddDisplayPanel(session, self._displays.id_of, self._remake))
+        panels.append(NewDisplaysPanel(session, self._displays, self._remake))
         if joints:
             panels.append(JointsPanel(session, self._remake))
             panels.append(PosesPanel(session, self._remake))

@@ -105,6 +105,16 @@ def s(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
 
 
 @pytest.fixture
+def own(chromium: Chromium, tmp_path: Path) -> Iterator[Desk]:
+    """The same robot with a server and a page for one task alone."""
+    from desk import Desk
+
+    desk = Desk("S", chromium, tmp_path)
+    yield desk
+    desk.close()
+
+
+@pytest.fixture
 def t(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
     """A humanoid of 32 movable joints without meshes."""
     yield from _desk(desks, "T", request)

@@ -14,6 +14,7 @@ from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Link, Robot
 
 FrameOf = Callable[[str], str]
+_MOST_NAMES = 12
 
 
 def robot_lists(
@@ -40,6 +41,16 @@ def robot_lists(
         lambda name: _joint_rows(robot, robot.joints[name]),
     )
     return (links, joints) if robot.joints else (links,)
+
+
+def collision_note(robot: Robot) -> str:
+    """Which links have no collision shape to show; "" when all have one."""
+    bare = [name for name in sorted(robot.links) if not robot.links[name].collisions]
+    if len(bare) == len(robot.links):
+        return "No link of this robot has a collision shape."
+    rest = len(bare) - _MOST_NAMES
+    shown = ", ".join(bare[:_MOST_NAMES]) + (f" and {rest} more" if rest > 0 else "")
+    return f"Without a collision shape: {shown}" if bare else ""
 
 
 def _child_joints(robot: Robot) -> dict[str, list[str]]:

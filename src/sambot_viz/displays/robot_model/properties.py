@@ -23,6 +23,7 @@ STYLES = (
 )
 STYLE = "Links/Link Tree Style"
 ALL_ENABLED = "Links/All Links Enabled"
+COLLISIONS = "Collision Enabled"
 ALL_LINKS_ENABLED = BoolProperty(
     "All Links Enabled", default=True, help="Show or hide all links."
 )
@@ -37,7 +38,7 @@ LINK_TREE_PROPERTIES: tuple[Property, ...] = (
                 "Link Tree Style",
                 default=STYLES[0],
                 options=STYLES,
-                help="How RViz lists the links; here there is a list to choose from.",
+                help="How RViz lists the links; here the list is always alphabetic.",
                 support="approximate",
             ),
             BoolProperty(
@@ -98,7 +99,7 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         "Visual Enabled", default=True, help="Show the visual shapes of the links."
     ),
     BoolProperty(
-        "Collision Enabled",
+        COLLISIONS,
         default=False,
         help="Show the collision shapes of the links.",
     ),

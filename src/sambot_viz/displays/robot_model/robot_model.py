@@ -10,9 +10,10 @@ from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
-from sambot_viz.displays.robot_model.link_rows import robot_lists
+from sambot_viz.displays.robot_model.link_rows import collision_note, robot_lists
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
+    COLLISIONS,
     ROBOT_MODEL_PROPERTIES,
 )
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
@@ -65,7 +66,7 @@ class RobotModelDisplay(Display):
         alpha = float(self.config.get("Alpha"))
         on: Mapping[Kind, bool] = {
             "visual": bool(self.config.get("Visual Enabled")),
-            "collision": bool(self.config.get("Collision Enabled")),
+            "collision": bool(self.config.get(COLLISIONS)),
         }
         wanted: set[_ShapeKey] = set()
         for link in robot.links.values():
@@ -222,6 +223,13 @@ class RobotModelDisplay(Display):
             return ()
         entries = self.entries_of(robot)
         return robot_lists(self.context, entries, robot, self.frame_of)
+
+    def notes(self) -> Mapping[str, str]:
+        """Which links lack the collision shapes that are to be shown."""
+        robot = self._source.robot
+        wanted = robot is not None and self.shown and self.config.get(COLLISIONS)
+        note = collision_note(robot) if robot is not None and wanted else ""
+        return {COLLISIONS: note} if note else {}
 
     def entries_of(self, robot: Robot) -> RobotEntries:
         """The links and joints of a robot as items of the document."""

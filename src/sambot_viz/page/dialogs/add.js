@@ -2,9 +2,9 @@
 /* Add: the types of displays with a sentence each, and a name. */
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
+import { rows } from "../channel.js";
 import { Icon } from "../icons.js";
-import { fold, select } from "../state.js";
+import { makeDisplay } from "../panels/new_display.js";
 import { Dialog } from "./dialog.js";
 
 /** @typedef {{kind: string, help: string, why?: string}} Type */
@@ -29,10 +29,9 @@ export function AddDisplay({ close }) {
   const chosen = shown[at];
   const add = () => {
     if (!chosen) return;
-    const mark = Math.random().toString(36).slice(2);
-    showWhenThere(mark);
-    act("displays/add", [chosen.kind, name.current.value, mark]);
+    const { value } = name.current;
     close();
+    makeDisplay("add", [chosen.kind, value], true);
   };
   /** @param {KeyboardEvent} event */
   const key = (event) => {
@@ -72,24 +71,4 @@ export function AddDisplay({ close }) {
       <button type="button" onClick=${close}>Cancel</button>
     </div>
   </${Dialog}>`;
-}
-
-/** Select and unfold the display that was added with a mark, as soon as it is there. @param {string} mark */
-function showWhenThere(mark) {
-  const stop = rows.listen("displays/added", () => {
-    const added = rows.value("displays/added");
-    if (added?.mark !== mark) return;
-    stop();
-    select("displays", added.row);
-    fold(added.row, true);
-    scrollTo(added.row, 60);
-  });
-}
-
-/** @param {string} id @param {number} tries frames to wait for it to be drawn */
-function scrollTo(id, tries) {
-  const row = /** @type {HTMLElement | null} */ (document.querySelector(`[data-row="${CSS.escape(id)}"]`));
-  if (!row) { if (tries) requestAnimationFrame(() => scrollTo(id, tries - 1)); return; }
-  row.focus();
-  row.scrollIntoView({ block: "start" });
 }

@@ -5,47 +5,73 @@ import { html, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
 import { AddDisplay } from "../dialogs/add.js";
 import { show } from "../dialogs/dialog.js";
-import { selected, useRow } from "../state.js";
-import { Tree } from "../tree.js";
+import { isOpen, selected, useRow } from "../state.js";
+import { reveal, Tree } from "../tree.js";
+import { makeDisplay } from "./new_display.js";
+import { dragDisplay, neighbour, place } from "./display_order.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 
-/** The display that a row belongs to. @param {string | undefined} id @returns {Row | undefined} */
-function displayOf(id) {
-  let row = id ? rows.get(id) : undefined;
-  while (row && !row.display) row = row.in ? rows.get(row.in) : undefined;
-  return row;
+const PANEL = "displays";
+const add = () => show(AddDisplay);
+
+/** @param {Row} display */
+const duplicate = (display) => makeDisplay("duplicate", [display.id], isOpen(display.id));
+
+/** @param {Row} display */
+function remove(display) {
+  const next = neighbour(display);
+  if (next) reveal(PANEL, next);
+  act("displays/remove", [display.id]);
+}
+
+/** One place up or down, also into an open group and out of it. @param {Row} display @param {number} by */
+function move(display, by) {
+  const to = place(display, by);
+  if (to) act("displays/move", [display.id, to.group, to.index]);
 }
 
 export function DisplaysPanel() {
-  const chosen = selected.use().displays;
+  const chosen = selected.use()[PANEL];
   const row = useRow(chosen || "none");
   const [renaming, setRenaming] = useState("");
-  const display = displayOf(chosen);
+  const display = row?.display ? row : undefined;
   /** @param {string} id @param {string | null} name null begins */
   const rename = (id, name) => {
     if (name === null) return setRenaming(id);
     setRenaming("");
     if (name.trim() && name !== rows.get(id)?.name) act("displays/rename", [id, name.trim()]);
   };
-  /** @param {string} action */
-  const button = (action) => display && act(`displays/${action}`, [display.id]);
-  /** @param {any} event @param {Row} on */
+  /** @param {KeyboardEvent} event @param {Row} on */
   const key = (event, on) => {
-    if (!on.display) return false;
-    if (event.key === "Delete") button("remove");
+    if (!on.display || event.ctrlKey || event.metaKey) return false;
+    if (event.altKey && event.key === "ArrowUp") move(on, -1);
+    else if (event.altKey && event.key === "ArrowDown") move(on, 1);
+    else if (event.altKey) return false;
+    else if (event.key === "Delete") remove(on);
     else if (event.key === "F2") rename(on.id, null);
     else return false;
     return true;
   };
+  /** @param {Row} on @returns {import("../menu.js").Item[]} */
+  const menu = (on) => {
+    const adding = { label: "Add…", act: add };
+    if (!on.display) return [adding];
+    return [adding, null,
+      { label: "Duplicate", act: () => duplicate(on) },
+      { label: "Rename", keys: "F2", act: () => rename(on.id, null) },
+      { label: "Remove", keys: "Delete", act: () => remove(on) }, null,
+      { label: "Move up", keys: "Alt+↑", off: !place(on, -1), act: () => move(on, -1) },
+      { label: "Move down", keys: "Alt+↓", off: !place(on, 1), act: () => move(on, 1) }, null];
+  };
   return html`<section class="panel displays" aria-label="Displays">
     <header class="title">Displays</header>
-    <${Tree} panel="displays" label="Displays" onKey=${key} renaming=${renaming} rename=${rename} />
+    <${Tree} panel=${PANEL} label="Displays" hover=${false} onKey=${key} menu=${menu} renaming=${renaming} rename=${rename} drag=${dragDisplay} />
     <div class="help" aria-live="polite">${row && html`<b>${row.name}</b> ${row.help || ""}`}</div>
     <div class="buttons">
-      <button onClick=${() => show(AddDisplay)}>Add</button>
-      <button disabled=${!display} onClick=${() => button("duplicate")}>Duplicate</button>
-      <button disabled=${!display} onClick=${() => button("remove")}>Remove</button>
+      <button onClick=${add}>Add</button>
+      <button disabled=${!display} onClick=${() => display && duplicate(display)}>Duplicate</button>
+      <button disabled=${!display} onClick=${() => display && remove(display)}>Remove</button>
       <button disabled=${!display} onClick=${() => display && rename(display.id, null)}>Rename</button>
     </div>
   </section>`;

@@ -1,4 +1,4 @@
-"""What the Add dialog needs: the types of displays, and adding one."""
+"""Adding and copying displays: the types there are, and what was made last."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row
 from sambot_viz.rviz import DisplayConfig
@@ -20,13 +21,16 @@ TYPES: list[Json] = [
 """`why` says why a type cannot be added."""
 
 
-class AddDisplayPanel(Panel):
-    """The types, and which display was added last.
+class NewDisplaysPanel(Panel):
+    """What the Add dialog and Duplicate need.
+
+    Each page sends a mark with what it asks for, and selects the row that comes back
+    with its mark.
 
     Args:
         session: what displays are added to.
-        id_of: the id of a display's row.
-        remake: called when a display was added.
+        displays: the rows of the displays.
+        remake: called when a display was made.
     """
 
     name = "add"
@@ -34,19 +38,19 @@ class AddDisplayPanel(Panel):
     def __init__(
         self,
         session: Session,
-        id_of: Callable[[DisplayConfig], str],
+        displays: DisplaysPanel,
         remake: Callable[[Panel], None],
     ) -> None:
         self._session = session
-        self._id_of = id_of
+        self._displays = displays
         self._remake = remake
-        self._added: Json = None
+        self._made: Json = None
 
     def rows(self) -> Sequence[Row]:
-        """Data for the dialog, and its action."""
+        """Data for the dialog, and the two actions."""
         return [
             Row("displays/types", "", "names", value=TYPES),
-            Row("displays/added", "", "names", value=self._added),
+            Row("displays/made", "", "names", value=self._made),
             Row(
                 "displays/add",
                 "",
@@ -55,12 +59,27 @@ class AddDisplayPanel(Panel):
                 takes=(str, str, str),
                 set=lambda sent: self._add(*sent),
             ),
+            Row(
+                "displays/duplicate",
+                "",
+                "action",
+                "Duplicate",
+                takes=(str, str),
+                set=lambda sent: self._duplicate(*sent),
+            ),
         ]
 
     def _add(self, kind: str, name: str, mark: str) -> None:
-        """Add a display at the end; the page that sent the mark selects it."""
+        """Add a display at the end."""
         if kind not in DISPLAYS:
             raise UsageError(f"displays of type {row_text(kind)} cannot be added")
-        config = self._session.add_display(kind, name=name.strip() or None)
-        self._added = {"mark": mark, "row": self._id_of(config)}
+        self._note(self._session.add_display(kind, name=name.strip() or None), mark)
+
+    def _duplicate(self, row_id: str, mark: str) -> None:
+        """Copy a display, behind it."""
+        config = self._displays.display_of(row_id)
+        self._note(self._session.duplicate_display(config), mark)
+
+    def _note(self, config: DisplayConfig, mark: str) -> None:
+        self._made = {"mark": mark, "row": self._displays.id_of(config)}
         self._remake(self)

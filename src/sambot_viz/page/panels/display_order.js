@@ -1,0 +1,158 @@
+// @ts-check
+/* The order of displays: which places there are, and how a hand takes a display there. */
+
+import { act, rows } from "../channel.js";
+import { isOpen } from "../state.js";
+
+/** @typedef {import("../rows.js").Row} Row */
+/**
+ * A place between displays.
+ * @typedef {{group: string, index: number}} Place
+ *   group: the id of the group, "" at the top; index: counted without the display that goes there
+ */
+
+const TOP = "";
+/** So far a hand moves before a click is a drag [px]. */
+const SLACK = 5;
+/** So near to an edge of the tree it scrolls while something is dragged [px]. */
+const EDGE = 24;
+
+/** The displays in a group, or at the top. @param {string} group @returns {string[]} */
+export function members(group) {
+  return rows.children(group || "panel:displays").filter((id) => rows.get(id)?.display);
+}
+
+/** What is selected after a display has been removed. @param {Row} display @returns {string | undefined} */
+export function neighbour(display) {
+  const all = members(display.in), at = all.indexOf(display.id);
+  return all[at + 1] ?? all[at - 1] ?? (display.in || undefined);
+}
+
+/** The place one up or down, into open groups and out of them; null at the ends.
+ * @param {Row} display @param {number} by 1 or -1 @returns {Place | null} */
+export function place(display, by) {
+  const all = members(display.in), at = all.indexOf(display.id), beside = rows.get(all[at + by]);
+  if (beside?.group && isOpen(beside.id)) {
+    return { group: beside.id, index: by > 0 ? 0 : members(beside.id).length };
+  }
+  if (beside) return { group: display.in, index: at + by };
+  const group = rows.get(display.in);
+  if (!group) return null;
+  return { group: group.in, index: members(group.in).indexOf(group.id) + (by > 0 ? 1 : 0) };
+}
+
+/**
+ * All places where a display can go, with the line at which each is drawn.
+ * @param {string} moved the id of the display
+ * @param {(id: string) => {top: number, bottom: number} | null} box where the row of an id is drawn
+ * @returns {(Place & {y: number, depth: number, into?: string})[]}
+ *   into: the id of the group's row, when the display goes into a folded group
+ */
+export function places(moved, box) {
+  /** @type {(Place & {y: number, depth: number, into?: string})[]} */
+  const found = [];
+  /** The lower end of a row and all that is shown below it. @param {string} id @returns {number} */
+  const end = (id) => {
+    const last = isOpen(id) ? rows.children(id).filter((child) => box(child)).at(-1) : undefined;
+    return last ? end(last) : box(id)?.bottom ?? 0;
+  };
+  /** @param {string} group @param {number} depth */
+  const walk = (group, depth) => {
+    const others = members(group).filter((id) => id !== moved);
+    others.forEach((id, index) => {
+      const row = rows.get(id), at = box(id);
+      if (!row || !at) return;
+      found.push({ group, index, y: at.top, depth });
+      if (row.group && isOpen(id)) walk(id, depth + 1);
+      else if (row.group) found.push({ group: id, index: members(id).length, y: (at.top + at.bottom) / 2, depth: depth + 1, into: id });
+      if (index === others.length - 1) found.push({ group, index: index + 1, y: end(id), depth });
+    });
+    if (!others.length && group) found.push({ group, index: 0, y: box(group)?.bottom ?? 0, depth });
+  };
+  walk(TOP, 0);
+  return found;
+}
+
+/** The place that a hand means. Of places at one line, those further right are deeper.
+ * @template {{y: number, depth: number}} P
+ * @param {P[]} all @param {number} x from the left edge of the names [px] @param {number} y @param {number} indent of one level [px]
+ * @returns {P | undefined} */
+export function nearest(all, x, y, indent) {
+  const depth = Math.floor(x / indent);
+  const off = (/** @type {P} */ p) => Math.abs(p.y - y) + 0.1 * Math.abs(p.depth - depth);
+  return all.reduce((/** @type {P | undefined} */ best, p) => (best && off(best) <= off(p) ? best : p), undefined);
+}
+
+/**
+ * Follow a hand that may drag a display; Esc puts it back.
+ * @param {any} down the press @param {Row} row @param {HTMLElement} tree
+ */
+export function dragDisplay(down, row, tree) {
+  if (!row.display || down.pointerType === "touch") return;
+  const mark = document.createElement("div");
+  /** @type {ReturnType<typeof places>[number] | undefined} */
+  let to;
+  let at = { x: down.clientX, y: down.clientY }, scrolls = 0;
+  /** @param {string} id */
+  const find = (id) => /** @type {HTMLElement | null} */ (tree.querySelector(`[data-row="${CSS.escape(id)}"]`));
+  const indent = 14;
+  const draw = () => {
+    const origin = tree.getBoundingClientRect();
+    const all = places(row.id, (id) => find(id)?.getBoundingClientRect() ?? null);
+    to = nearest(all, at.x - origin.left - 16, at.y, indent);
+    for (const marked of tree.querySelectorAll(".into")) marked.classList.remove("into");
+    const folded = to?.into ? find(to.into) : null;
+    folded?.classList.add("into");
+    mark.hidden = !to || Boolean(folded);
+    if (!to) return;
+    mark.style.top = `${Math.min(Math.max(to.y, origin.top), origin.bottom) - origin.top - 1}px`;
+    mark.style.left = `${16 + to.depth * indent}px`;
+  };
+  const scroll = () => {
+    const { top, bottom } = tree.getBoundingClientRect();
+    const by = at.y < top + EDGE ? -6 : at.y > bottom - EDGE ? 6 : 0;
+    if (by) { tree.scrollTop += by; draw(); }
+    scrolls = requestAnimationFrame(scroll);
+  };
+  /** @param {PointerEvent} event */
+  const follow = (event) => {
+    at = { x: event.clientX, y: event.clientY };
+    if (!mark.isConnected) {
+      if (Math.hypot(at.x - down.clientX, at.y - down.clientY) < SLACK) return;
+      mark.className = "drop";
+      tree.parentElement?.append(mark);
+      tree.classList.add("dragging");
+      find(row.id)?.classList.add("dragged");
+      getSelection()?.removeAllRanges();
+      scroll();
+    }
+    draw();
+  };
+  const end = () => {
+    removeEventListener("pointermove", follow);
+    removeEventListener("pointerup", drop);
+    removeEventListener("pointercancel", end);
+    removeEventListener("keydown", escape, true);
+    cancelAnimationFrame(scrolls);
+    tree.classList.remove("dragging");
+    for (const marked of tree.querySelectorAll(".into, .dragged")) marked.classList.remove("into", "dragged");
+    mark.remove();
+  };
+  const drop = () => {
+    const dragged = mark.isConnected;
+    end();
+    const stays = to && to.group === row.in && to.index === members(row.in).indexOf(row.id);
+    if (dragged && to && !stays) act("displays/move", [row.id, to.group, to.index]);
+  };
+  /** @param {KeyboardEvent} event */
+  const escape = (event) => {
+    if (event.key !== "Escape") return;
+    event.preventDefault();
+    event.stopPropagation();
+    end();
+  };
+  addEventListener("pointermove", follow);
+  addEventListener("pointerup", drop);
+  addEventListener("pointercancel", end);
+  addEventListener("keydown", escape, true);
+}

@@ -1,0 +1,145 @@
+"""Who gets the keys and the mouse: the view, its tools, or what is being typed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+
+import pytest
+from inside import node_of, session_of
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.session.browser import Browser
+
+pytestmark = pytest.mark.browser
+
+FOCUSED = "document.activeElement"
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def viewer(viz: Visualizer, open_viewer: Callable[..., ViewerPage]) -> ViewerPage:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
+    viewer.wait_for("window.sambotViz && window.sambotViz.view.kind === 'Orbit'")
+    return viewer
+
+
+@pytest.fixture
+def user(viewer: ViewerPage) -> User:
+    return User(viewer.page)
+
+
+@pytest.fixture
+def browser(viz: Visualizer, viewer: ViewerPage) -> Browser:
+    (browser,) = session_of(viz).browsers.values()
+    return browser
+
+
+def pressed(user: User, tool: str) -> None:
+    """Wait until a tool is shown as the current one."""
+    user.until(lambda: user.find("button", tool).state("pressed"))
+
+
+def middle(viewer: ViewerPage) -> tuple[float, float]:
+    """The middle of the view on the page."""
+    left, top, right, bottom = viewer.page.evaluate(
+        "(r => [r.left, r.top, r.right, r.bottom])"
+        "(__viserMutable.canvas.getBoundingClientRect())"
+    )
+    return (left + right) / 2, (top + bottom) / 2
+
+
+def test_the_key_of_a_tool_acts_right_after_a_box_a_slider_or_a_button(
+    user: User,
+) -> None:
+    user.click_on(user.row("Displays", "Grid").one("checkbox"))
+    user.keys("n")
+    pressed(user, "Measure")
+    user.click_on(user.row("Joints", "drivewhl_l_joint").one("slider"))
+    user.keys("s")
+    pressed(user, "Select")
+    user.click("button", "Center")
+    user.keys("m")
+    pressed(user, "Move Camera")
+    user.keys("Escape")
+    pressed(user, "Interact")
+
+
+def test_letters_in_a_text_field_stay_there(
+    user: User, viewer: ViewerPage, browser: Browser
+) -> None:
+    user.keys("n")
+    pressed(user, "Measure")
+    before = dict(browser.view.values), viewer.page.evaluate("scrollY")
+    field = user.row("Displays", "Fixed Frame").one("combobox")
+    user.click_on(field)
+    user.type("imscnfzrhwasdqe")
+    assert viewer.page.evaluate(f"{FOCUSED}.value") == "imscnfzrhwasdqe"
+    user.keys("Escape")
+    pressed(user, "Measure")
+    assert (dict(browser.view.values), viewer.page.evaluate("scrollY")) == before
+    assert user.there("toolbar", "Tools")
+
+
+def test_a_click_into_the_view_takes_the_keys_from_a_field(
+    user: User, viewer: ViewerPage
+) -> None:
+    user.click_on(user.row("Displays", "Fixed Frame").one("combobox"))
+    viewer.page.mouse.click(*middle(viewer))
+    viewer.wait_for(f"{FOCUSED} === __viserMutable.canvas")
+    user.keys("n")
+    pressed(user, "Measure")
+
+
+def test_h_and_a_button_hide_the_panels_and_a_button_brings_them_back(
+    user: User, viewer: ViewerPage
+) -> None:
+    wide = "__viserMutable.canvas.clientWidth === innerWidth"
+    for hide in (lambda: user.keys("h"), lambda: user.click("button", "Hide panels")):
+        hide()
+        viewer.wait_for(wide)
+        user.click("button", "Show panels (H)")
+        viewer.wait_for(f"!({wide})")
+        user.find("toolbar", "Tools")
+
+
+def test_the_mouse_is_reported_at_most_twenty_times_a_second_while_measure_wants_it(
+    user: User, viewer: ViewerPage, browser: Browser
+) -> None:
+    user.keys("f")
+    user.until(lambda: browser.view.values["Distance"] < 2.0)
+    user.keys("n")
+    pressed(user, "Measure")
+    viewer.page.evaluate(
+        "(() => { const send = __viserMutable.sendMessage; window.hovers = [];"
+        " __viserMutable.sendMessage = message => {"
+        " if (message.updates?.value?.[0] === 'tools/hover')"
+        " hovers.push(performance.now());"
+        " send(message); }; })()"
+    )
+    x, y = middle(viewer)
+    for step in range(10):
+        viewer.page.mouse.move(x + step, y)
+    assert viewer.page.evaluate("hovers.length") == 0
+    viewer.page.mouse.click(x, y)
+    user.until(lambda: browser.tools.current.wants_hover)
+    viewer.wait_for("document.querySelector('[role=status]').innerText.includes('sec')")
+    end = time.monotonic() + 2.0
+    moves = 0
+    while time.monotonic() < end:
+        moves += 1
+        viewer.page.mouse.move(x + 20 + moves % 40, y)
+    user.until(lambda: browser.tools.status.startswith("[Length: "))
+    times = viewer.page.evaluate("hovers")
+    assert len(times) >= 2
+    gaps = [after - before for before, after in pairwise(times)]
+    assert min(gaps) > 45.0

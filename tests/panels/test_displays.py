@@ -1,0 +1,357 @@
+"""The Displays panel: its rows, and what a browser can do with them."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from inside import session_of
+from panel_rows import edit, rows_of
+
+from sambot_viz import SambotVizError, Visualizer
+from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.new_displays import NewDisplaysPanel
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Row
+from sambot_viz.session import Session
+
+ROBOT = """
+<robot name="two">
+  <link name="base">
+    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <collision><geometry><box size="1 1 1"/></geometry></collision>
+  </link>
+  <link name="arm/tip"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+  <joint name="turn" type="continuous">
+    <parent link="base"/><child link="arm/tip"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+  </joint>
+</robot>
+"""
+CONFIG = """
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/RobotModel, Name: Robot, Enabled: true}
+    - {Class: rviz_default_plugins/TF, Name: Frames of it, Enabled: true}
+    - Class: rviz_common/Group
+      Name: Ground
+      Enabled: true
+      Displays:
+        - {Class: rviz_default_plugins/Grid, Name: Floor, Enabled: true}
+    - {Class: my_plugins/Radar, Name: Radar, Enabled: true, Gain: 3}
+  Global Options: {Fixed Frame: base}
+"""
+
+
+class Displays:
+    """The panel of a session, whose rows are found by the names on the way to them."""
+
+    def __init__(self, session: Session) -> None:
+        self.remade: list[Panel] = []
+        self.panel = DisplaysPanel(session, self.remade.append)
+        self.new = NewDisplaysPanel(session, self.panel, self.remade.append)
+
+    def all(self) -> dict[str, Row]:
+        """Every row by its id, in the order of the page."""
+        return rows_of(self.panel) | rows_of(self.new)
+
+    def named(self, *names: str) -> Row:
+        """The row at a path of names, such as "Grid", "Cell Size"."""
+        found: Row | None = None
+        for name in names:
+            above = "" if found is None else found.id
+            found = next(
+                row
+                for row in self.all().values()
+                if row.above == above and row.name == name
+            )
+        assert found is not None
+        return found
+
+    def below(self, *names: str) -> list[str]:
+        """The names of the rows right below a row; of all at the top without names."""
+        above = self.named(*names).id if names else ""
+        return [
+            row.name
+            for row in self.all().values()
+            if row.above == above and row.kind not in ("action", "names")
+        ]
+
+    def set(self, row_id: str, value: object) -> None:
+        """What a browser does to a row."""
+        edit(self.new if row_id in rows_of(self.new) else self.panel, row_id, value)
+
+    def change(self, *names: str, to: object) -> None:
+        """Set the row at a path of names."""
+        self.set(self.named(*names).id, to)
+
+    def unfold(self, *names: str) -> None:
+        """Ask for what is below a row."""
+        self.set("displays/unfold", [self.named(*names).id])
+
+    def order(self) -> list[str]:
+        """The names of the displays, those in groups after the group's name."""
+        return [r.name for r in self.all().values() if r.extra and "display" in r.extra]
+
+    def act(self, what: str, name: str, *arguments: object) -> None:
+        """Use an action on the display with this name."""
+        row = next(row for row in self.all().values() if row.name == name and row.bold)
+        self.set(f"displays/{what}", [row.id, *arguments])
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Iterator[Session]:
+    model, config = tmp_path / "two.urdf", tmp_path / "two.rviz"
+    model.write_text(ROBOT)
+    config.write_text(CONFIG)
+    with Visualizer(model, config, port=0) as viz:
+        yield session_of(viz)
+
+
+@pytest.fixture
+def displays(session: Session) -> Displays:
+    return Displays(session)
+
+
+def test_the_tree_is_rvizs(displays: Displays) -> None:
+    assert displays.below() == [
+        "Global Options",
+        "Global Status",
+        "Robot",
+        "Frames of it",
+        "Ground",
+        "Radar",
+    ]
+    assert displays.below("Ground") == ["Floor"]
+    assert displays.below("Robot")[:3] == [
+        "Status",
+        "Visual Enabled",
+        "Collision Enabled",
+    ]
+    assert displays.named("Robot", "Visual Enabled").value is True
+
+
+# Values
+
+
+def test_a_value_is_set_and_drawn_from(displays: Displays, session: Session) -> None:
+    displays.change("Robot", "Alpha", to=0.5)
+    assert session.displays[0].config.get("Alpha") == 0.5
+    assert displays.named("Robot", "Alpha").value == 0.5
+
+
+@pytest.mark.parametrize(
+    ("typed", "colour"),
+    [
+        ("255; 255; 255", (255, 255, 255)),
+        ("48;48;48", (48, 48, 48)),
+        ("#fff", (255, 255, 255)),
+        ("#102030", (16, 32, 48)),
+        ("White", (255, 255, 255)),
+        ([1, 2, 3], (1, 2, 3)),
+    ],
+)
+def test_a_colour_is_taken_as_people_write_it(
+    displays: Displays, session: Session, typed: object, colour: object
+) -> None:
+    displays.change("Global Options", "Background Color", to=typed)
+    assert session.context.background == colour
+
+
+@pytest.mark.parametrize("typed", ["255", "1; 2", "#12345", "whitish", "", [1, 2]])
+def test_a_wrong_colour_is_refused_with_a_reason(
+    displays: Displays, session: Session, typed: object
+) -> None:
+    with pytest.raises(SambotVizError, match="Background Color"):
+        displays.change("Global Options", "Background Color", to=typed)
+    assert session.context.background == (48, 48, 48)
+
+
+def test_a_vector_says_what_its_parts_are_called(displays: Displays) -> None:
+    offset = displays.named("Ground", "Floor", "Offset")
+    assert offset.kind == "vector"
+    assert offset.extra == {"parts": ["X", "Y", "Z"]}
+
+
+# Statuses
+
+
+def test_a_status_that_is_fine_only_sends_its_rows_when_it_is_unfolded(
+    displays: Displays,
+) -> None:
+    status = displays.named("Robot", "Status")
+    assert (status.value, status.expanded) == ("Ok", False)
+    assert displays.below("Robot", "Status") == []
+    displays.unfold("Robot", "Status")
+    assert displays.remade == [displays.panel]
+    assert displays.below("Robot", "Status") == ["URDF", "base", "arm/tip"]
+
+
+def test_only_rows_that_have_more_below_can_be_asked_for_it(displays: Displays) -> None:
+    displays.set("displays/unfold", ["no such row"])
+    assert displays.remade == []
+
+
+def test_a_fixed_frame_that_is_missing_is_taken_and_every_status_says_which_there_are(
+    displays: Displays,
+) -> None:
+    displays.change("Global Options", "Fixed Frame", to="map")
+    sentence = "Frame [map] does not exist. There are: arm/tip, base"
+    assert displays.named("Global Status").value == "Error"
+    assert displays.named("Global Status").expanded
+    assert displays.named("Global Status", "Fixed Frame").value == sentence
+    for name in ("Robot", "Frames of it"):
+        assert displays.named(name, "Status").expanded
+        assert displays.named(name, "Status", "Fixed Frame").value == sentence
+    assert displays.named("Robot", "Status", "base").level == "error"
+    displays.change("Global Options", "Fixed Frame", to="base")
+    assert displays.named("Global Status", "Fixed Frame").value == "OK"
+
+
+def test_bad_rows_of_a_status_come_first(displays: Displays) -> None:
+    displays.change("Global Options", "Fixed Frame", to="map")
+    levels = [
+        row.level
+        for row in displays.all().values()
+        if row.above == displays.named("Robot", "Status").id
+    ]
+    assert levels == sorted(levels, key=["error", "warn", "ok"].index)
+
+
+def test_links_without_a_collision_shape_are_named_when_those_are_shown(
+    displays: Displays,
+) -> None:
+    def notes() -> list[str]:
+        return [row.value for row in displays.all().values() if row.kind == "note"]
+
+    before = notes()
+    displays.change("Robot", "Collision Enabled", to=True)
+    assert set(notes()) - set(before) == {"Without a collision shape: arm/tip"}
+    displays.change("Robot", "Collision Enabled", to=False)
+    assert notes() == before
+
+
+# Links, joints, frames
+
+
+def test_links_are_listed_when_they_are_unfolded(displays: Displays) -> None:
+    links = displays.named("Robot", "Links")
+    assert links.extra == {"lazy": True}
+    assert "base" not in displays.below("Robot", "Links")
+    displays.unfold("Robot", "Links")
+    assert displays.below("Robot", "Links")[-2:] == ["arm/tip", "base"]
+    assert displays.below("Robot", "Links", "base") == []
+    displays.unfold("Robot", "Links", "base")
+    below = displays.below("Robot", "Links", "base")
+    assert below[:3] == ["Alpha", "Show Trail", "Show Axes"]
+    assert "Position" in below
+
+
+def test_a_link_is_switched_off_alone(displays: Displays, session: Session) -> None:
+    displays.unfold("Robot", "Links")
+    displays.change("Robot", "Links", "arm/tip", to=False)
+    robot = session.displays[0].config
+    assert robot.dynamic(("Links", "arm/tip")) == {"Value": "false"}
+    assert displays.named("Robot", "Links", "base").value is True
+    displays.change("Robot", "Links", "arm/tip", to=True)
+    assert displays.named("Robot", "Links", "arm/tip").value is True
+
+
+def test_a_frame_is_switched_off_alone(displays: Displays, session: Session) -> None:
+    displays.unfold("Frames of it", "Frames")
+    displays.change("Frames of it", "Frames", "arm/tip", to=False)
+    frames = session.displays[1].config.dynamic("Frames")
+    assert frames["arm/tip"] == {"Value": "false"}
+
+
+def test_positions_follow_a_joint(displays: Displays, session: Session) -> None:
+    displays.unfold("Robot", "Links")
+    displays.unfold("Robot", "Links", "arm/tip")
+    shown = displays.named("Robot", "Links", "arm/tip", "Orientation")
+    assert displays.panel.values()[shown.id] == "0; 0; 0; 1"
+    moved = threading.Event()
+    session.listeners.append(lambda event: moved.set() if event == "joints" else None)
+    session.set_joint_positions({"turn": 3.0})
+    assert moved.wait(10)
+    assert displays.panel.values()[shown.id] != "0; 0; 0; 1"
+
+
+# Displays as a whole
+
+
+def test_a_display_is_added_and_the_page_learns_which_it_is(
+    displays: Displays,
+) -> None:
+    displays.set("displays/add", ["rviz_default_plugins/Axes", "", "mark"])
+    assert displays.order()[-1] == "Axes"
+    made = displays.all()["displays/made"].value
+    assert made == {"row": displays.named("Axes").id, "mark": "mark"}
+    displays.set("displays/add", ["rviz_common/Group", " My group ", "mark"])
+    assert displays.order()[-1] == "My group"
+
+
+@pytest.mark.parametrize("kind", ["x/Y", "rviz_default_plugins/Path"])
+def test_a_type_that_is_not_shown_cannot_be_added(
+    displays: Displays, kind: str
+) -> None:
+    with pytest.raises(SambotVizError, match="cannot be added"):
+        displays.set("displays/add", [kind, "", "mark"])
+
+
+def test_copies_have_other_names(displays: Displays) -> None:
+    for _ in range(2):
+        displays.act("duplicate", "Floor", "mark")
+    assert displays.below("Ground") == ["Floor", "Floor (3)", "Floor (2)"]
+
+
+def test_a_display_keeps_its_row_when_it_is_moved(displays: Displays) -> None:
+    grid, ground = displays.named("Ground", "Floor").id, displays.named("Ground").id
+    displays.act("move", "Floor", "", 0)
+    assert displays.order() == ["Floor", "Robot", "Frames of it", "Ground", "Radar"]
+    displays.act("move", "Floor", ground, 0)
+    assert displays.below("Ground") == ["Floor"]
+    assert displays.named("Ground", "Floor").id == grid
+
+
+def test_a_group_does_not_go_into_itself(displays: Displays) -> None:
+    with pytest.raises(SambotVizError, match="into itself"):
+        displays.act("move", "Ground", displays.named("Ground").id, 0)
+
+
+def test_a_display_is_renamed_and_removed(displays: Displays) -> None:
+    displays.act("rename", "Robot", "  Wheel axes here ")
+    assert displays.order()[0] == "Wheel axes here"
+    with pytest.raises(SambotVizError, match="needs a name"):
+        displays.act("rename", "Wheel axes here", " ")
+    gone = displays.named("Ground").id
+    displays.act("remove", "Ground")
+    assert displays.order() == ["Wheel axes here", "Frames of it", "Radar"]
+    with pytest.raises(SambotVizError, match="not there any more"):
+        displays.set("displays/remove", [gone])
+
+
+def test_a_display_that_is_not_shown_says_so_and_can_be_arranged(
+    displays: Displays, session: Session
+) -> None:
+    radar = displays.named("Radar")
+    assert radar.level == "info"
+    (note,) = [row for row in displays.all().values() if row.above == radar.id]
+    assert note.value.startswith("Radar (my_plugins) is not shown")
+    displays.change("Radar", to=False)
+    displays.act("rename", "Radar", "My radar")
+    displays.act("duplicate", "My radar", "mark")
+    displays.act("move", "My radar", displays.named("Ground").id, 0)
+    assert displays.below("Ground") == ["My radar", "Floor"]
+    assert session.config.to_yaml().count("Gain: 3") == 2
+
+
+def test_a_removed_display_comes_back_as_the_same_row(
+    displays: Displays, session: Session
+) -> None:
+    before = displays.named("Robot").id
+    with session.edits.acting(1):
+        displays.act("remove", "Robot")
+    session.edits.undo(1)
+    assert displays.named("Robot").id == before
+    assert displays.order()[0] == "Robot"
