@@ -54,9 +54,7 @@ def test_a_frame_taken_from_a_joint_goes_back_to_it() -> None:
         assert "map" not in viz.frames
 
 
-def test_poses_are_kept_beside_the_model_and_those_of_sam_bot_in_the_working_folder() -> (
-    None
-):
+def test_poses_are_kept_beside_the_model_or_where_the_program_was_started() -> None:
     folder = Path("robots")
     assert poses_beside(folder / "arm.urdf.xacro") == folder / "arm.poses.yaml"
     assert poses_beside(folder / "arm.urdf") == folder / "arm.poses.yaml"
