@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 import viser
-from protocol_client import ProtocolClient
 
 from sambot_viz import viser_private
 from sambot_viz.server.bind import close, listen
@@ -51,13 +50,6 @@ def test_a_node_that_went_with_its_parent_is_known_to_be_removed(
     assert viser_private.is_removed(child)
 
 
-def test_widgets_on_a_tab_can_be_changed(server: viser.ViserServer) -> None:
-    panel = server.gui.add_panel()
-    tab = panel.add_tab("before")
-    viser_private.set_tab_label(tab, "after")
-    assert panel._tab_labels == ("after",)  # pyright: ignore[reportPrivateUsage]
-
-
 def test_the_types_of_a_kind_of_node_are_found_out_once(
     server: viser.ViserServer,
 ) -> None:
@@ -65,14 +57,6 @@ def test_the_types_of_a_kind_of_node_are_found_out_once(
     assert "axes_length" in first._prop_hints
     assert first._prop_hints is second._prop_hints
     assert first._prop_hints is not server.scene.add_label("/c", "c")._prop_hints
-
-
-def test_a_command_has_the_name_that_the_page_is_sent(
-    server: viser.ViserServer, protocol: Callable[..., ProtocolClient]
-) -> None:
-    command = server.gui.add_command("Measure")
-    sent = protocol(server.get_port()).uuid_of("Measure")
-    assert viser_private.command_uuid(command) == sent
 
 
 def test_a_pose_is_set_as_by_visers_own_setters(server: viser.ViserServer) -> None:

@@ -203,18 +203,6 @@ def is_removed(handle: viser.SceneNodeHandle | viser.GuiInputHandle[Any]) -> boo
     return bool(cast(Any, handle)._impl.removed)
 
 
-def command_uuid(command: viser.CommandHandle) -> str:
-    """The name by which a page triggers a command."""
-    return command._impl.uuid  # pyright: ignore[reportPrivateUsage]
-
-
-def set_tab_label(tab: viser.GuiTabHandle, label: str) -> None:
-    """Write something else on a tab; viser only changes its icon."""
-    if tab._label != label:  # pyright: ignore[reportPrivateUsage]
-        tab._label = label  # pyright: ignore[reportPrivateUsage]
-        tab._parent._rebuild_tab_props()  # pyright: ignore[reportPrivateUsage]
-
-
 def remember_prop_types() -> None:
     """Let viser find out the types of a kind of node once, not for every node.
 

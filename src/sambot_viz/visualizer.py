@@ -185,13 +185,14 @@ class Visualizer:
     def viser(self) -> viser.ViserServer:
         """The viser server, to add your own nodes and widgets.
 
-        Every node and widget of viser is shown. What a browser sends back is checked,
-        and only this reaches your callbacks: the value of a visible and enabled widget,
-        if it has the type of the value before (texts up to 1000 characters), buttons
-        that are pressed or held, keys of commands, cameras, clicks and rectangles in
-        the 3D view, and pictures from ``get_render``. Not let through are clicks on
-        nodes, drags, transform controls, forms and uploads: their callbacks are never
-        called, and a warning is logged.
+        Every node of viser is shown, and widgets in a panel "Script" over the view.
+        What a browser sends back is checked, and only this reaches your callbacks: the
+        value of a visible and enabled widget, if it has the type of the value before
+        (texts up to 1000 characters), buttons that are pressed, cameras, clicks and
+        rectangles in the 3D view, and pictures from ``get_render``. Not let through are
+        clicks on nodes, drags, transform controls, buttons that are held, keys of
+        commands, forms and uploads: their callbacks are never called, and a warning is
+        logged.
 
         With private sessions, what is added here is shown to all browsers.
         """

@@ -267,23 +267,23 @@ def test_a_flood_of_bad_values_is_one_line_in_the_log(
     assert all("dropped" in record.getMessage() for record in caplog.records)
 
 
-def test_a_button_is_held_only_by_who_may_press_it(
+def test_a_script_s_button_is_pressed_but_never_held_and_its_commands_have_no_keys(
     viz: Visualizer, protocol: Connect
 ) -> None:
-    held: list[str] = []
-    for label, disabled in (("off", True), ("on", False)):
-        button = viz.viser.gui.add_button(label, disabled=disabled)
-
-        async def hold(_: object, label: str = label) -> None:
-            held.append(label)
-
-        button.on_hold(hold, callback_hz=10.0)
+    calls: list[str] = []
+    button = viz.viser.gui.add_button("Go")
+    command = viz.viser.gui.add_command("Stop")
+    button.on_click(lambda _: calls.append("pressed"))
+    button.on_hold(lambda _: calls.append("held"), callback_hz=10.0)
+    command.on_trigger(lambda _: calls.append("command"))
     client = protocol(viz.viser.get_port())
-    for label in ("off", "on"):
-        uuid = client.uuid_of(label)
-        client.send("GuiButtonHoldMessage", uuid=uuid, frequency=10.0)
+    uuid = client.uuid_of("Go")
+    client.send("GuiButtonHoldMessage", uuid=uuid, frequency=10.0)
+    client.send("CommandTriggerMessage", uuid=client.uuid_of("Stop"))
+    client.set_value(uuid, True)
+    client.wait_until(lambda: "pressed" in calls)
     client.settle(viz.viser)
-    assert held == ["on"]
+    assert calls == ["pressed"]
 
 
 def test_a_picture_that_was_not_asked_for_is_dropped(

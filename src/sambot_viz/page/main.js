@@ -9,6 +9,7 @@ import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
 import { tellView } from "./panels/views.js";
 import { followMouse, mousePlace } from "./pointer.js";
+import { followScript } from "./script_panel.js";
 import { toolKeys } from "./toolbar.js";
 import { togglePanels, Window } from "./window.js";
 
@@ -29,6 +30,7 @@ const start = () => {
   tellView();
   followFile();
   followConnection();
+  followScript();
   connect();
 };
 // The script may be there before the page's body is.

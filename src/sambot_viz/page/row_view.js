@@ -86,12 +86,17 @@ function Wide({ row, twist }) {
   </span>`;
 }
 
-/** Lines of text; of a file with their numbers, and the place that matters. @param {{row: Row}} props */
+/** Lines of text; of a file with their numbers, and the word that matters. @param {{row: Row}} props */
 function Lines({ row }) {
   if (!Array.isArray(row.value)) return html`<pre>${row.value}</pre>`;
   return html`<pre>${row.value.map(([number, line]) => html`<div class=${number === row.line ? "marked" : ""}
-    ><span class="line-number" aria-hidden="true">${number}</span>${number === row.line && row.column
-      ? html`${line.slice(0, row.column - 1)}<mark>${line.slice(row.column - 1) || " "}</mark>` : line || " "}</div>`)}</pre>`;
+    ><span class="line-number" aria-hidden="true">${number}</span>${number === row.line && row.column ? marked(line, row.column - 1) : line || " "}</div>`)}</pre>`;
+}
+
+/** @param {string} line @param {number} at */
+function marked(line, at) {
+  const word = line.slice(at).match(/^(?:<\/?[\w:.-]+|[\w:.-]+|\S)/)?.[0] || "";
+  return html`${line.slice(0, at)}<mark>${word || " "}</mark>${line.slice(at + word.length)}`;
 }
 
 /** @param {{row: Row, done: (id: string, name: string | null) => void}} props */

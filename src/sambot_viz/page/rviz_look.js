@@ -166,12 +166,13 @@ vec3 sambotEncode(vec3 c) {
     if (mutable.requestRender) mutable.requestRender();
   };
   // viser's notice about software rendering covers the picture, and a machine without a
-  // GPU, where this program is often used, cannot change it.
+  // GPU, where this program is often used, cannot change it. What was downloaded is said
+  // by the browser and in the status bar.
   const tidy = () => {
     /** @type {NodeListOf<HTMLElement>} */
     const notes = document.querySelectorAll(".mantine-Notification-root");
     for (const note of notes) {
-      if (note.textContent?.startsWith("Software WebGL")) note.style.display = "none";
+      if (/^(Software WebGL|Receiv)/.test(note.textContent || "")) note.style.display = "none";
     }
   };
 

@@ -5,17 +5,20 @@
 import { html, useEffect, useState } from "./vendor/preact.js";
 import { act } from "./channel.js";
 import { notice } from "./notices.js";
+import { ProblemCount } from "./panels/problems.js";
 import { Driving } from "./panels/drive.js";
 import { useRow } from "./state.js";
 
 /** How long a sentence that is not about a mistake stays [ms]. */
 const SAID = 8000;
 
-export function StatusBar() {
+/** @param {{problems: import("./panels/problems.js").Shown}} props */
+export function StatusBar({ problems }) {
   const hint = useRow("tools/hint")?.value || "";
   return html`<footer class="statusbar" aria-label="Status bar">
     <button title="Reset (R): draw everything again, with meshes as they are in their files"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
+    <${ProblemCount} ...${problems} />
     <span class="hint" role="status" title=${hint}>${hint}</span>
     <${Said} />
     <${Driving} />

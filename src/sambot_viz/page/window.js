@@ -11,6 +11,7 @@ import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
 import { DrivePanel } from "./panels/drive.js";
 import { JointsPanel } from "./panels/joints.js";
+import { ProblemsPanel } from "./panels/problems.js";
 import { ViewsPanel } from "./panels/views.js";
 import { StatusBar } from "./status_bar.js";
 import { Toolbar } from "./toolbar.js";
@@ -48,11 +49,17 @@ const SHEET = {
   ...TABS,
   displays: { title: "Displays", content: DisplaysPanel },
   views: { title: "Views", content: ViewsPanel },
-  problems: { title: "Problems", content: () => html`<${Tree} panel="problems" label="Problems" />` },
+  problems: { title: "Problems", content: ProblemsPanel },
 };
 
 /** Hide all panels, or bring them back. */
 export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
+
+/** Show the list of problems, or hide it. @param {boolean} on */
+function showProblems(on) {
+  if (shape.value === "wide") hidden.set({ ...hidden.value, problems: !on });
+  else tab.set(on ? "problems" : "joints");
+}
 
 /** What the menu Panels lists: a tab is shown when it is the chosen one.
  * @returns {{name: string, title: string, shown: boolean, toggle: () => void}[]} */
@@ -85,6 +92,7 @@ function shownTab(of) {
 }
 
 export function Window() {
+  tab.use();
   const form = shape.use(), away = hidden.use(), size = sizes.use();
   const view = useRef(/** @type {any} */ (null));
   useEffect(() => placeView(view.current), []);
@@ -98,7 +106,7 @@ export function Window() {
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
-    ${!away.all && html`<${StatusBar} />`}
+    ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems", show: showProblems, byItself: form === "wide" }} />`}
     <${Connection} />
     <${Dialogs} />
   </div>`;
@@ -188,14 +196,13 @@ function Tabs({ names, of, current }) {
 /** What is below the view: the problems, when they are open. */
 function Bottom() {
   const away = hidden.use();
-  useRow("panel:problems");
-  if (away.problems !== false || !rows.children("panel:problems").length) return null;
+  if (away.problems !== false) return null;
   return html`<section class="panel bottom" aria-label="Problems">
     <${Splitter} side="bottom" label="Height of Problems" />
     <header class="title">Problems
       <button class="flat" aria-label="Close Problems" title="Close" onClick=${() => hidden.set({ ...away, problems: true })}><${Icon} name="close" /></button>
     </header>
-    <${Tree} panel="problems" label="Problems" />
+    <${ProblemsPanel} />
   </section>`;
 }
 

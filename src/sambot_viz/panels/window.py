@@ -16,6 +16,7 @@ from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.poses import PosesPanel
+from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer
 from sambot_viz.panels.status_bar import StatusBarPanel
@@ -55,6 +56,7 @@ class Window:
         session = self._session
         panels: list[Panel] = [NamesPanel(session), self._status_bar]
         panels.append(self._displays)
+        panels.append(ProblemsPanel(session, self._remake))
         panels.append(NewDisplaysPanel(session, self._displays, self._remake))
         if joints:
             panels.append(JointsPanel(session, self._remake))

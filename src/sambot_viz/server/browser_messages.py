@@ -40,19 +40,6 @@ class SetValue(_Message, tag="GuiUpdateMessage"):
     updates: dict[str, Any]
 
 
-class HoldButton(_Message, tag="GuiButtonHoldMessage"):
-    """A button is still held."""
-
-    uuid: _Id
-    frequency: _Number
-
-
-class RunCommand(_Message, tag="CommandTriggerMessage"):
-    """A key of a command was pressed."""
-
-    uuid: _Id
-
-
 class Point(_Message, tag="ScenePointerMessage"):
     """A click or a rectangle in the 3D view."""
 
@@ -72,7 +59,7 @@ class PictureDrawn(_Message, tag="GetRenderResponseMessage"):
     render_uuid: _Id
 
 
-BrowserMessage = CameraMoved | SetValue | HoldButton | RunCommand | Point | PictureDrawn
+BrowserMessage = CameraMoved | SetValue | Point | PictureDrawn
 _DECODER = msgspec.msgpack.Decoder(BrowserMessage)
 
 

@@ -2,11 +2,12 @@
 
 viser itself takes any message from anyone: any attribute of a widget, uploads of any
 size, values that cannot be sent to the other browsers. Here a browser may report its
-camera, set a visible and enabled widget to a value of the widget's type, hold a button,
-press a key of a command, click or draw a rectangle with the current tool, and send the
-picture that it was asked for. Everything else is dropped: clicks on nodes, drags,
-transform controls, forms, uploads. Nothing is accepted from a browser before its first
-camera, because viser runs no callback, and so none of our checks, before that.
+camera, edit a row of the panels, set a visible and enabled widget that a script has
+added to a value of the widget's type, click or draw a rectangle with the current tool,
+and send the picture that it was asked for. Everything else is dropped: clicks on nodes,
+drags, transform controls, buttons that are held, keys of commands, forms, uploads.
+Nothing is accepted from a browser before its first camera, because viser runs no
+callback, and so none of our checks, before that.
 
 A message is limited in size, and a browser in messages per second: one that sends more
 is slowed down, by reading less from its connection. One that does not read what it is
@@ -34,8 +35,6 @@ from sambot_viz import viser_private
 from sambot_viz.server.browser_messages import (
     BrowserMessage,
     CameraMoved,
-    HoldButton,
-    PictureDrawn,
     Point,
     SetValue,
     decode,
@@ -145,14 +144,10 @@ class Door:
             return "a message before the first camera"
         if isinstance(message, SetValue):
             return self._reason_against_value(message)
-        if isinstance(message, HoldButton) and not self._usable(message.uuid):
-            return "a button that cannot be pressed"
         if isinstance(message, Point):
             return _reason_against_gesture(message)
-        if isinstance(message, PictureDrawn):
-            expected = viser_private.awaits_picture(self._server, self._client_id)
-            return None if expected else "a picture that was not asked for"
-        return None
+        expected = viser_private.awaits_picture(self._server, self._client_id)
+        return None if expected else "a picture that was not asked for"
 
     def _reason_against_value(self, message: SetValue) -> str | None:
         if set(message.updates) != {"value"}:

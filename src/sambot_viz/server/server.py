@@ -334,8 +334,9 @@ class Server:
 
 
 def prepare_page(server: viser.ViserServer) -> None:
-    """Light for the page, and nothing of viser's own."""
+    """Light for the page, and nothing of viser's own but a panel for scripts."""
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
+    server.gui.set_panel_label("Script")
     # Without our script the page still has light to see by.
     server.scene.configure_default_lights(enabled=False)
     server.scene.configure_environment_map(None)

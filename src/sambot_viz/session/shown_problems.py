@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
@@ -15,15 +16,21 @@ if TYPE_CHECKING:
 def problems_of(session: Session) -> list[Problem]:
     """The problems to show, each once, errors first, then in the order of the files.
 
-    While the saved model has a mistake, its problems take the place of those of the
-    version that is shown, whose line numbers are out of date.
+    While a saved file has a mistake, the problems of what is shown stay listed. What
+    both have is listed once, where it is in the saved file.
     """
     saved = session.problems.of_saves
     shapes = (p for display in session.displays for p in display.problems)
-    model = saved.get("model", ()) or (*session.problems.of_model, *shapes)
-    config = saved.get("config", ()) or session.config.problems
+    model = _also(saved.get("model", ()), (*session.problems.of_model, *shapes))
+    config = _also(saved.get("config", ()), session.config.problems)
     others = (*saved.get("fault", ()), *saved.get("watch", ()))
     return in_order((*model, *config, *others))
+
+
+def _also(saved: Sequence[Problem], shown: Iterable[Problem]) -> list[Problem]:
+    """Problems of a save, and those of what is shown that say something else."""
+    said = {(problem.code, problem.message) for problem in saved}
+    return [*saved, *(p for p in shown if (p.code, p.message) not in said)]
 
 
 def last_good_note(session: Session) -> str:

@@ -37,16 +37,21 @@ export function Dialogs() {
  */
 export function Dialog({ title, close, submit, wide, children }) {
   const element = useRef(/** @type {any} */ (null));
+  const over = useRef(false);
   const label = useRef(`dialog${count}-title`).current;
   useLayoutEffect(() => {
     const dialog = element.current;
     dialog.showModal();
     dialog.querySelector("[data-first]")?.focus();
-    return () => dialog.close();
+    return () => {
+      // Its event comes when another dialog may be open already.
+      over.current = true;
+      dialog.close();
+    };
   }, []);
   /** No key of the window acts while a dialog is open. @param {KeyboardEvent} event */
   const key = (event) => event.stopPropagation();
-  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element} onClose=${close}
+  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element} onClose=${() => { if (!over.current) close(); }}
       onKeyDown=${key} onKeyUp=${key}>
     <form onSubmit=${(/** @type {Event} */ event) => { event.preventDefault(); submit?.(); }}>
       <h2 id=${label}>${title}</h2>

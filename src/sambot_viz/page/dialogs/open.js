@@ -19,7 +19,7 @@ export function OpenConfig({ close }) {
     else show(({ close: shut }) => html`<${SaveAs} close=${shut} then=${() => show(OpenConfig)} />`);
   };
   return html`<${Dialog} title="Unsaved changes" close=${close} submit=${save}>
-    <p>${state.name || "This config"} has changes that are not saved. Another config takes its place.</p>
+    <p>${`${state.name || "This config"} has changes that are not saved. Another config takes its place.`}</p>
     <${SaveRefused} saving=${saving} />
     <div class="buttons end">
       <button type="submit" class="main" data-first>${state.own ? "Save them" : "Save them as…"}</button>

@@ -1,7 +1,7 @@
 // @ts-check
 /* Save Config As: a name and Enter; a file that exists is replaced after a question. */
 
-import { html, useEffect, useRef, useState } from "../vendor/preact.js";
+import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
 import { unfolded } from "../state.js";
 import { Dialog, useAnswer } from "./dialog.js";
@@ -12,7 +12,8 @@ export function SaveAs({ close, then }) {
   const field = useRef(/** @type {any} */ (null));
   const [wanted, setWanted] = useState("");
   const { refused, answer, begin } = useAnswer("file/save-as");
-  useEffect(() => {
+  // Before the first key that is typed.
+  useLayoutEffect(() => {
     field.current.value = state.own ? state.name.replace(/\.rviz$/, "") : "";
     field.current.select();
   }, []);
@@ -31,7 +32,7 @@ export function SaveAs({ close, then }) {
       aria-invalid=${refused ? "true" : undefined} placeholder="my_robot" onInput=${() => { begin(); setWanted(""); }} />
       <span class="ending">.rviz</span></label>
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
-    ${exists && wanted && html`<p class="question" role="alert">${exists} exists already. Replace it?</p>`}
+    ${exists && wanted && html`<p class="question" role="alert">${`${exists} exists already. Replace it?`}</p>`}
     <div class="buttons end">
       ${exists && wanted ? html`<${Replace} replace=${() => save(true)} />` : html`<button type="submit" class="main">Save</button>`}
       <button type="button" onClick=${close}>Cancel</button>
@@ -42,6 +43,6 @@ export function SaveAs({ close, then }) {
 /** The answer to the question; it has the focus, so that Enter answers too. @param {{replace: () => void}} props */
 function Replace({ replace }) {
   const button = useRef(/** @type {any} */ (null));
-  useEffect(() => button.current.focus(), []);
+  useLayoutEffect(() => button.current.focus(), []);
   return html`<button type="button" class="main" ref=${button} onClick=${replace}>Replace</button>`;
 }

@@ -1,0 +1,164 @@
+"""The Problems panel: what is wrong, where, and how to fix it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path, PurePath
+
+from sambot_viz.errors import Problem, Severity
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Level, Row
+from sambot_viz.problem_groups import SEVERITIES, ProblemGroup, group_problems
+from sambot_viz.problem_text import problem_lines
+from sambot_viz.session import Session
+from sambot_viz.session.shown_problems import last_good_note, problems_of
+from sambot_viz.text import text
+
+MOST_SHOWN = 100
+"""So many groups of problems, and of the problems of one group, have rows."""
+LINES_AROUND = 2
+_LONGEST_NAME = 60
+_LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
+
+
+class ProblemsPanel(Panel):
+    """The problems of model and config, errors first; those of one cause are one row.
+
+    What is below a row, such as the lines of the file, is only read when a page has
+    unfolded the row; that of the first error is there at once.
+
+    Args:
+        session: whose problems these are.
+        remake: called when a page has unfolded something.
+    """
+
+    name = "problems"
+    remade_by = frozenset({"problems", "config", "robot", "status"})
+
+    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+        self._session = session
+        self._remake = remake
+        self._lazy: set[str] = set()
+        self._unfolded: set[str] = set()
+
+    def rows(self) -> Sequence[Row]:
+        """The banner, a row for each cause, and their number by severity."""
+        self._lazy.clear()
+        groups = group_problems(problems_of(self._session))
+        count = Counter(group.severity for group in groups)
+        note = last_good_note(self._session)
+        return [
+            *(
+                [Row("problems/good", "", "note", value=note, level="error")]
+                * bool(note)
+            ),
+            *self._group_rows(groups),
+            Row(
+                "problems/count",
+                "",
+                "names",
+                value={**{s: count[s] for s in SEVERITIES}, "old": bool(note)},
+            ),
+            Row("problems/unfold", "", "action", takes=(str,), set=self._unfold),
+        ]
+
+    def _group_rows(self, groups: Sequence[ProblemGroup]) -> Iterator[Row]:
+        for index, group in enumerate(groups[:MOST_SHOWN]):
+            first = index == 0 and group.severity == "error"
+            if len(group.problems) == 1:
+                yield from self._problem_rows(group.first, "", unfolded=first)
+            else:
+                yield from self._several_rows(group, unfolded=first)
+        if not groups:
+            yield Row("problems/none", "", "note", value="No problems.", level="ok")
+        elif len(groups) > MOST_SHOWN:
+            yield _rest("problems/rest", "", len(groups) - MOST_SHOWN)
+
+    def _several_rows(self, group: ProblemGroup, *, unfolded: bool) -> Iterator[Row]:
+        row_id = _id(group.severity, group.first.code, group.hint, group.first.cause)
+        unfolded = self._is_unfolded(row_id) or unfolded
+        yield _head(row_id, "", group.message, group.first, lazy=not unfolded)
+        if not unfolded:
+            return
+        if group.hint:
+            yield _hint(row_id, group.hint)
+        for problem in group.problems[:MOST_SHOWN]:
+            yield from self._problem_rows(problem, row_id, hint=False)
+        if len(group.problems) > MOST_SHOWN:
+            yield _rest(f"{row_id}/rest", row_id, len(group.problems) - MOST_SHOWN)
+
+    def _problem_rows(
+        self, problem: Problem, above: str, *, hint: bool = True, unfolded: bool = False
+    ) -> Iterator[Row]:
+        key = (problem.severity, problem.place, str(problem))
+        row_id = f"{above}/{_id(*key)}" if above else _id(*key)
+        below = [*_details(problem, row_id, hint=hint)] if unfolded else None
+        if below is None and self._is_unfolded(row_id):
+            below = [*_details(problem, row_id, hint=hint)]
+        more = bool(problem.file or (hint and problem.hint))
+        yield _head(
+            row_id, above, problem.message, problem, lazy=below is None and more
+        )
+        yield from below or ()
+
+    def _is_unfolded(self, row_id: str) -> bool:
+        self._lazy.add(row_id)
+        return row_id in self._unfolded
+
+    def _unfold(self, arguments: tuple[str]) -> None:
+        (row_id,) = arguments
+        if row_id in self._lazy and row_id not in self._unfolded:
+            self._unfolded.add(row_id)
+            self._remake(self)
+
+
+def _head(
+    row_id: str, above: str, message: str, problem: Problem, *, lazy: bool
+) -> Row:
+    return Row(
+        row_id,
+        above,
+        "note",
+        value=message,
+        level=_LEVELS[problem.severity],
+        expanded=not lazy,
+        extra={"place": _place(problem), "lazy": lazy},
+    )
+
+
+def _details(problem: Problem, above: str, *, hint: bool) -> Iterator[Row]:
+    """The remedy, the lines around the place, and the whole path."""
+    if hint and problem.hint:
+        yield _hint(above, problem.hint)
+    lines = problem_lines(problem, LINES_AROUND)
+    if lines:
+        marked = {"line": problem.line, "column": problem.column}
+        yield Row(f"{above}/lines", above, "lines", value=lines, extra=marked)
+    if problem.file is not None:
+        numbers = (n for n in (problem.line, problem.column) if n is not None)
+        place = ":".join((str(Path(problem.file).absolute()), *map(str, numbers)))
+        extra = {"copy": True}
+        yield Row(f"{above}/place", above, "note", "the place", place, extra=extra)
+
+
+def _hint(above: str, hint: str) -> Row:
+    return Row(f"{above}/hint", above, "note", "Fix", f"To fix it: {hint}")
+
+
+def _rest(row_id: str, above: str, count: int) -> Row:
+    return Row(row_id, above, "note", value=f"and {count} more")
+
+
+def _place(problem: Problem) -> str:
+    """The name of the file, and the line."""
+    if problem.file is None:
+        return ""
+    name = text(PurePath(problem.file).name, _LONGEST_NAME)
+    return name if problem.line is None else f"{name}:{problem.line}"
+
+
+def _id(*parts: object) -> str:
+    """The same for the same problem, whatever other problems there are."""
+    return f"p{hashlib.blake2s(repr(parts).encode(), digest_size=8).hexdigest()}"

@@ -1,0 +1,50 @@
+"""A server that goes away and comes back, as the page tells it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+LEFT = "drivewhl_l_joint"
+
+
+def test_the_page_says_that_the_server_is_gone_and_what_was_lost(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    with Visualizer(port=0) as first:
+        port = first.viser.get_port()
+        viewer = open_viewer(first.url)
+        # The browser reports every attempt to connect that fails.
+        viewer.expects_errors = True
+        user = viewer.user
+        user.unfold("Displays", "Grid")
+        first.set_joint_positions({LEFT: 1.0})
+        user.until(lambda: number(viewer) == "1")
+        rows = user.rows("Displays")
+        position = "__viserMutable.camera.position.toArray()"
+        viewer.page.mouse.drag((600.0, 300.0), (640.0, 330.0))
+        viewer.wait_until_drawn()
+        camera = viewer.page.evaluate(position)
+    user.reads("Connection lost. Trying again…")
+    assert user.rows("Displays") == rows
+    # What is set meanwhile is kept and sent.
+    user.enter(user.row("Joints", "drivewhl_r_joint").one("textbox"), "0.5")
+    with Visualizer(port=port) as second:
+        user.reads("The connection is back. The program was started again")
+        user.until(lambda: second.joint_positions["drivewhl_r_joint"] == 0.5)
+        assert second.joint_positions[LEFT] == 0.0
+        user.until(lambda: number(viewer) == "0")
+        assert user.rows("Displays") == rows
+        assert viewer.page.evaluate(position) == pytest.approx(camera)
+        user.click("button", "OK")
+        user.until(lambda: "connection is back" not in user.see().text)
+
+
+def number(viewer: ViewerPage) -> str:
+    return str(viewer.user.row("Joints", LEFT).one("textbox").value)

@@ -1,0 +1,247 @@
+"""Menus, dialogs and files of the page, used by mouse and keys."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from inside import session_of
+from PIL import Image
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, bundled, load_config
+
+pytestmark = pytest.mark.browser
+
+Open = Callable[..., ViewerPage]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    text = bundled.config_path().read_text("utf-8")
+    (tmp_path / "mine.rviz").write_text(text, "utf-8")
+    other = text.replace("Name: Grid", "Name: Floor").replace("- /TF1", "- /Floor1")
+    (tmp_path / "other.rviz").write_text(other, "utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def viz(folder: Path) -> Iterator[Visualizer]:
+    with Visualizer(config=folder / "mine.rviz", port=0, watch=True) as viz:
+        yield viz
+
+
+@pytest.fixture
+def viewer(viz: Visualizer, open_viewer: Open, tmp_path: Path) -> ViewerPage:
+    viewer = open_viewer(viz.url)
+    downloads = tmp_path / "downloads"
+    downloads.mkdir()
+    viewer.page.take_downloads(downloads)
+    return viewer
+
+
+@pytest.fixture
+def user(viewer: ViewerPage) -> User:
+    viewer.user.row("Displays", "Grid")
+    return viewer.user
+
+
+def title(user: User) -> str:
+    return str(user.page.evaluate("document.title"))
+
+
+def choose(user: User, menu: str, entry: str) -> None:
+    user.click("menuitem", menu)
+    user.click("menuitem", re.compile(f"^{re.escape(entry)}"))
+
+
+def change_the_frame_rate(user: User, rate: int) -> None:
+    field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
+    user.enter(field, str(rate))
+    user.until(lambda: title(user).startswith("mine.rviz*"))
+
+
+def focused(user: User) -> str:
+    script = "((e) => e.getAttribute('aria-label') || e.textContent)"
+    return str(user.page.evaluate(f"{script}(document.activeElement)")).strip()
+
+
+def test_the_menus_follow_the_keys_of_a_menu_bar(user: User) -> None:
+    user.click("menuitem", "File")
+    user.find("menu", "File")
+    user.keys("ArrowDown", "ArrowDown")
+    user.until(lambda: focused(user).startswith("Save Config As"))
+    user.keys("ArrowRight")
+    user.find("menu", "Edit")
+    user.keys("ArrowLeft", "ArrowLeft")
+    user.find("menu", "Help")
+    user.keys("a")
+    user.until(lambda: focused(user) == "About")
+    user.keys("Escape")
+    user.gone("menu", "Help")
+    assert focused(user) == "Help"
+    user.keys("Enter", "End", "Enter")
+    dialog = user.find("dialog", re.compile("About"))
+    assert re.search(r"sambot-viz \d+\.\d+", dialog.text)
+    user.keys("Escape")
+    user.gone("dialog")
+    user.until(lambda: focused(user) == "Help")
+
+
+def test_keys_of_the_window_do_nothing_while_a_dialog_is_open(user: User) -> None:
+    choose(user, "Help", "Keys")
+    user.find("dialog", "Keys")
+    user.keys("m", "h", "n")
+    user.keys("Escape")
+    user.gone("dialog")
+    assert user.find("button", "Interact").state("pressed")
+    user.row("Displays", "Grid")
+
+
+def test_a_name_and_enter_save_the_config_and_say_where(
+    user: User, folder: Path
+) -> None:
+    user.keys("Control+Shift+s")
+    dialog = user.find("dialog", "Save Config As")
+    assert str(folder) in dialog.text
+    user.type("hinmsc")
+    user.keys("Enter")
+    user.gone("dialog")
+    user.reads(f"Saved hinmsc.rviz in {folder}")
+    assert load_config(folder / "hinmsc.rviz").displays
+    assert user.find("button", "Interact").state("pressed")
+    user.until(lambda: title(user).startswith("hinmsc.rviz"))
+
+
+def test_a_file_is_replaced_after_a_question_and_a_bad_name_is_kept(
+    user: User, folder: Path
+) -> None:
+    change_the_frame_rate(user, 12)
+    user.keys("Control+Shift+s")
+    user.find("dialog", "Save Config As")
+    user.type("a/b")
+    user.keys("Enter")
+    user.reads("give a name without folders")
+    assert user.find("textbox", re.compile("Name")).value == "a/b"
+    user.keys("Control+a")
+    user.type("other")
+    user.keys("Enter")
+    user.reads("other.rviz exists already. Replace it?")
+    assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 30
+    user.keys("Enter")
+    user.gone("dialog")
+    assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 12
+
+
+def test_ctrl_s_takes_what_is_typed_and_the_mark_goes_away(
+    user: User, folder: Path
+) -> None:
+    change_the_frame_rate(user, 12)
+    field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
+    user.click_on(field)
+    user.keys("Control+a")
+    user.type("17")
+    user.keys("Control+s")
+    user.until(lambda: title(user).startswith("mine.rviz "))
+    assert load_config(folder / "mine.rviz").global_options.get("Frame Rate") == 17
+
+
+def test_opening_asks_about_changes_and_shows_what_was_saved(
+    user: User, viz: Visualizer, folder: Path
+) -> None:
+    change_the_frame_rate(user, 12)
+    user.unfold("Displays", "Grid")
+    choose(user, "File", "Open Config")
+    user.find("dialog", "Unsaved changes")
+    user.click("button", "Save them")
+    user.find("dialog", "Open Config")
+    user.click("option", "other.rviz")
+    user.click("button", "Open")
+    user.gone("dialog")
+    user.until(lambda: title(user).startswith("other.rviz"))
+    assert session_of(viz).config.displays[0].name == "Floor"
+    user.row("Displays", "Floor", "Cell Size")
+    assert "Show Names" not in user.rows("Displays")
+    # The first one again: Grid was unfolded when it was saved, and so was TF.
+    choose(user, "File", "Open Config")
+    user.click("option", "mine.rviz")
+    user.keys("Enter")
+    user.gone("dialog")
+    user.row("Displays", "Grid", "Cell Size")
+    user.row("Displays", "TF", "Show Names")
+    assert session_of(viz).config.global_options.get("Frame Rate") == 12
+
+
+def test_the_config_and_a_picture_are_downloaded_at_once(
+    user: User, viewer: ViewerPage, tmp_path: Path
+) -> None:
+    downloads = tmp_path / "downloads"
+    choose(user, "File", "Download Config")
+    config = downloads / "mine.rviz"
+    user.until(lambda: config.exists() and config.read_text("utf-8").endswith("\n"))
+    assert load_config(config).displays
+    choose(user, "File", "Save Image")
+    user.find("dialog", "Save Image")
+    user.type("800")
+    user.keys("Tab")
+    user.type("600")
+    user.keys("Enter")
+    user.gone("dialog")
+    picture = downloads / "sam_bot.png"
+    user.reads("Saved sam_bot.png, 800 × 600 pixels", timeout=30.0)
+    user.until(lambda: picture.exists() and picture.read_bytes()[-8:-4] == b"IEND")
+    drawn = np.asarray(Image.open(picture).convert("RGB"))
+    assert drawn.shape == (600, 800, 3)
+    assert tuple(drawn[5, 5]) == (48, 48, 48)
+    assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 20
+
+
+def test_a_new_display_is_selected_unfolded_and_named(
+    user: User, viz: Visualizer
+) -> None:
+    user.unfold("Displays", "Grid")
+    user.click("button", "Add", ("region", "Displays"))
+    dialog = user.find("dialog", "Add Display")
+    assert "LaserScan" in dialog.text
+    assert dialog.one("option", re.compile("^LaserScan")).state("disabled")
+    user.keys("a", "x", "Tab")
+    user.type("Wheel axes, main")
+    user.keys("Enter")
+    user.gone("dialog")
+    row = user.row("Displays", "Wheel axes, main")
+    assert row.state("selected") and row.state("expanded")
+    user.until(lambda: user.can_see(user.row("Displays", "Wheel axes, main", "Radius")))
+    user.row("Displays", "Grid", "Cell Size")
+    assert session_of(viz).config.displays[-1].name == "Wheel axes, main"
+
+
+def test_panels_are_hidden_and_shown_again_from_the_menu(user: User) -> None:
+    choose(user, "Panels", "Hide all")
+    user.gone("treegrid")
+    user.click("button", re.compile("Show panels"))
+    user.row("Displays", "Grid")
+    user.click("menuitem", "Panels")
+    user.click("menuitemcheckbox", "Displays")
+    user.gone("treegrid", "Displays")
+    user.click("menuitem", "Panels")
+    user.click("menuitemcheckbox", "Displays")
+    user.row("Displays", "Grid")
+
+
+def test_widgets_of_a_script_have_a_panel_only_while_there_are_any(
+    user: User, viz: Visualizer
+) -> None:
+    assert not user.there("button", "Blink")
+    pressed: list[bool] = []
+    button = viz.viser.gui.add_button("Blink")
+    button.on_click(lambda _: pressed.append(True))
+    user.click("button", "Blink")
+    user.until(lambda: bool(pressed))
+    button.remove()
+    user.until(
+        lambda: not user.there("button", "Blink") and "Script" not in user.see().text
+    )
