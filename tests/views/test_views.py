@@ -358,3 +358,22 @@ def test_a_view_from_below_and_one_of_a_point_are_fitted_too(
     put(view, view.fit(high, high, 800, 600))
     assert 0.01 < value(view, "Distance") < 0.1
     assert value(view, "Focal Point") == pytest.approx((1.0, 1.0, 1.0))
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_camera_shows_what_is_in_its_picture(orthographic: bool) -> None:
+    camera = Camera(vector(0, 0, 10), vector(0, 0, 0), vector(0, 1, 0))
+    half = 10 * math.tan(camera.fov / 2)
+    if orthographic:
+        camera = camera.as_orthographic(400)
+    for part in (1.0, 0.5):
+        for sign in (-1, 1):
+            assert camera.shows(vector(0, sign * 0.99 * part * half, 0), 800, 400, part)
+            assert camera.shows(vector(sign * 1.98 * part * half, 0, 0), 800, 400, part)
+            assert not camera.shows(
+                vector(0, sign * 1.01 * part * half, 0), 800, 400, part
+            )
+            assert not camera.shows(
+                vector(sign * 2.02 * part * half, 0, 0), 800, 400, part
+            )
+    assert not camera.shows(vector(0, 0, 2000), 800, 400)

@@ -154,6 +154,10 @@ class BrowserView(SavedViews):
         if found is not None:
             self._move(lambda: self._values_for(found))
 
+    def pan(self, offset: Vector) -> None:
+        """Move the camera, (3,) [m]."""
+        self._move(lambda: self.view.shifted(offset))
+
     def show(self) -> None:
         """Take the document's view, after a program has set another one."""
         with self._browser.change("view"):

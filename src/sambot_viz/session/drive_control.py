@@ -19,8 +19,9 @@ from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.robot.model import Robot
-from sambot_viz.rviz import FIXED_FRAME
+from sambot_viz.session.driver_view import DriverView
 from sambot_viz.session.throttle import Throttle
+from sambot_viz.views.camera import Vector
 
 if TYPE_CHECKING:
     from sambot_viz.session import Event, Session
@@ -55,6 +56,7 @@ class DriveControl:
         self._height = 0.0
         self.why_not = "no robot is shown yet"
         self._line = PathLine(session.audience.scene)
+        self._seen = DriverView(session)
         self._drawing = Throttle(session.worker, TRAIL_PERIOD, self._draw_trail)
         session.listeners.append(self._hear)
 
@@ -143,8 +145,8 @@ class DriveControl:
     def show_motion(self) -> bool:
         """Make the fixed frame one that the robot moves in, if it is one of its own.
 
-        The view of the browser that drives follows the robot then. Both are edits that
-        can be undone.
+        That is an edit that can be undone. The robot stays in the picture of the
+        browser that drives.
 
         Returns:
             Whether the fixed frame was another one.
@@ -157,14 +159,12 @@ class DriveControl:
             if self._drive is None:
                 return False
             self.enter_odom()
+            self._seen.begin()
             fixed = session.context.fixed_frame
             if fixed not in session.tree.frames or not self._carries(fixed):
                 return False
-            actor = session.edits.actor
-            browser = None if actor is None else session.browsers.get(actor)
-            if browser and browser.view.values.get("Target Frame") == FIXED_FRAME:
-                browser.view.set("Target Frame", self._root)
             session.set_global("Fixed Frame", ODOM)
+            self._seen.make_room()
             return True
 
     def _carries(self, frame: str | None) -> bool:
@@ -242,6 +242,14 @@ class DriveControl:
                 drawn = self._line.draw(above, self.trail or ((0.0, 0.0),))
             if drawn:
                 session.audience.flush()
+            self._seen.follow(self._place())
+
+    def _place(self) -> Vector | None:
+        """The root link in the fixed frame [m]."""
+        tree, fixed = self._session.tree, self._session.context.fixed_frame
+        if not self._root or not tree.can_lookup(fixed, self._root):
+            return None
+        return tree.lookup(fixed, self._root).matrix[:3, 3]
 
     def _find(self, robot: Robot) -> WheelPair:
         options = self._session.options

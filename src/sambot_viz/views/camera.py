@@ -96,6 +96,26 @@ class Camera:
         away = np.maximum(aside, above) - behind
         return float(max(away.max(), self.near - behind.min()))
 
+    def shows(self, point: Vector, width: int, height: int, part: float = 1.0) -> bool:
+        """Whether a point is in the picture.
+
+        Args:
+            point: (3,) [m].
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+            part: of the picture, about its middle.
+        """
+        away = point - self.position
+        ahead = float(away @ self.forward)
+        if ahead < self.near:
+            return False
+        if self.scale is not None:
+            half = height / (2.0 * self.scale)
+        else:
+            half = ahead * math.tan(self.fov / 2.0)
+        aside, above = abs(float(away @ self.right)), abs(float(away @ self.image_up))
+        return aside <= part * half * width / height and above <= part * half
+
     def as_perspective(self, height: int, fov: float | None = None) -> Camera:
         """The nearest that a renderer without an orthographic camera can draw.
 

@@ -50,7 +50,7 @@ export function DrivePanel() {
       <button class="home" title="Put robot, wheels and path back to the start" onClick=${() => act("drive/reset")}>Reset</button>
       <p class="keys">Hold a button, or press 8 2 4 6; 5 stops</p>
     </div>
-    <${Tree} panel="drive" label="Drive" />
+    <${Tree} panel="drive" label="Drive" split=${false} />
   </div>`;
 }
 

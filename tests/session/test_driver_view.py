@@ -1,0 +1,123 @@
+"""A robot that is driven stays in the picture of the browser that drives it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from urllib.parse import urlsplit
+
+import pytest
+from inside import session_of, viser_server
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.session import Browser, Session
+from sambot_viz.session.driver_view import DriverView
+from sambot_viz.views.camera import vector
+
+START, AWAY, FARTHER = vector(0, 0, 0.1), vector(5, 2, 0.1), vector(6, 2, 0.1)
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    return session_of(viz)
+
+
+@pytest.fixture
+def join(
+    viz: Visualizer, session: Session, protocol: Callable[..., ProtocolClient]
+) -> Callable[[], Browser]:
+    """Open the page in one more browser, near the robot."""
+
+    def open_page() -> Browser:
+        before = set(session.browsers)
+        protocol(urlsplit(viz.url).port or 0).settle(viser_server(viz))
+        (new,) = session.browsers.keys() - before
+        session.browsers[new].view.set("Distance", 2.0)
+        return session.browsers[new]
+
+    return open_page
+
+
+@pytest.fixture
+def driver(join: Callable[[], Browser]) -> Browser:
+    return join()
+
+
+@pytest.fixture
+def seen(session: Session, driver: Browser) -> DriverView:
+    """What the driver sees; the driver's first command was just now."""
+    seen = DriverView(session)
+    with session.edits.acting(driver.client_id):
+        seen.begin()
+    return seen
+
+
+def looks_at(browser: Browser) -> tuple[float, ...]:
+    return tuple(round(float(part), 6) for part in browser.view.camera.look_at[:2])
+
+
+def test_a_robot_that_drives_out_of_the_picture_is_in_its_middle_again(
+    seen: DriverView, driver: Browser
+) -> None:
+    before = driver.view.camera
+    seen.follow(START)
+    seen.follow(vector(0.1, 0, 0.1))
+    assert looks_at(driver) == (0, 0)
+    seen.follow(AWAY)
+    now = driver.view.camera
+    assert looks_at(driver) == (5, 2)
+    # The camera is moved, not turned, and not up or down.
+    assert now.forward == pytest.approx(before.forward)
+    assert now.distance == pytest.approx(before.distance)
+    assert now.look_at[2] == before.look_at[2]
+
+
+def test_who_looks_elsewhere_is_left_alone(seen: DriverView, driver: Browser) -> None:
+    seen.follow(START)
+    driver.view.pan(vector(-20, 0, 0))
+    before = looks_at(driver)
+    seen.follow(AWAY)
+    seen.follow(FARTHER)
+    assert looks_at(driver) == before
+
+
+def test_the_cameras_of_others_stay(
+    seen: DriverView, driver: Browser, join: Callable[[], Browser]
+) -> None:
+    other = join()
+    seen.make_room()
+    seen.follow(START)
+    seen.follow(AWAY)
+    assert looks_at(other) == (0, 0)
+    assert other.view.values["Distance"] == 2.0
+
+
+def test_there_is_room_to_drive_in_the_picture_at_the_start(
+    seen: DriverView, driver: Browser
+) -> None:
+    seen.make_room()
+    distance = driver.view.values["Distance"]
+    assert distance > 3
+    seen.make_room()
+    assert driver.view.values["Distance"] == distance
+    driver.view.set("Distance", 10.0)
+    seen.make_room()
+    assert driver.view.values["Distance"] == 10
+
+
+def test_a_program_that_drives_moves_no_camera(
+    session: Session, driver: Browser
+) -> None:
+    seen = DriverView(session)
+    seen.begin()
+    seen.make_room()
+    seen.follow(START)
+    seen.follow(AWAY)
+    seen.follow(None)
+    assert looks_at(driver) == (0, 0)
