@@ -71,3 +71,36 @@ test("the rows of a session and those of a browser do not touch each other", () 
   rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 4 } } });
   assert.deepEqual([rows.value("tool"), rows.value("a")], [2, 4]);
 });
+
+test("the numbers of a vector are rows of their own", () => {
+  const rows = new Rows();
+  const vector = { id: "v", in: "", kind: "vector", name: "Offset", unit: "m", parts: ["X", "Y"], value: [1, 2] };
+  rows.take("session", "rows", { base: 1, panels: { displays: [vector] } });
+  assert.deepEqual(rows.children("v"), ["v/.X", "v/.Y"]);
+  assert.deepEqual(rows.get("v/.Y"), { id: "v/.Y", in: "v", kind: "float", name: "Y", value: 2, part: 1, unit: "m" });
+  /** @type {string[]} */
+  const heard = [];
+  for (const key of ["v", "v/.X", "v/.Y"]) rows.listen(key, () => heard.push(key));
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { v: { value: [1, 5] } } });
+  assert.equal(rows.value("v/.Y"), 5);
+  assert.deepEqual(heard, ["v", "v/.Y"]);
+  rows.take("session", "changes", { base: 1, panels: { displays: [] } });
+  assert.equal(rows.get("v/.X"), undefined);
+});
+
+test("a value that is hoped for is shown, and put back when it is refused", () => {
+  const { rows } = grid();
+  rows.hope("a", 7);
+  rows.hope("a", 8);
+  assert.equal(rows.value("a"), 8);
+  rows.putBack("a");
+  assert.equal(rows.value("a"), 1);
+});
+
+test("what the server says counts more than what is hoped for", () => {
+  const { rows } = grid();
+  rows.hope("a", 7);
+  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 7 } } });
+  rows.putBack("a");
+  assert.equal(rows.value("a"), 7);
+});

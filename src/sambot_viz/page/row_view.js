@@ -9,6 +9,8 @@ import { fold, select, useRow } from "./state.js";
 
 /** @typedef {import("./rows.js").Row} Row */
 
+/** A status that is longer is below its name, over the whole width. */
+const BESIDE = 24;
 const NUMBERS = new Set(["int", "float", "slider", "vector"]);
 const TEXTS = new Set(["text", "file", "frame", "color"]);
 
@@ -33,6 +35,7 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
   const why = refusals.get(id);
   // A name without a value beside it has the whole width.
   const alone = row.kind === "group" || row.whole;
+  const long = row.kind === "status" && String(row.value).length > BESIDE;
   const wide = row.kind === "note" || row.kind === "lines";
   /** @param {any} event */
   const press = (event) => {
@@ -58,7 +61,7 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
   };
   const twist = html`<span class=${`twist${opens ? (open ? " open" : "") : " none"}`} aria-hidden="true"
     onClick=${() => opens && fold(id, !open)}></span>`;
-  return html`<div class=${`row k-${row.kind} l-${row.level || "none"}${row.bold ? " bold" : ""}${row.off ? " off" : ""}${row.value === false ? " unticked" : ""}${alone ? " alone" : ""}`}
+  return html`<div class=${`row k-${row.kind} l-${row.level || "none"}${row.bold ? " bold" : ""}${row.off ? " off" : ""}${row.value === false ? " unticked" : ""}${alone ? " alone" : ""}${long ? " long" : ""}`}
       role="row" aria-level=${depth + 1} aria-expanded=${opens ? String(open) : undefined}
       aria-selected=${chosen ? "true" : "false"} tabindex=${tab} data-row=${id}
       style=${`--depth: ${depth}`} title=${api.current.hover && !wide && row.kind !== "slider" ? row.help : undefined}

@@ -2,7 +2,8 @@
 /* The order of displays: which places there are, and how a hand takes a display there. */
 
 import { act, rows } from "../channel.js";
-import { isOpen } from "../state.js";
+import { fold, isOpen } from "../state.js";
+import { reveal } from "../tree.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 /**
@@ -142,7 +143,10 @@ export function dragDisplay(down, row, tree) {
     const dragged = mark.isConnected;
     end();
     const stays = to && to.group === row.in && to.index === members(row.in).indexOf(row.id);
-    if (dragged && to && !stays) act("displays/move", [row.id, to.group, to.index]);
+    if (!dragged || !to || stays) return;
+    if (to.group) fold(to.group, true);
+    reveal("displays", row.id);
+    act("displays/move", [row.id, to.group, to.index]);
   };
   /** @param {KeyboardEvent} event */
   const escape = (event) => {
