@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, cast
@@ -23,6 +24,10 @@ LONGEST_ID = 400
 LARGEST = 1e12
 """No number of a user is larger."""
 _MOST_PARTS = 4000
+_REPR = reprlib.Repr()
+"""Of lists in lists only the outermost are written."""
+_REPR.maxlevel = 3
+_REPR.maxstring = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +143,8 @@ def _arguments(row: Row, value: Json) -> tuple[Any, ...]:
 def _argument(row: Row, part: Json) -> Any:
     if isinstance(part, str):
         return _short(row, part)
-    if isinstance(part, int | float) and not math.isfinite(part):
+    number = isinstance(part, int | float) and not isinstance(part, bool)
+    if number and finite(part) is None:
         raise UsageError(f"'{text(row.name)}' needs a number")
     if isinstance(part, list):
         parts = cast("list[Any]", part)
@@ -149,4 +155,4 @@ def _argument(row: Row, part: Json) -> Any:
 
 
 def _shown(value: Json) -> str:
-    return text(repr(value), 60)
+    return text(_REPR.repr(value), 60)

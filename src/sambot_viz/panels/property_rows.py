@@ -16,6 +16,7 @@ from sambot_viz.rviz import (
     FileProperty,
     FloatProperty,
     IntProperty,
+    KeptProperty,
     Property,
     TfFrameProperty,
     VectorProperty,
@@ -66,7 +67,9 @@ def property_rows(
 def is_listed(item: ConfigItem, declared: Declared) -> bool:
     """Whether a property has a row now: it may depend on another one's value."""
     prop = declared.property
-    if prop.support in ("none", "kept") or not item.is_shown(declared.path):
+    if isinstance(prop, KeptProperty) or prop.support in ("none", "kept"):
+        return False
+    if not item.is_shown(declared.path):
         return False
     # A group is there for what is in it; lists of links or frames add their own rows.
     if prop.has_value or prop.open_keys:

@@ -1,0 +1,167 @@
+"""The gate: what a browser sends is a value that a row can have, or is refused."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+import string
+from collections.abc import Callable
+from typing import Any, get_args
+
+import pytest
+
+from sambot_viz import SambotVizError
+from sambot_viz.panels import gate
+from sambot_viz.panels.row import Kind, Row
+
+SIGNS = string.printable + "äß→\ud800\udfff\u202e\x00\x7f\u2028\ufeff\U0001f600"
+NUMBERS = (0, 1, -1, 3, 2**31, 2**53 + 1, -(2**63), 10**400, 1e-300, 0.5, 1e13, -1e300)
+ODD: tuple[Any, ...] = (None, True, False, math.nan, math.inf, -math.inf, *NUMBERS)
+
+
+def settable(kind: Kind, **more: Any) -> Row:
+    values: dict[str, Any] = {"vector": (0.0, 0.0, 0.0), "color": (1, 2, 3)}
+    value = values.get(kind)
+    return Row("row", "", kind, "Name", value=value, set=lambda value: None, **more)
+
+
+ROWS = [
+    *(settable(kind) for kind in get_args(Kind)),
+    settable("float", least=-1.0, most=1.0, unit="m"),
+    settable("int", least=0),
+    settable("enum", options=("Lines", "Billboards", "\ud800 \u202e")),
+    settable("enum", options=("Lines",), editable=True),
+    settable("action", takes=(str, (str, type(None)), int)),
+    settable("action", takes=(list, bool, float)),
+    Row("row", "", "float", "Name", value=1.0),
+    settable("bool", enabled=False),
+]
+
+
+def garbage(chance: random.Random, depth: int = 3) -> Any:
+    """Anything that a decoded message may hold."""
+    make: list[Callable[[], Any]] = [
+        lambda: chance.choice(ODD),
+        lambda: chance.uniform(-1e15, 1e15),
+        lambda: "".join(chance.choices(SIGNS, k=chance.randrange(12))),
+        lambda: "x" * chance.choice((gate.LONGEST_TEXT, gate.LONGEST_TEXT + 1, 70_000)),
+        lambda: bytes(chance.randrange(4)),
+        lambda: [garbage(chance, depth - 1) for _ in range(chance.randrange(5))],
+        lambda: {"a": garbage(chance, depth - 1)},
+    ]
+    return chance.choice(make if depth else make[:5])()
+
+
+def test_whatever_comes_is_refused_with_a_sentence_or_can_be_sent_on() -> None:
+    chance = random.Random(1)
+    taken = 0
+    for row, _ in itertools.product(ROWS, range(400)):
+        value = garbage(chance)
+        try:
+            found = gate.checked(row, value)
+        except SambotVizError as error:
+            sentence = str(error)
+            assert sentence.isprintable(), sentence
+            sentence.encode()
+            assert len(sentence) < 300
+            continue
+        taken += 1
+        assert_plain(found)
+    # Some of it must have been values that rows do have.
+    assert taken > 100
+
+
+def assert_plain(value: object) -> None:
+    """Only what can be kept and drawn comes through."""
+    if isinstance(value, str):
+        value.encode()
+        assert len(value) <= gate.LONGEST_TEXT
+    elif isinstance(value, int | float):
+        assert math.isfinite(float(value))
+    elif isinstance(value, list | tuple):
+        for part in value:  # pyright: ignore[reportUnknownVariableType]
+            assert_plain(part)  # pyright: ignore[reportUnknownArgumentType]
+
+
+def test_what_is_no_new_value_is_dropped() -> None:
+    chance = random.Random(2)
+    for _ in range(5000):
+        message = garbage(chance)
+        found = gate.read(message)
+        if found is not None:
+            assert isinstance(found.row, str)
+            assert found.gesture is None or type(found.gesture) is int
+    for message in ([], ["row"], ["row", 1, 2, 3], [1, 2], ["x" * 401, 1], "row", None):
+        assert gate.read(message) is None
+    for gesture in (True, 1.5, "1", [1]):
+        assert gate.read(["row", 1, gesture]) is None
+
+
+def test_a_deep_nest_of_lists_is_refused() -> None:
+    nest: list[Any] = []
+    for _ in range(3000):
+        nest = [nest]
+    for row in ROWS:
+        with pytest.raises(SambotVizError):
+            gate.checked(row, nest)
+        with pytest.raises(SambotVizError):
+            gate.checked(row, [nest])
+
+
+@pytest.mark.parametrize(
+    ("row", "value", "found"),
+    [
+        (settable("float"), 1, 1.0),
+        (settable("int"), 3.0, 3),
+        (settable("bool"), False, False),
+        (settable("display"), True, True),
+        (settable("color"), "white", "white"),
+        (settable("color"), [1, 2, 3], (1, 2, 3)),
+        (settable("vector"), [1, 2, 3], (1, 2, 3)),
+        (settable("text"), "two words", "two words"),
+        (settable("frame"), "", ""),
+        (settable("enum", options=("a", "b")), "b", "b"),
+        (settable("enum", options=("a",), editable=True), "other", "other"),
+        (settable("action"), [], ()),
+        (settable("action"), None, ()),
+        (settable("action", takes=(str, (int, type(None)))), ["a", None], ("a", None)),
+        (settable("action", takes=(bool,)), [False], (False,)),
+        (settable("action", takes=(list,)), [["a", 1]], (["a", 1],)),
+    ],
+)
+def test_values_of_the_right_type_pass(row: Row, value: Any, found: Any) -> None:
+    assert gate.checked(row, value) == found
+    assert type(gate.checked(row, value)) is type(found)
+
+
+def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
+    row = settable("enum", options=("plain", "a\u202eb"))
+    shown = row.json()["options"][1]
+    assert shown != "a\u202eb"
+    assert gate.checked(row, shown) == "a\u202eb"
+
+
+@pytest.mark.parametrize(
+    ("row", "value", "sentence"),
+    [
+        (settable("float"), "1", "'Name' needs a number, not '1'"),
+        (settable("float"), True, "'Name' needs a number, not True"),
+        (settable("int"), 1.5, "'Name' needs a whole number"),
+        (settable("float", least=0.0, most=1.0, unit="m"), 2, "its limits are 0 … 1 m"),
+        (settable("vector"), [1, 2], "'Name' needs 3 numbers"),
+        (settable("text"), "x" * 1001, "'Name' takes at most 1000 characters"),
+        (settable("text"), "a\u202e", "contains a character that cannot be seen"),
+        (settable("enum", options=("a",)), "b", "'Name' does not offer 'b'"),
+        (settable("bool"), 1, "'Name' does not take 1"),
+        (settable("status"), "Ok", "'Name' does not take 'Ok'"),
+        (settable("action", takes=(int,)), [True], "'Name' does not take"),
+        (settable("action", takes=(int,)), [10**400], "'Name' needs a number"),
+        (settable("bool", enabled=False), True, "cannot be changed at present"),
+        (Row("row", "", "bool", "Name"), True, "cannot be changed at present"),
+    ],
+)
+def test_others_are_refused_with_a_reason(row: Row, value: Any, sentence: str) -> None:
+    with pytest.raises(SambotVizError) as refused:
+        gate.checked(row, value)
+    assert sentence in str(refused.value)
