@@ -120,6 +120,5 @@ def test_the_same_problems_are_not_sent_twice(
     client.settle(viz.viser)
     mark = client.mark()
     session.problems.set_saves("model", [Problem("error", "e", "it is broken")])
-    session.problems.set_model([Problem("warning", "w", "behind the error")])
     client.settle(viz.viser)
     assert client.since(mark) == []

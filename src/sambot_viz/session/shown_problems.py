@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os.path
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
@@ -16,14 +18,25 @@ def problems_of(session: Session) -> list[Problem]:
     """The problems to show, each once, errors first, then in the order of the files.
 
     While the saved model has a mistake, its problems take the place of those of the
-    version that is shown, whose line numbers are out of date.
+    version that is shown, whose line numbers are out of date. What is wrong with other
+    files, and with the robot that is shown, stays.
     """
     saved = session.problems.of_saves
+    model, own = saved.get("model", ()), session.problems.of_model
+    if model:
+        own = tuple(problem for problem in own if not _is_in_model(problem, session))
     shapes = (p for display in session.displays for p in display.problems)
-    model = saved.get("model", ()) or (*session.problems.of_model, *shapes)
     config = saved.get("config", ()) or session.config.problems
     others = (*saved.get("fault", ()), *saved.get("watch", ()))
-    return in_order((*model, *config, *others))
+    return in_order((*model, *own, *shapes, *config, *others))
+
+
+def _is_in_model(problem: Problem, session: Session) -> bool:
+    """Whether a problem is at a place in a file of the model that is shown."""
+    robot = session.robot
+    if problem.file is None or robot is None:
+        return False
+    return Path(os.path.abspath(problem.file)) in robot.files
 
 
 def last_good_note(session: Session) -> str:
