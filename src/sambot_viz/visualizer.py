@@ -156,8 +156,10 @@ class Visualizer:
 
     def _follow(self, inputs: Inputs, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""
+        # A program may go to another folder.
+        model = None if inputs.model is None else inputs.model.absolute()
         sources = Sources(
-            inputs.model,
+            model,
             inputs.load,
             self._show,
             self._documents,

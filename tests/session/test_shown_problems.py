@@ -1,0 +1,56 @@
+"""What a page lists of a session's problems."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from sambot_viz import Problem, Visualizer
+from sambot_viz.session import Session
+from sambot_viz.session.shown_problems import last_good_note, problems_of
+
+MISTAKE = Problem("error", "e", "it is broken")
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Iterator[Session]:
+    model = tmp_path / "r.urdf"
+    model.write_text('<robot name="r"><link name="a b"/></robot>')
+    with Visualizer(model) as viz:
+        session = viz.server.sessions()[0]
+        own = Problem("info", "own", "a remark", "", str(model), 1)
+        other = Problem("info", "other", "of a launch file", "", "a.launch.py", 3)
+        without = Problem("warning", "without", "of the frames")
+        session.problems.set_model((own, other, without))
+        yield session
+
+
+def codes(session: Session) -> list[str]:
+    return [problem.code for problem in problems_of(session)]
+
+
+def test_errors_come_first(session: Session) -> None:
+    assert codes(session) == ["without", "own", "other"]
+    session.problems.set_saves("watch", [Problem("error", "w", "no watching")])
+    assert codes(session) == ["w", "without", "own", "other"]
+
+
+def test_a_mistake_takes_the_place_of_what_is_in_the_old_file_only(
+    session: Session,
+) -> None:
+    session.problems.set_saves("model", [MISTAKE])
+    assert codes(session) == ["e", "without", "other"]
+    session.problems.set_saves("model", [])
+    assert codes(session) == ["without", "own", "other"]
+
+
+def test_a_note_says_what_is_shown_instead(session: Session) -> None:
+    assert last_good_note(session) == ""
+    session.problems.set_saves("model", [MISTAKE])
+    assert last_good_note(session).startswith("Showing the last good version")
+    session.problems.set_saves("config", [MISTAKE])
+    assert "config has a mistake" in last_good_note(session)
+    session.problems.set_saves("model", [])
+    assert last_good_note(session).startswith("The config has a mistake")
