@@ -11,6 +11,8 @@ from inside import session_of
 from panel_rows import edit, rows_of
 
 from sambot_viz import SambotVizError, Visualizer
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
@@ -217,6 +219,21 @@ def test_bad_rows_of_a_status_come_first(displays: Displays) -> None:
         if row.above == displays.named("Robot", "Status").id
     ]
     assert levels == sorted(levels, key=["error", "warn", "ok"].index)
+
+
+def test_while_there_is_no_robot_its_display_names_the_mistakes(tmp_path: Path) -> None:
+    model = tmp_path / "two.urdf"
+    model.write_text(ROBOT.replace('child link="arm/tip"', 'child link="amr"'))
+    inputs = Inputs(Options(model, watch=True), may_be_broken=True)
+    with Visualizer.of_inputs(inputs) as viz:
+        displays = Displays(session_of(viz))
+        status = displays.named("RobotModel", "Status")
+        assert (status.value, status.expanded) == ("Error", True)
+        mistake = displays.named("RobotModel", "Status", "Model").value
+        assert mistake.startswith("two.urdf:")
+        assert "'amr'" in mistake
+        urdf = displays.named("RobotModel", "Status", "URDF")
+        assert urdf.value == "There is no robot to show"
 
 
 def test_links_without_a_collision_shape_are_named_when_those_are_shown(

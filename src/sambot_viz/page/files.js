@@ -40,8 +40,9 @@ export function FileName() {
   const { name, own, modified } = useRow("file/state")?.value || {};
   const shown = (name || "no file yet") + (modified ? "*" : "");
   useEffect(() => { document.title = `${shown} - sambot-viz`; }, [shown]);
+  // In a narrow window the end is seen, with the star.
   const where = own ? "" : name ? "This config comes with the program; saving asks for a name." : "";
-  return html`<span class="file-name" title=${[modified ? "With changes that are not saved." : "Saved.", where].join(" ")}>${shown}</span>`;
+  return html`<span class="file-name" title=${[modified ? "With changes that are not saved." : "Saved.", where].join(" ")}><bdi dir="ltr">${shown}</bdi></span>`;
 }
 
 /** The keys of the file menu, which also act while a text is typed. */

@@ -8,6 +8,23 @@ import { html, useEffect, useLayoutEffect, useRef } from "./vendor/preact.js";
  * @typedef {{x: number, y: number}} Place
  */
 
+/** What a key does in a menu, on one of its entries; whether it does anything.
+ * @param {any} event @param {HTMLElement[]} entries */
+export function menuKey(event, entries) {
+  const now = entries.indexOf(event.target), last = entries.length - 1;
+  if (event.ctrlKey || event.metaKey) return false;
+  if (event.key === "ArrowDown") entries[now < last ? now + 1 : 0]?.focus();
+  else if (event.key === "ArrowUp") entries[now > 0 ? now - 1 : last]?.focus();
+  else if (event.key === "Home") entries[0]?.focus();
+  else if (event.key === "End") entries[last]?.focus();
+  else if (event.key === "Enter" || event.key === " ") event.target.click();
+  else if (/^\w$/.test(event.key)) {
+    const letter = event.key.toLowerCase();
+    [...entries.slice(now + 1), ...entries].find((one) => one.textContent?.trim().toLowerCase().startsWith(letter))?.focus();
+  } else return false;
+  return true;
+}
+
 /**
  * The menu; it closes itself. The focus then goes back to where it was.
  * @param {{items: Item[], at: Place, label: string, close: () => void}} props
@@ -36,17 +53,8 @@ export function Menu({ items, at, label, close }) {
   };
   /** @param {any} event */
   const key = (event) => {
-    const all = entries(), now = all.indexOf(event.target);
-    if (event.key === "ArrowDown") all[(now + 1) % all.length]?.focus();
-    else if (event.key === "ArrowUp") all[(now - 1 + all.length) % all.length]?.focus();
-    else if (event.key === "Home") all[0]?.focus();
-    else if (event.key === "End") all.at(-1)?.focus();
-    else if (event.key === "Escape" || event.key === "Tab") end();
-    else if (event.key === "Enter" || event.key === " ") event.target.click();
-    else if (/^\w$/.test(event.key)) {
-      const next = [...all.slice(now + 1), ...all].find((one) => one.textContent?.toLowerCase().startsWith(event.key.toLowerCase()));
-      next?.focus();
-    } else return;
+    if (event.key === "Escape" || event.key === "Tab") end();
+    else if (!menuKey(event, entries())) return;
     event.preventDefault();
     event.stopPropagation();
   };

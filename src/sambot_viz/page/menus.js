@@ -7,6 +7,7 @@ import { show } from "./dialogs/dialog.js";
 import { About, Keys } from "./dialogs/help.js";
 import { download, hasDisk, open, save, saveAs, saveImage } from "./files.js";
 import { Icon } from "./icons.js";
+import { menuKey } from "./menu.js";
 import { useRow } from "./state.js";
 
 /**
@@ -105,17 +106,8 @@ function Menu({ menu, choose, leave }) {
   useLayoutEffect(() => { items()[0]?.focus(); }, []);
   /** @param {any} event */
   const key = (event) => {
-    const all = items(), at = all.indexOf(event.target);
-    if (event.key === "ArrowDown") all[(at + 1) % all.length]?.focus();
-    else if (event.key === "ArrowUp") all[(at - 1 + all.length) % all.length]?.focus();
-    else if (event.key === "Home") all[0]?.focus();
-    else if (event.key === "End") all[all.length - 1]?.focus();
-    else if (event.key === "Tab") return leave();
-    else if (event.key === "Enter" || event.key === " ") event.target.click();
-    else if (/^\w$/.test(event.key) && !event.ctrlKey && !event.metaKey) {
-      const wanted = event.key.toLowerCase();
-      [...all.slice(at + 1), ...all].find((item) => item.textContent?.trim().toLowerCase().startsWith(wanted))?.focus();
-    } else return undefined;
+    if (event.key === "Tab") return leave();
+    if (!menuKey(event, items())) return undefined;
     event.preventDefault();
     event.stopPropagation();
     return undefined;

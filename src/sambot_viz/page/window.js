@@ -66,7 +66,8 @@ function showProblems(on) {
 function panelList() {
   const away = hidden.value;
   const has = (/** @type {string} */ name) => Boolean(rows.panels.get(name)?.length);
-  return Object.entries(SHEET).filter(([name]) => has(name)).map(([name, { title }]) => {
+  const { displays, views, ...others } = SHEET;
+  return Object.entries({ displays, views, ...others }).filter(([name]) => has(name)).map(([name, { title }]) => {
     const side = name in TABS ? "right" : name === "problems" ? "" : "left";
     const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
     const byTab = side === "right" || shape.value !== "wide";

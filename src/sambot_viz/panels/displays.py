@@ -37,7 +37,7 @@ class DisplaysPanel(Panel):
     """
 
     name = "displays"
-    remade_by = frozenset({"config", "robot", "frames", "status"})
+    remade_by = frozenset({"config", "robot", "frames", "status", "problems"})
     moved_by = frozenset({"joints"})
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
@@ -169,7 +169,8 @@ class DisplaysPanel(Panel):
         for path, declared in item.declared.items():
             if not is_listed(item, declared):
                 continue
-            if declared.property.open_keys and path not in entries:
+            of = declared.above or declared
+            if of.property.open_keys and of.path not in entries:
                 continue
             row = property_row(item, declared, above, change)
             # The links of a robot come after the properties of their list.

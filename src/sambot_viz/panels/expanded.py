@@ -32,13 +32,13 @@ def mark_expanded(
     rows: Iterable[Row], expanded: Collection[str] | None
 ) -> Iterator[Row]:
     """The rows, unfolded as the file says, if it says anything."""
+    if expanded is None:
+        yield from rows
+        return
+    listed = frozenset(expanded)
     for row, path in row_paths(rows):
-        if expanded is not None and not row.level:
-            yield replace(row, expanded=path in expanded)
-        elif expanded is not None:
-            yield replace(row, expanded=row.expanded or path in expanded)
-        else:
-            yield row
+        unfolded = path in listed or bool(row.level and row.expanded)
+        yield row if unfolded == row.expanded else replace(row, expanded=unfolded)
 
 
 def keep_expanded(

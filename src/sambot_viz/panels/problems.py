@@ -5,21 +5,20 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path, PurePath
+from pathlib import Path
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Level, Row
+from sambot_viz.panels.status_rows import place_of
 from sambot_viz.problem_groups import SEVERITIES, ProblemGroup, group_problems
 from sambot_viz.problem_text import problem_lines
 from sambot_viz.session import Session
 from sambot_viz.session.shown_problems import last_good_note, problems_of
-from sambot_viz.text import text
 
 MOST_SHOWN = 100
 """So many groups of problems, and of the problems of one group, have rows."""
 LINES_AROUND = 2
-_LONGEST_NAME = 60
 _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
 
 
@@ -124,7 +123,7 @@ def _head(
         value=message,
         level=_LEVELS[problem.severity],
         expanded=not lazy,
-        extra={"place": _place(problem), "lazy": lazy},
+        extra={"place": place_of(problem), "lazy": lazy},
     )
 
 
@@ -149,14 +148,6 @@ def _hint(above: str, hint: str) -> Row:
 
 def _rest(row_id: str, above: str, count: int) -> Row:
     return Row(row_id, above, "note", value=f"and {count} more")
-
-
-def _place(problem: Problem) -> str:
-    """The name of the file, and the line."""
-    if problem.file is None:
-        return ""
-    name = text(PurePath(problem.file).name, _LONGEST_NAME)
-    return name if problem.line is None else f"{name}:{problem.line}"
 
 
 def _id(*parts: object) -> str:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import PurePath
 
 from sambot_viz.displays.display import Display
+from sambot_viz.errors import Problem
 from sambot_viz.panels.row import Level, Row
 from sambot_viz.session import Session
+from sambot_viz.text import text
 
 LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
 MOST_NAMES = 12
 _STATUS = "status"
+_LONGEST_FILE = 60
 
 
 def global_status_rows(session: Session) -> Iterator[Row]:
@@ -50,9 +54,30 @@ def status_rows(
         level = LEVELS[status.level]
         fixed = f"{row_id}/:fixed"
         yield Row(fixed, row_id, "status", "Fixed Frame", missing, level=level)
+    if session.robot is None and display.own_robot is None and status.level != "Ok":
+        yield from _why_no_robot(session, row_id)
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]
         yield Row(f"{row_id}/{key}", row_id, "status", key, row.text, level=level)
+
+
+def _why_no_robot(session: Session, above: str) -> Iterator[Row]:
+    """The mistakes of the model, each at its line, for as long as there is no robot."""
+    problems = session.problems.of_saves.get("model", ())
+    errors = [problem for problem in problems if problem.severity == "error"]
+    for index, problem in enumerate(errors[:MOST_NAMES]):
+        where = place_of(problem)
+        said = f"{where}: {problem.message}" if where else problem.message
+        row_id = f"{above}/:model{index}"
+        yield Row(row_id, above, "status", "Model", said, level="error")
+
+
+def place_of(problem: Problem) -> str:
+    """The name of a problem's file, and the line."""
+    if problem.file is None:
+        return ""
+    name = text(PurePath(problem.file).name, _LONGEST_FILE)
+    return name if problem.line is None else f"{name}:{problem.line}"
 
 
 def _head(row_id: str, above: str, name: str, level: str, *, lazy: bool) -> Row:

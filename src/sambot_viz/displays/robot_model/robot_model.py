@@ -59,6 +59,8 @@ class RobotModelDisplay(Display):
         robot = self._take_robot()
         if robot is None:
             self._remove_shapes()
+            missing = Status("Error", "There is no robot to show")
+            self.status.replace({"URDF": self._source.status or missing})
             return
         if self.publish():
             self.context.nodes.sync(self.context.tree, self.context.fixed_frame)

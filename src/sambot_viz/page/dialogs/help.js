@@ -10,13 +10,15 @@ import { Dialog } from "./dialog.js";
 const KEYS = [
   ["The view", [
     ["Left button", "turn"], ["Middle button, or Shift and left", "move"], ["Right button, or wheel", "zoom"],
-    ["F", "look at what is selected, or else at the robot"], ["Z", "bring the view back to its start"],
-    ["H", "hide all panels, show them again"], ["Esc", "leave the tool"],
+    ["F", "look at what is selected, or else at the robot"], ["Z", "bring the view to where its type begins"],
+    ["R", "draw everything again"], ["H", "hide all panels, show them again"], ["Esc", "leave the tool"],
+    ["8 2 4 6, 5", "drive, stop"],
   ]],
   ["Rows", [
     ["↑ ↓ Home End", "go to another row"], ["→ ←", "unfold, fold"], ["Space", "tick"], ["Enter", "edit the value; accept it"],
     ["Esc", "put the old value back"], ["↑ ↓ in a number", "one step; with Shift ten, with Alt a tenth"],
-    ["F2, Delete", "rename, remove a display"],
+    ["F2, Delete", "rename, remove a display or a saved view"], ["Alt+↑, Alt+↓", "move a display"],
+    ["Ctrl+C", "copy the row"], ["Shift+F10", "more that can be done with the row"],
   ]],
   ["Everywhere", [
     ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],
@@ -28,7 +30,7 @@ const KEYS = [
 export function Keys({ close }) {
   const tools = toolKeys().filter(({ key }) => key).map(({ name, key }) => /** @type {[string, string]} */ ([key.toUpperCase(), name]));
   return html`<${Dialog} title="Keys" close=${close} submit=${close} wide>
-    <div class="keys">${[...KEYS.slice(0, 1), /** @type {[string, [string, string][]]} */ (["Tools", tools]), ...KEYS.slice(1)].map(([title, list]) => html`
+    <div class="key-list">${[...KEYS.slice(0, 1), /** @type {[string, [string, string][]]} */ (["Tools", tools]), ...KEYS.slice(1)].map(([title, list]) => html`
       <section key=${title}><h3>${title}</h3><table aria-label=${title}>
         ${list.map(([keys, does]) => html`<tr key=${keys}><th scope="row"><kbd>${keys}</kbd></th><td>${does}</td></tr>`)}
       </table></section>`)}</div>
@@ -42,7 +44,7 @@ export function About({ close }) {
   return html`<${Dialog} title="About sambot-viz" close=${close} submit=${close}>
     <p>${`sambot-viz ${rows.value("names/version")}, under the Apache License 2.0.`}</p>
     <p>Shows URDF and xacro robots in the browser, as RViz does, without ROS.</p>
-    <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with Preact (MIT) and htm (Apache-2.0).
+    <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with Preact (MIT) and htm (Apache-2.0).${" "}
       <a href="./sambot/licenses.txt" target="_blank" rel="noopener">The licences of Preact and htm</a></p>
     <p class="soft">What is shown of RViz's displays is in docs/displays.md of the program, how to start it in docs/command-line.md.</p>
     <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>

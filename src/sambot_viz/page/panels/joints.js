@@ -99,8 +99,8 @@ function Copy() {
 
 function Degrees() {
   const inDegrees = degrees.use();
-  return html`<button aria-pressed=${String(inDegrees)} aria-label="Degrees" onClick=${() => degrees.set(!inDegrees)}
-    title=${inDegrees ? "Angles are in degrees; click for radians" : "Angles are in radians; click for degrees"}>${inDegrees ? "°" : "rad"}</button>`;
+  return html`<button aria-pressed=${String(inDegrees)} onClick=${() => degrees.set(!inDegrees)}
+    title=${inDegrees ? "Angles are in degrees; click for radians" : "Angles are in radians; click for degrees"}>Degrees</button>`;
 }
 
 function TurnRate() {
