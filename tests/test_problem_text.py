@@ -93,6 +93,15 @@ def test_problems_of_one_cause_are_one_line_with_their_number() -> None:
     assert len(written(meshes, most=None)) == 24
 
 
+def test_the_problems_of_a_config_are_printed_by_another_command() -> None:
+    doubts = [
+        Problem("warning", "config-value", f"{n}", "fix it", "my own.rviz", n)
+        for n in range(1, 13)
+    ]
+    last = written(doubts, model="r.urdf")[-1]
+    assert last == "2 more; to see all of them: sambot-viz config 'my own.rviz'"
+
+
 def test_check_prints_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "r.urdf"
     links = "".join(f'<link name="arm {n}"/>' for n in range(12))

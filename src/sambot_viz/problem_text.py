@@ -109,14 +109,25 @@ def write(
         groups = group_problems(problems)
         texts = [_group_in_words(group, color) for group in groups[:most]]
         rest = sum(len(group.problems) for group in groups[most:])
-        name = "MODEL" if model is None else shlex.quote(str(model))
         if rest:
-            texts.append(f"{rest} more; to see all of them: sambot-viz check {name}")
-        elif any(len(group.problems) > 1 for group in groups):
-            texts.append(f"to see each of them: sambot-viz check {name}")
+            commands = _commands(groups[most:], model)
+            texts.append(f"{rest} more; to see all of them: {commands}")
+        elif joined := [group for group in groups if len(group.problems) > 1]:
+            texts.append(f"to see each of them: {_commands(joined, model)}")
     for text in texts:
         out.write(f"{text}\n")
     out.flush()
+
+
+def _commands(groups: Iterable[ProblemGroup], model: object) -> str:
+    """The commands that print every problem of some groups."""
+    files = [group.first.file or "" for group in groups]
+    configs = [file for file in files if file.endswith(".rviz")]
+    commands = [f"sambot-viz config {shlex.quote(file)}" for file in configs]
+    if len(configs) < len(files):
+        name = "MODEL" if model is None else shlex.quote(str(model))
+        commands.append(f"sambot-viz check {name}")
+    return ", ".join(dict.fromkeys(commands))
 
 
 def _group_in_words(group: ProblemGroup, color: bool) -> str:
