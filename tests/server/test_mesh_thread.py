@@ -110,9 +110,7 @@ def test_the_page_has_frames_sliders_and_progress_before_the_first_mesh(
     assert opened.meshes == 0
     assert set(opened.viz.frames.frames) == {f"l{i}" for i in range(COUNT)}
     assert opened.client.shown("joints", "j1") == 0.0
-    assert any(
-        f"textures: 0 of {COUNT}" in str(m.fields) for m in opened.client.messages
-    )
+    assert opened.client.row("statusbar/progress")["value"] == [0, COUNT]
     assert "Warn" in opened.statuses
     opened.viz.set_joint_positions({"j1": 0.5})
     opened.client.wait_until(

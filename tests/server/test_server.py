@@ -205,12 +205,10 @@ def test_a_private_session_changes_no_file_of_poses(
     with Visualizer(model, poses=poses, session="private") as viz:
         first, second = (protocol(viz.viser.get_port()) for _ in range(2))
         for client in (first, second):
-            client.wait_until(lambda c=client: "Pose name" in c.widgets)
-            assert "given" in str(client.messages)
-        first.set_value(first.uuid_of("Pose name"), "of a visitor")
-        first.settle(viz.viser)
-        first.set_value(first.uuid_of("Save pose"), True)
-        first.wait_until(lambda: first.value_of("Pose") == "of a visitor")
+            client.wait_until(lambda c=client: "poses/save" in c.rows)
+            assert client.row("poses")["value"] == ["given"]
+        first.act("poses/save", "of a visitor")
+        first.wait_until(lambda: "of a visitor" in first.row("poses")["value"])
         second.settle(viz.viser)
         assert "of a visitor" not in str(second.messages)
     assert poses.read_text() == before
