@@ -67,7 +67,8 @@ class JointsPanel(Panel):
         """The joints, in groups if they are many, and what can be done with them."""
         joints = self._session.joints
         if joints is None or not joints.sliders:
-            return [Row("joints/none", "", "note", value=_NOTHING_TO_MOVE)]
+            why = _NO_ROBOT if self._session.robot is None else _NOTHING_TO_MOVE
+            return [Row("joints/none", "", "note", value=why)]
         values = self.values()
         rows = [
             *self._free(joints),
@@ -245,6 +246,7 @@ def _help(joint: Joint) -> str:
     return f"{joint.type} joint, {joint.parent} → {joint.child}"
 
 
+_NO_ROBOT = "There is no robot yet; Problems says why, if its file has a mistake."
 _NOTHING_TO_MOVE = (
     "This robot has no joint to move: all its joints are fixed, or follow others."
 )
