@@ -25,6 +25,8 @@ def folder(tmp_path: Path) -> Path:
     text = bundled.config_path().read_text("utf-8")
     (tmp_path / "mine.rviz").write_text(text, "utf-8")
     other = text.replace("Name: Grid", "Name: Floor").replace("- /TF1", "- /Floor1")
+    view = "Class: rviz_default_plugins/Orbit"
+    other = other.replace(view, f"{view}\n      Distance: 7")
     (tmp_path / "other.rviz").write_text(other, "utf-8")
     return tmp_path
 
@@ -63,6 +65,10 @@ def change_the_frame_rate(user: User, rate: int) -> None:
     field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
     user.enter(field, str(rate))
     user.until(lambda: title(user).startswith("mine.rviz*"))
+
+
+def distance(user: User) -> str:
+    return str(user.row("Views", "Current View", "Distance").one("textbox").value)
 
 
 def focused(user: User) -> str:
@@ -126,7 +132,7 @@ def test_a_file_is_replaced_after_a_question_and_a_bad_name_is_kept(
     user.type("a/b")
     user.keys("Enter")
     user.reads("give a name without folders")
-    assert user.find("textbox", re.compile("Name")).value == "a/b"
+    assert user.find("textbox", "Name").value == "a/b"
     user.keys("Control+a")
     user.type("other")
     user.keys("Enter")
@@ -155,6 +161,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
 ) -> None:
     change_the_frame_rate(user, 12)
     user.unfold("Displays", "Grid")
+    user.enter(user.row("Views", "Current View", "Distance").one("textbox"), "3")
     choose(user, "File", "Open Config")
     user.find("dialog", "Unsaved changes")
     user.click("button", "Save them")
@@ -166,6 +173,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     assert session_of(viz).config.displays[0].name == "Floor"
     user.row("Displays", "Floor", "Cell Size")
     assert "Show Names" not in user.rows("Displays")
+    user.until(lambda: distance(user) == "7")
     # The first one again: Grid was unfolded when it was saved, and so was TF.
     choose(user, "File", "Open Config")
     user.click("option", "mine.rviz")
@@ -173,6 +181,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     user.gone("dialog")
     user.row("Displays", "Grid", "Cell Size")
     user.row("Displays", "TF", "Show Names")
+    user.until(lambda: distance(user) == "3")
     assert session_of(viz).config.global_options.get("Frame Rate") == 12
 
 
@@ -245,3 +254,28 @@ def test_widgets_of_a_script_have_a_panel_only_while_there_are_any(
     user.until(
         lambda: not user.there("button", "Blink") and "Script" not in user.see().text
     )
+
+
+@pytest.fixture
+def private_viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0, session="private") as viz:
+        yield viz
+
+
+def test_a_visitor_downloads_and_is_asked_before_leaving_with_changes(
+    private_viz: Visualizer, open_viewer: Open
+) -> None:
+    leaving = (
+        "(() => { const leave = new Event('beforeunload', {cancelable: true});"
+        " return !dispatchEvent(leave); })()"
+    )
+    user = open_viewer(private_viz.url).user
+    user.row("Displays", "Grid")
+    user.click("menuitem", "File")
+    entries = [entry.name for entry in user.find("menu", "File").all("menuitem")]
+    assert entries == ["Download Config", "Save Image…"]
+    user.keys("Escape")
+    assert not user.page.evaluate(leaving)
+    field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
+    user.enter(field, "12")
+    user.until(lambda: user.page.evaluate(leaving))

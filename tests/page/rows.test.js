@@ -104,3 +104,14 @@ test("what the server says counts more than what is hoped for", () => {
   rows.putBack("a");
   assert.equal(rows.value("a"), 7);
 });
+
+test("a server that was started again with fewer panels leaves no old rows", () => {
+  const { rows } = grid();
+  /** @type {string[]} */
+  const heard = [];
+  rows.listen("whole:session", () => heard.push("whole"));
+  rows.take("session", "rows", { base: 0, panels: { names: [] } });
+  assert.deepEqual(rows.children("panel:displays"), []);
+  assert.equal(rows.get("a"), undefined);
+  assert.deepEqual(heard, ["whole"]);
+});

@@ -37,11 +37,9 @@ def test_errors_come_first(session: Session) -> None:
     assert codes(session) == ["w", "without", "own", "other"]
 
 
-def test_a_mistake_takes_the_place_of_what_is_in_the_old_file_only(
-    session: Session,
-) -> None:
+def test_while_a_save_has_a_mistake_all_else_stays_listed(session: Session) -> None:
     session.problems.set_saves("model", [MISTAKE])
-    assert codes(session) == ["e", "without", "other"]
+    assert codes(session) == ["e", "without", "own", "other"]
     session.problems.set_saves("model", [])
     assert codes(session) == ["without", "own", "other"]
 

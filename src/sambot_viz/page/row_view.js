@@ -16,7 +16,9 @@ const TEXTS = new Set(["text", "file", "frame", "color"]);
 
 /** Whether a key on a selected row begins to replace its value. @param {Row} row @param {string} key */
 export function edits(row, key) {
-  if (row.fixed || row.off || key.length !== 1) return false;
+  if (row.fixed || row.off) return false;
+  if (key === "Delete" || key === "Backspace") return NUMBERS.has(row.kind) || TEXTS.has(row.kind);
+  if (key.length !== 1) return false;
   if (NUMBERS.has(row.kind)) return /[\d.,+\-(]/.test(key);
   return key !== " " && (TEXTS.has(row.kind) || Boolean(row.kind === "enum" && row.editable));
 }

@@ -28,7 +28,7 @@ export function SaveAs({ close, then }) {
   const exists = answer?.exists;
   return html`<${Dialog} title="Save Config As" close=${close} submit=${() => save(false)}>
     <p>In the folder <b class="path">${state.folder}</b></p>
-    <label class="line">Name <input data-first ref=${field} spellcheck=${false} autocomplete="off"
+    <label class="line">Name <input data-first aria-label="Name" ref=${field} spellcheck=${false} autocomplete="off"
       aria-invalid=${refused ? "true" : undefined} placeholder="my_robot" onInput=${() => { begin(); setWanted(""); }} />
       <span class="ending">.rviz</span></label>
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}

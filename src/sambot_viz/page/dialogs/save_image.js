@@ -20,7 +20,7 @@ export function SaveImage({ close }) {
   };
   /** @param {any} ref @param {string} name @param {number} value */
   const side = (ref, name, value) => html`<label class="line">${name}
-    <input type="number" ref=${ref} min="16" max=${LONGEST} step="1" required value=${value}
+    <input type="number" aria-label=${name} ref=${ref} min="16" max=${LONGEST} step="1" required value=${value}
       data-first=${name === "Width" ? "" : undefined} onFocus=${(/** @type {any} */ e) => e.target.select()} /> <span class="unit">pixels</span></label>`;
   return html`<${Dialog} title="Save Image" close=${close} submit=${save}>
     <p>The view with its background, without the panels, as a PNG file for your computer.</p>

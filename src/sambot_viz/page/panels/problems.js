@@ -26,10 +26,11 @@ export function ProblemCount({ shown, show, byItself }) {
   useOpening(count, { shown, show, byItself });
   const all = KINDS.map(([name, level]) => ({ name, level, number: count?.[name] || 0 })).filter(({ number }) => number);
   const words = all.map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`).join(", ");
-  return html`<button class="problem-count" aria-expanded=${String(shown)} aria-label=${`Problems: ${words || "none"}`}
-      title=${`${shown ? "Hide" : "Show"} the problems`} onClick=${() => show(!shown)}>
-    ${all.length ? all.map(({ name, level, number }) => html`<span key=${name} class=${`l-${level}`}><${Icon} name=${level} /> ${number}</span>`)
-      : html`<span><${Icon} name="ok" /> No problems</span>`}
+  return html`<button class="problem-count" aria-expanded=${String(shown)} title=${`${shown ? "Hide" : "Show"} the problems`}
+      onClick=${() => show(!shown)}>
+    ${all.length ? all.map(({ name, level, number }) => html`<span key=${name} class=${`l-${level}`} aria-hidden="true"><${Icon} name=${level} /> ${number}</span>`)
+      : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`}
+    <span class="spoken">${words ? `Problems: ${words}` : "No problems"}</span>
   </button>`;
 }
 
