@@ -210,9 +210,8 @@ def test_poses_that_a_browser_saves_are_kept_beside_the_model(tmp_path: Path) ->
     )
     with running(str(model), "--port", "0", cwd=tmp_path) as process:
         client = ProtocolClient(int(address(process).rsplit(":", 1)[1]))
-        client.wait_until(lambda: "Pose name" in client.widgets)
-        client.set_value(client.uuid_of("Pose name"), "half")
-        client.set_value(client.uuid_of("Save pose"), True)
+        client.wait_until(lambda: "poses/save" in client.rows)
+        client.act("poses/save", "half")
         client.wait_until(lambda: (tmp_path / "arm.poses.yaml").is_file())
         client.close()
     assert "half" in (tmp_path / "arm.poses.yaml").read_text()

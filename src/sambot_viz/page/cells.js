@@ -230,7 +230,7 @@ function NumberField({ row, tab, held }) {
   return html`<span class="number">
     <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept}
       step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined}
-      shown=${formatNumber(held.value * factor, factor === 1 ? 6 : 4)} />
+      shown=${formatNumber(held.value * factor, row.kind === "slider" ? (factor === 1 ? 4 : 2) : factor === 1 ? 6 : 4)} />
     ${unit && html`<span class="unit">${unit}</span>`}
   </span>`;
 }
