@@ -27,7 +27,7 @@ class Desk:
     """One robot, one server, one page.
 
     Args:
-        letter: the robot, "S", "T", "C" or "L".
+        letter: the robot, "S", "T", "C" or "L"; or the text of a model.
         chromium: the browser.
         folder: an empty folder for the model and what is saved.
 
@@ -43,7 +43,10 @@ class Desk:
         self.folder = folder
         self.downloads = folder / "downloads"
         self.downloads.mkdir(parents=True)
-        if letter == "S":
+        if letter.startswith("<"):
+            self.model = folder / "robot.urdf"
+            self.model.write_text(letter, "utf-8")
+        elif letter == "S":
             shutil.copytree(bundled.assets_folder(), folder, dirs_exist_ok=True)
             self.model = folder / "sam_bot.urdf.xacro"
         else:

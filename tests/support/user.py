@@ -67,6 +67,13 @@ _MARK = """function () {
     [left + width / 2, top + height / 2])(mark.getBoundingClientRect()) : null;
 }"""
 
+_PICK = """function () {
+  this.focus();
+  this.value = COLOR;
+  for (const kind of ["input", "change"]) {
+    this.dispatchEvent(new Event(kind, {bubbles: true}));
+  }
+}"""
 _CUT_OFF = """function () {
   const element = this.nodeType === 3 ? this.parentElement : this;
   return element.scrollWidth > element.clientWidth + 1;
@@ -297,6 +304,14 @@ class User:
         assert at is not None, f"row {names} has no mark to unfold it"
         (self.page.touch.tap if self.finger else self.page.mouse.click)(at[0], at[1])
         self.until(lambda: self.row(panel, *names).state("expanded") != fold)
+
+    def pick_color(self, thing: Thing, color: str) -> None:
+        """Choose a colour such as "#ff0000" in the window that a colour field opens.
+
+        That window is the system's, where tests have no mouse: what it does is done.
+        """
+        self.go_to(thing)
+        self._ask(thing, _PICK.replace("COLOR", json.dumps(color)))
 
     # Keys.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import random
 import secrets
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -105,13 +105,25 @@ def s(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
 
 
 @pytest.fixture
-def own(chromium: Chromium, tmp_path: Path) -> Iterator[Desk]:
-    """The same robot with a server and a page for one task alone."""
+def make_desk(chromium: Chromium, tmp_path: Path) -> Iterator[Callable[[str], Desk]]:
+    """A desk for one task alone: ``make_desk("S")``, or with the text of a model."""
     from desk import Desk
 
-    desk = Desk("S", chromium, tmp_path)
-    yield desk
-    desk.close()
+    made: list[Desk] = []
+
+    def make(letter: str) -> Desk:
+        made.append(Desk(letter, chromium, tmp_path / f"desk{len(made)}"))
+        return made[-1]
+
+    yield make
+    for desk in made:
+        desk.close()
+
+
+@pytest.fixture
+def own(make_desk: Callable[[str], Desk]) -> Desk:
+    """The same robot with a server and a page for one task alone."""
+    return make_desk("S")
 
 
 @pytest.fixture

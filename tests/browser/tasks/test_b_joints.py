@@ -11,8 +11,8 @@ import pytest
 import yaml
 from ax_tree import Thing, row_label
 from desk import Desk
+from judge import changed, drawn_around
 from robots import LONG_NAME, SLIDE
-from task_tools import changed, drawn_around
 
 pytestmark = pytest.mark.browser
 

@@ -16,6 +16,23 @@ def drawn_around(desk: Desk, frame: str, size: int = 60) -> Pixels:
     return pixels[top : row + size, left : column + size]
 
 
+def look_near(desk: Desk) -> None:
+    """Bring the robot to the whole of the view, and wait until it stands still."""
+    desk.user.click("button", "Focus", ("toolbar", "Tools"))
+    before = desk.viewer.pixels()
+    for _ in range(100):
+        after = desk.viewer.pixels()
+        if not changed(before, after):
+            return
+        before = after
+    raise AssertionError("the picture does not come to rest")
+
+
+def corner(desk: Desk) -> tuple[int, ...]:
+    """The colour of the upper left corner of the 3D view."""
+    return tuple(int(v) for v in desk.viewer.pixels()[5, 5, :3])
+
+
 def changed(before: Pixels, after: Pixels) -> int:
     """How many pixels differ visibly."""
     if before.shape != after.shape:
