@@ -10,7 +10,7 @@ Object.assign(globalThis, {
 });
 const { rows } = await import("../../src/sambot_viz/page/channel.js");
 const { folds } = await import("../../src/sambot_viz/page/state.js");
-const { members, nearest, neighbour, place, places } = await import("../../src/sambot_viz/page/panels/display_order.js");
+const { members, moveBy, nearest, neighbour, place, places } = await import("../../src/sambot_viz/page/panels/display_order.js");
 
 /** @param {string} id @param {string} above @param {any} [more] */
 const display = (id, above = "", more = {}) => ({ id, in: above, kind: "display", name: id, display: "x/Y", ...more });
@@ -62,6 +62,26 @@ test("after a removal the next display is selected, else the one before, else th
   assert.equal(neighbour(get("b")), "g");
   rows.take("session", "changes", { base: 1, panels: { displays: [display("g", "", { group: true }), display("p", "g")] } });
   assert.equal(neighbour(get("p")), "g");
+});
+
+test("of two steps in quick succession the second waits for the first", () => {
+  /** @type {any[]} */
+  const sent = [];
+  Object.assign(globalThis, { window: { __viserMutable: { sendMessage: (/** @type {any} */ m) => sent.push(m.updates.value) } } });
+  const order = (/** @type {string[]} */ ...ids) => rows.take("session", "changes", { base: 1, panels: { displays: [
+    ...ids.map((id) => display(id)), { id: "displays/move", in: "", kind: "action" }] } });
+  order("a", "b", "c");
+  moveBy("c", -1);
+  moveBy("c", -1);
+  moveBy("c", -1);
+  assert.deepEqual(sent, [["displays/move", ["c", "", 1]]]);
+  order("a", "c", "b");
+  assert.deepEqual(sent.slice(1), [["displays/move", ["c", "", 0]]]);
+  order("c", "a", "b");
+  // At the top, the third has nothing to do, and what comes later does not wait for it.
+  moveBy("a", 1);
+  assert.deepEqual(sent.slice(2), [["displays/move", ["a", "", 2]]]);
+  order("c", "b", "a");
 });
 
 test("a dragged display can go before and behind each other one, and into groups", () => {

@@ -42,6 +42,32 @@ export function place(display, by) {
   return { group: group.in, index: members(group.in).indexOf(group.id) + (by > 0 ? 1 : 0) };
 }
 
+/** Keys come faster than answers: these steps wait until those before are done.
+ * @type {[string, number][]} */
+let steps = [];
+/** A step that is refused keeps the next one waiting for so long [ms]. */
+const LONGEST_STEP = 2000;
+
+/** One place up or down, also into an open group and out of it.
+ * @param {string} id of the display @param {number} by 1 or -1 */
+export function moveBy(id, by) {
+  if (steps.push([id, by]) === 1) step();
+}
+
+function step() {
+  const [id, by] = steps[0], display = rows.get(id), to = display && place(display, by);
+  if (!to) { steps = []; return; }
+  const stop = rows.listen("panel:displays", () => { if (members(to.group)[to.index] === id) done(); });
+  const timer = setTimeout(() => done(), LONGEST_STEP);
+  const done = () => {
+    stop();
+    clearTimeout(timer);
+    steps.shift();
+    if (steps.length) step();
+  };
+  act("displays/move", [id, to.group, to.index]);
+}
+
 /**
  * All places where a display can go, with the line at which each is drawn.
  * @param {string} moved the id of the display

@@ -8,7 +8,7 @@ import { show } from "../dialogs/dialog.js";
 import { isOpen, selected, useRow } from "../state.js";
 import { reveal, Tree } from "../tree.js";
 import { makeDisplay } from "./new_display.js";
-import { dragDisplay, neighbour, place } from "./display_order.js";
+import { dragDisplay, moveBy, neighbour, place } from "./display_order.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 
@@ -25,12 +25,6 @@ function remove(display) {
   act("displays/remove", [display.id]);
 }
 
-/** One place up or down, also into an open group and out of it. @param {Row} display @param {number} by */
-function move(display, by) {
-  const to = place(display, by);
-  if (to) act("displays/move", [display.id, to.group, to.index]);
-}
-
 export function DisplaysPanel() {
   const chosen = selected.use()[PANEL];
   const row = useRow(chosen || "none");
@@ -45,8 +39,8 @@ export function DisplaysPanel() {
   /** @param {KeyboardEvent} event @param {Row} on */
   const key = (event, on) => {
     if (!on.display || event.ctrlKey || event.metaKey) return false;
-    if (event.altKey && event.key === "ArrowUp") move(on, -1);
-    else if (event.altKey && event.key === "ArrowDown") move(on, 1);
+    if (event.altKey && event.key === "ArrowUp") moveBy(on.id, -1);
+    else if (event.altKey && event.key === "ArrowDown") moveBy(on.id, 1);
     else if (event.altKey) return false;
     else if (event.key === "Delete") remove(on);
     else if (event.key === "F2") rename(on.id, null);
@@ -61,8 +55,8 @@ export function DisplaysPanel() {
       { label: "Duplicate", act: () => duplicate(on) },
       { label: "Rename", keys: "F2", act: () => rename(on.id, null) },
       { label: "Remove", keys: "Delete", act: () => remove(on) }, null,
-      { label: "Move up", keys: "Alt+↑", off: !place(on, -1), act: () => move(on, -1) },
-      { label: "Move down", keys: "Alt+↓", off: !place(on, 1), act: () => move(on, 1) }, null];
+      { label: "Move up", keys: "Alt+↑", off: !place(on, -1), act: () => moveBy(on.id, -1) },
+      { label: "Move down", keys: "Alt+↓", off: !place(on, 1), act: () => moveBy(on.id, 1) }, null];
   };
   return html`<section class="panel displays" aria-label="Displays">
     <header class="title">Displays</header>
