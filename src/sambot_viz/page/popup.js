@@ -1,7 +1,7 @@
 // @ts-check
 /* A button that opens a small panel below it: a menu, or a form. */
 
-import { html, useEffect, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
+import { html, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
 
 const EDGE = 4;
 
@@ -15,8 +15,8 @@ export function Popup({ label, name, role, title, children }) {
   const button = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
   const close = () => { setOpen(false); button.current?.focus(); };
   useLayoutEffect(() => { if (open) place(button.current, panel.current); });
-  useEffect(() => {
-    if (!open) return;
+  useLayoutEffect(() => {
+    if (!open) return undefined;
     panel.current.querySelector("button, input")?.focus();
     /** @param {any} event */
     const elsewhere = (event) => {

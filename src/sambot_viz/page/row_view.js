@@ -1,7 +1,7 @@
 // @ts-check
 /* One row of a tree: its name at the left, its value at the right. */
 
-import { html, useEffect, useRef } from "./vendor/preact.js";
+import { html, useLayoutEffect, useRef } from "./vendor/preact.js";
 import { CopyButton, ValueCell } from "./cells.js";
 import { Icon } from "./icons.js";
 import { refusals } from "./notices.js";
@@ -108,7 +108,8 @@ function marked(line, at) {
 function NameField({ row, done }) {
   const element = useRef(/** @type {any} */ (null));
   const over = useRef(false);
-  useEffect(() => { element.current.value = row.name || ""; element.current.focus(); element.current.select(); }, []);
+  // Before the first key that is typed.
+  useLayoutEffect(() => { element.current.value = row.name || ""; element.current.focus(); element.current.select(); }, []);
   /** @param {string} text */
   const end = (text) => { if (!over.current) { over.current = true; done(row.id, text); } };
   return html`<input class="field rename" ref=${element} aria-label="Name" spellcheck=${false}
