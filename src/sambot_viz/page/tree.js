@@ -14,6 +14,9 @@ import { Cell, fold, folds, isOpen, select, selected, splits, useRow } from "./s
 /** @typedef {import("./rows.js").Row} Row */
 /** @typedef {import("./menu.js").Item} Item */
 
+/** Rows of longer lists are only laid out near the screen; a screen reader knows their names then. */
+const MANY = 150;
+
 const HIDDEN = new Set(["action", "names"]);
 /** The width of the names before a hand has moved the line, as a part of the panel. */
 const SPLIT = 0.55;
@@ -174,7 +177,7 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
     if (isTyping(document.activeElement)) select(panel, focus.id); else go(focus.id);
   });
   return html`<div class="treebox" style=${`--split: ${(ratio * 100).toFixed(1)}%`}>
-    <div class="tree" role="treegrid" aria-label=${label} data-panel=${panel} ref=${element} onKeyDown=${key}></div>
+    <div class=${shown.length > MANY ? "tree many" : "tree"} role="treegrid" aria-label=${label} data-panel=${panel} ref=${element} onKeyDown=${key}></div>
     ${split && html`<${Divider} panel=${panel} ratio=${ratio} />`}
     ${opened && html`<${Menu} label=${opened.row.name || label} at=${opened.at} items=${items(opened.row)} close=${() => setOpened(null)} />`}
   </div>`;

@@ -45,8 +45,8 @@ export function place(display, by) {
 /** Keys come faster than answers: these steps wait until those before are done.
  * @type {[string, number][]} */
 let steps = [];
-/** A step that is refused keeps the next one waiting for so long [ms]. */
-const LONGEST_STEP = 2000;
+/** After a step that is not done in so long [ms], the others are not wanted any more. */
+const LONGEST_STEP = 10000;
 
 /** One place up or down, also into an open group and out of it.
  * @param {string} id of the display @param {number} by 1 or -1 */
@@ -58,7 +58,7 @@ function step() {
   const [id, by] = steps[0], display = rows.get(id), to = display && place(display, by);
   if (!to) { steps = []; return; }
   const stop = rows.listen("panel:displays", () => { if (members(to.group)[to.index] === id) done(); });
-  const timer = setTimeout(() => done(), LONGEST_STEP);
+  const timer = setTimeout(() => { stop(); steps = []; }, LONGEST_STEP);
   const done = () => {
     stop();
     clearTimeout(timer);
