@@ -15,6 +15,7 @@ import json
 import threading
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from itertools import pairwise
 from typing import Any, TypeVar, cast
 
@@ -296,14 +297,21 @@ class User:
 
     def unfold(self, panel: str, *names: str, fold: bool = False) -> None:
         """Click the mark before the name of a row, if it is not unfolded yet."""
-        row = self.row(panel, *names)
-        if row.state("expanded") != fold:
-            return
-        self.go_to(row)
-        at = cast("list[float] | None", self._ask(row, _MARK))
-        assert at is not None, f"row {names} has no mark to unfold it"
-        (self.page.touch.tap if self.finger else self.page.mouse.click)(at[0], at[1])
-        self.until(lambda: self.row(panel, *names).state("expanded") != fold)
+        # A row may also unfold by itself: then the click has folded it.
+        for _ in range(3):
+            row = self.row(panel, *names)
+            if row.state("expanded") != fold:
+                return
+            self.go_to(row)
+            at = cast("list[float] | None", self._ask(row, _MARK))
+            assert at is not None, f"row {names} has no mark to unfold it"
+            (self.page.touch.tap if self.finger else self.page.mouse.click)(*at)
+            with suppress(AssertionError):
+                self.until(
+                    lambda: self.row(panel, *names).state("expanded") != fold, 4.0
+                )
+                return
+        raise AssertionError(f"row {names} does not {'fold' if fold else 'unfold'}")
 
     def pick_color(self, thing: Thing, color: str) -> None:
         """Choose a colour such as "#ff0000" in the window that a colour field opens.

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from sambot_viz.export.chromium import Chromium
 
 _HERE = Path(__file__).parent
+_OUTPUT = _HERE.parents[1] / "output"
 _SEED = int(os.environ.get("SAMBOT_VIZ_TASK_SEED", secrets.randbelow(10**6)))
 _FAILED = pytest.StashKey[bool]()
 
@@ -83,10 +84,17 @@ def desks(
     desks.close()
 
 
+def _keep_picture(desk: Desk, name: str) -> None:
+    """Put what the page showed at the end of a failed task into tests/output."""
+    _OUTPUT.mkdir(exist_ok=True)
+    _OUTPUT.joinpath(f"{name}.png").write_bytes(desk.page.screenshot())
+
+
 def _desk(desks: Desks, letter: str, request: pytest.FixtureRequest) -> Iterator[Desk]:
     desk = desks.take(letter)
     yield desk
     if request.node.stash.get(_FAILED, False):
+        _keep_picture(desk, request.node.name)
         desks.drop(letter)
         return
     try:

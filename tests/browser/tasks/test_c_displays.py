@@ -127,6 +127,7 @@ def test_task_24_hide_one_frame_and_all_arrows(s: Desk) -> None:
     look_near(s)
     tick(s, "RobotModel")
     s.user.until(lambda: white(WHEEL) > 20 and white("front_caster") > 20, AT_ONCE)
+    s.user.unfold("Displays", "TF")
     before = s.viewer.pixels()
     tick(s, "TF", "Show Arrows")
     s.user.until(lambda: changed(before, s.viewer.pixels()) > 50, AT_ONCE)
