@@ -260,6 +260,11 @@ function Handle({ row, tab, held }) {
     const count = /** @type {Record<string, number>} */ ({
       ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 })[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (/^[\d.,+\-(]$/.test(event.key)) {
+      // A number is typed into the field beside it.
+      event.target.closest("[data-row]").querySelector("input.num").focus();
+      return event.stopPropagation();
+    }
     if (count) held.move(stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor);
     else if (event.key === "Home") held.move(low);
     else if (event.key === "End") held.move(high);
