@@ -1,0 +1,192 @@
+"""The Displays tree and the Problems panel in a hand: what only a browser can tell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from inside import session_of
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Problem, Visualizer
+from sambot_viz.session import Session
+from sambot_viz.session.drawn_scene import walk
+
+pytestmark = pytest.mark.browser
+
+MODEL = """<robot name="r">
+  <link name="base_link"><visual><geometry>
+    <box size="1 1 1"/>
+  </geometry></visual></link>
+</robot>
+"""
+CONFIG = """
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/RobotModel, Name: Robot, Enabled: true}
+    - {Class: rviz_default_plugins/Grid, Name: Grid, Enabled: true}
+    - Class: rviz_common/Group
+      Name: Ground
+      Enabled: true
+      Displays:
+        - {Class: rviz_default_plugins/Axes, Name: Axes, Enabled: true}
+    - {Class: rviz_default_plugins/TF, Name: TF, Enabled: true}
+  Global Options: {Fixed Frame: base_link}
+"""
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    (tmp_path / "r.rviz").write_text(CONFIG, "utf-8")
+    model = tmp_path / "r.urdf"
+    model.write_text(MODEL, "utf-8")
+    return model
+
+
+@pytest.fixture
+def viz(model: Path) -> Iterator[Visualizer]:
+    with Visualizer(model, model.with_suffix(".rviz"), port=0, watch=True) as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    return session_of(viz)
+
+
+@pytest.fixture
+def user(viz: Visualizer, open_viewer: Callable[..., ViewerPage]) -> User:
+    user = open_viewer(viz.url).user
+    user.row("Displays", "TF")
+    return user
+
+
+def names(session: Session) -> list[str]:
+    return [display.name for display in walk(session.config.displays)]
+
+
+def drag(user: User, name: str, to: str, part: float) -> None:
+    """Drag a display to a part of the height of another row."""
+    x, y = user.go_to(user.row("Displays", name).all("gridcell")[0])
+    _, top, _, height = user.box(user.row("Displays", to))
+    user.page.mouse.drag((x, y), (x, top + part * height), steps=20)
+
+
+def select(user: User, *names: str) -> None:
+    user.click_on(user.row("Displays", *names).all("gridcell")[0])
+
+
+def test_a_display_is_dragged_into_a_folded_group_and_out_of_it(
+    user: User, session: Session
+) -> None:
+    drag(user, "Grid", "Ground", 0.5)
+    user.until(lambda: names(session) == ["Robot", "Ground", "Axes", "Grid", "TF"])
+    # The group is open now, and the display is selected in it.
+    user.until(lambda: user.row("Displays", "Ground", "Grid").state("focused"))
+    drag(user, "Grid", "Robot", 0.1)
+    user.until(lambda: names(session) == ["Grid", "Robot", "Ground", "Axes", "TF"])
+
+
+def test_escape_puts_a_dragged_display_back(user: User, session: Session) -> None:
+    before = names(session)
+    x, y = user.go_to(user.row("Displays", "TF").all("gridcell")[0])
+    user.page.mouse.move(x, y)
+    user.page.mouse.press()
+    user.page.mouse.move(x, y - 60)
+    user.keys("Escape")
+    user.page.mouse.release()
+    select(user, "Grid")
+    user.keys("Delete")
+    user.until(lambda: names(session) == [name for name in before if name != "Grid"])
+
+
+def test_what_is_half_typed_stays_in_the_hand_when_others_change_the_displays(
+    user: User, session: Session
+) -> None:
+    user.unfold("Displays", "Robot")
+    select(user, "Robot", "TF Prefix")
+    user.type("ab")
+    session.worker.post(lambda: session.add_display("rviz_default_plugins/Axes"))
+    robot = session.config.displays[0]
+    session.worker.post(lambda: session.move_display(robot, 3, None))
+    user.until(lambda: user.rows("Displays")[-1] == "Axes (2)")
+    user.type("cd")
+    user.keys("Enter")
+    user.until(lambda: robot.get("TF Prefix") == "abcd")
+    assert user.row("Displays", "Robot", "TF Prefix").state("focused")
+
+
+def test_the_first_click_selects_and_the_next_one_edits(
+    user: User, session: Session
+) -> None:
+    user.unfold("Displays", "Grid")
+    user.click_on(user.row("Displays", "Grid", "Alpha").one("textbox"))
+    user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
+    user.reads("How opaque the lines are")
+    user.click_on(user.row("Displays", "Grid", "Alpha").one("textbox"))
+    field = user.row("Displays", "Grid", "Alpha").one("textbox")
+    assert field.state("focused")
+    user.type("0.25")
+    user.keys("Escape")
+    user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
+    assert session.config.displays[1].get("Alpha") == 0.5
+
+
+def test_the_menu_of_a_row_is_used_by_keys(user: User, session: Session) -> None:
+    select(user, "Grid")
+    user.keys("Shift+F10")
+    user.find("menuitem", "Add…", ("menu", "Grid"))
+    user.keys("d", "Enter")
+    user.until(lambda: "Grid (2)" in names(session))
+    user.until(lambda: user.row("Displays", "Grid (2)").state("focused"))
+    user.keys("Shift+F10")
+    user.find("menu", "Grid (2)")
+    user.keys("Escape")
+    user.gone("menu", "Grid (2)")
+    user.until(lambda: user.row("Displays", "Grid (2)").state("focused"))
+
+
+def test_a_part_of_a_vector_is_set_with_the_others(
+    user: User, session: Session
+) -> None:
+    user.unfold("Displays", "Grid")
+    user.unfold("Displays", "Grid", "Offset")
+    user.enter(user.row("Displays", "Grid", "Offset", "Y").one("textbox"), "2")
+    user.enter(user.row("Displays", "Grid", "Offset", "Z").one("textbox"), "50 cm")
+    grid = session.config.displays[1]
+    user.until(lambda: grid.get("Offset") == (0.0, 2.0, 0.5))
+    user.until(
+        lambda: (
+            user.row("Displays", "Grid", "Offset").one("textbox").value == "0; 2; 0.5"
+        )
+    )
+
+
+def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
+    user: User, model: Path
+) -> None:
+    count = user.find("button", "No problems")
+    assert not count.state("expanded")
+    model.write_text(MODEL.replace("</link>", "</lnk>"), "utf-8")
+    row = user.row("Problems", "Showing the last good version")
+    assert user.can_see(row)
+    assert user.find("button", "Problems: 1 error").state("expanded")
+    user.reads("r.urdf:4")
+    model.write_text(MODEL, "utf-8")
+    user.find("button", "No problems")
+    user.until(lambda: not user.there("treegrid", "Problems"))
+
+
+def test_a_mere_remark_takes_no_room(user: User, session: Session) -> None:
+    remark = Problem("info", "i", "worth knowing", "do that")
+    session.worker.post(lambda: session.problems.set_model([remark]))
+    user.find("button", "Problems: 1 info")
+    assert not user.there("treegrid", "Problems")
+    user.click("button", "Problems: 1 info")
+    user.row("Problems", "worth knowing")
+    user.unfold("Problems", "worth knowing")
+    user.reads("To fix it: do that")
+    user.click("button", "Problems: 1 info")
+    user.gone("treegrid", "Problems")
