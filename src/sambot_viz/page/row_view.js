@@ -69,7 +69,7 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
       style=${`--depth: ${depth}`} title=${api.current.hover && !wide && row.kind !== "slider" ? row.help : undefined}
       onfocusin=${() => select(api.current.panel, id)} onPointerDownCapture=${press} onClickCapture=${click}
       onContextMenu=${menu}>
-    ${wide ? html`<${Wide} row=${row} twist=${twist} />${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}` : html`
+    ${wide ? html`<${Wide} row=${row} twist=${twist} />${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}` : html`
     <span class="name" role="gridcell"
       onMouseDown=${(/** @type {any} */ e) => { if (e.detail > 1 && !e.target.matches("input")) e.preventDefault(); }} onDblClick=${twice}>
       ${twist}

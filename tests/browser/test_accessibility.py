@@ -1,0 +1,42 @@
+"""What axe-core finds in the page: nothing serious, in every panel, light and dark."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+AXE = Path(__file__).parents[1] / ".venv/node/node_modules/axe-core/axe.min.js"
+RUN = """axe.run('#sambot').then(found => JSON.stringify(found.violations
+  .filter(one => ['serious', 'critical'].includes(one.impact))
+  .map(one => [one.id, one.nodes.map(node => node.html.slice(0, 200))])))"""
+TABS = ("Joints", "Frames", "Selection", "Drive", "Tool Properties")
+
+
+@pytest.fixture(scope="module")
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as shown:
+        yield shown
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_axe_finds_nothing_serious(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage], dark: bool
+) -> None:
+    if not AXE.is_file():
+        pytest.skip("axe-core is not installed; bash tests/page/check installs it")
+    viewer = open_viewer(viz.url, dark=dark)
+    viewer.user.find("slider", "drivewhl_l_joint")
+    viewer.page.evaluate(AXE.read_text("utf-8") + ";0")
+    for tab in TABS:
+        viewer.user.click("tab", tab)
+        viewer.user.find("tabpanel", tab)
+        found = json.loads(viewer.page.evaluate(RUN, timeout=60.0))
+        assert found == [], tab
