@@ -354,7 +354,7 @@ def test_a_display_that_is_not_shown_says_so_and_can_be_arranged(
     radar = displays.named("Radar")
     assert radar.level == "info"
     (note,) = [row for row in displays.all().values() if row.above == radar.id]
-    assert note.value.startswith("Radar (my_plugins) is not shown")
+    assert note.value.startswith("Not shown: this version does not know this type.")
     displays.change("Radar", to=False)
     displays.act("rename", "Radar", "My radar")
     displays.act("duplicate", "My radar", "mark")

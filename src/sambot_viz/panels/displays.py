@@ -227,20 +227,13 @@ def _fact_id(row_id: str, key: str) -> str:
 
 
 def _unsupported(config: DisplayConfig, above: str) -> Row:
-    return Row(
-        f"{above}/:status",
-        above,
-        "note",
-        "Status",
-        f"{_help(config, None)} It stays in the file as it is.",
-        level="info",
-    )
+    known = config.kind in NOT_SHOWN
+    why = f"it {REASON}" if known else "this version does not know this type"
+    sentence = f"Not shown: {why}. It stays in the file as it is."
+    return Row(f"{above}/:status", above, "note", "Status", sentence, level="info")
 
 
 def _help(config: DisplayConfig, display: Display | None) -> str:
     if display is not None:
         return display.help
-    kind = row_text(config.kind)
-    if config.kind in NOT_SHOWN:
-        return f"{NOT_SHOWN[config.kind]} {kind} is not shown: it {REASON}."
-    return f"{kind} is not shown: this version does not know this type."
+    return f"{NOT_SHOWN.get(config.kind, '')} {row_text(config.kind)}".lstrip()
