@@ -14,6 +14,7 @@ from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.display_actions import DisplayActions
 from sambot_viz.panels.expanded import keep_expanded, mark_expanded
+from sambot_viz.panels.lazy_rows import LazyRows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
 from sambot_viz.panels.row import Json, Row
@@ -42,14 +43,12 @@ class DisplaysPanel(Panel):
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
         self._session = session
-        self._remake = remake
         self._numbers: weakref.WeakKeyDictionary[DisplayConfig, int] = (
             weakref.WeakKeyDictionary()
         )
         self._count = itertools.count(1)
         self._actions = DisplayActions(session, self.display_of)
-        self._lazy: set[str] = set()
-        self._unfolded: set[str] = set()
+        self._lazy = LazyRows("displays/unfold", lambda: remake(self))
         self._facts: list[tuple[str, EntryList, str]] = []
 
     def rows(self) -> Sequence[Row]:
@@ -57,7 +56,7 @@ class DisplaysPanel(Panel):
         return [
             *mark_expanded(self._tree(), self._session.config.expanded),
             *self._actions.rows(),
-            Row("displays/unfold", "", "action", takes=(str,), set=self._unfold),
+            self._lazy.action(),
         ]
 
     def keep_unfolded(self, unfolded: Collection[str]) -> None:
@@ -96,17 +95,6 @@ class DisplaysPanel(Panel):
             if f"d{number}" == row_id and self._session.config.holds(config):
                 return config
         raise UsageError("this display is not there any more")
-
-    def _is_unfolded(self, row_id: str) -> bool:
-        """Whether a page wants the rows below this one; else it may ask for them."""
-        self._lazy.add(row_id)
-        return row_id in self._unfolded
-
-    def _unfold(self, arguments: tuple[str]) -> None:
-        (row_id,) = arguments
-        if row_id in self._lazy and row_id not in self._unfolded:
-            self._unfolded.add(row_id)
-            self._remake(self)
 
     # The rows
 
@@ -157,7 +145,7 @@ class DisplaysPanel(Panel):
 
     def _status_rows(self, display: Display, above: str) -> Iterator[Row]:
         row_id = f"{above}/:status"
-        unfolded = self._is_unfolded(row_id)
+        unfolded = self._lazy.is_unfolded(row_id)
         return status_rows(self._session, display, row_id, above, all_rows=unfolded)
 
     def _property_rows(self, display: Display, above: str) -> Iterator[Row]:
@@ -178,7 +166,7 @@ class DisplaysPanel(Panel):
                 yield from of_list.pop(title)
             if path in entries:
                 found = entries[path]
-                unfolded = self._is_unfolded(row.id)
+                unfolded = self._lazy.is_unfolded(row.id)
                 row = replace(row, extra={"lazy": bool(found.names) and not unfolded})
                 if unfolded:
                     of_list[path] = [*self._entry_rows(display, found, row.id)]
@@ -196,7 +184,7 @@ class DisplaysPanel(Panel):
             change = partial(self._session.set_entry, display, entries.title, name)
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
-            unfolded = self._is_unfolded(row_id)
+            unfolded = self._lazy.is_unfolded(row_id)
             yield Row(
                 row_id,
                 above,

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from sambot_viz.errors import Problem, Severity
+from sambot_viz.panels.lazy_rows import LazyRows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Level, Row
 from sambot_viz.panels.status_rows import place_of
@@ -38,9 +39,7 @@ class ProblemsPanel(Panel):
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
         self._session = session
-        self._remake = remake
-        self._lazy: set[str] = set()
-        self._unfolded: set[str] = set()
+        self._lazy = LazyRows("problems/unfold", lambda: remake(self))
 
     def rows(self) -> Sequence[Row]:
         """The banner, a row for each cause, and their number by severity."""
@@ -60,7 +59,7 @@ class ProblemsPanel(Panel):
                 "names",
                 value={**{s: count[s] for s in SEVERITIES}, "old": bool(note)},
             ),
-            Row("problems/unfold", "", "action", takes=(str,), set=self._unfold),
+            self._lazy.action(),
         ]
 
     def _group_rows(self, groups: Sequence[ProblemGroup]) -> Iterator[Row]:
@@ -77,7 +76,7 @@ class ProblemsPanel(Panel):
 
     def _several_rows(self, group: ProblemGroup, *, unfolded: bool) -> Iterator[Row]:
         row_id = _id(group.severity, group.first.code, group.hint, group.first.cause)
-        unfolded = self._is_unfolded(row_id) or unfolded
+        unfolded = self._lazy.is_unfolded(row_id) or unfolded
         yield _head(row_id, "", group.message, group.first, lazy=not unfolded)
         if not unfolded:
             return
@@ -94,23 +93,13 @@ class ProblemsPanel(Panel):
         key = (problem.severity, problem.place, str(problem))
         row_id = f"{above}/{_id(*key)}" if above else _id(*key)
         below = [*_details(problem, row_id, hint=hint)] if unfolded else None
-        if below is None and self._is_unfolded(row_id):
+        if below is None and self._lazy.is_unfolded(row_id):
             below = [*_details(problem, row_id, hint=hint)]
         more = bool(problem.file or (hint and problem.hint))
         yield _head(
             row_id, above, problem.message, problem, lazy=below is None and more
         )
         yield from below or ()
-
-    def _is_unfolded(self, row_id: str) -> bool:
-        self._lazy.add(row_id)
-        return row_id in self._unfolded
-
-    def _unfold(self, arguments: tuple[str]) -> None:
-        (row_id,) = arguments
-        if row_id in self._lazy and row_id not in self._unfolded:
-            self._unfolded.add(row_id)
-            self._remake(self)
 
 
 def _head(
