@@ -3,11 +3,11 @@
 
 import { html, useEffect, useRef } from "../vendor/preact.js";
 import { act } from "../channel.js";
-import { shownUnit } from "../cells.js";
 import { Icon } from "../icons.js";
 import { formatNumber } from "../numbers.js";
 import { degrees, useRow } from "../state.js";
 import { Tree } from "../tree.js";
+import { shownUnit } from "../units.js";
 
 /** How often a held button says so [ms]. */
 const PERIOD = 100;

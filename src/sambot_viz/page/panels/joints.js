@@ -3,12 +3,13 @@
 
 import { html, useMemo, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
-import { formula, limits, NumberCell } from "../cells.js";
 import { Icon } from "../icons.js";
 import { refusals } from "../notices.js";
+import { NumberCell } from "../number_cells.js";
 import { Popup } from "../popup.js";
 import { Cell, degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
+import { formula, limits } from "../units.js";
 import { Poses } from "./poses.js";
 
 /** @typedef {import("../rows.js").Row} Row */

@@ -1,0 +1,167 @@
+// @ts-check
+/* Numbers: typed, stepped with the arrow keys, dragged sideways, or moved by a slider. */
+
+import { html, useRef, useState } from "./vendor/preact.js";
+import { act, newGesture, send } from "./channel.js";
+import { Field } from "./field.js";
+import { Icon } from "./icons.js";
+import { refusals } from "./notices.js";
+import { clamped, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
+import { degrees, useRow } from "./state.js";
+import { formula, outside, shownUnit } from "./units.js";
+
+/** @typedef {import("./rows.js").Row} Row */
+
+/** How long a value that a hand has set is shown without an answer of the server [ms]. */
+const ANSWER = 1000;
+
+/** The value of a row, or the one that a hand has set until the server has it too.
+ * @param {Row} row */
+function useHeld(row) {
+  const held = useRef(/** @type {{value: number, gesture: number, over: boolean} | null} */ (null));
+  const [, again] = useState(0);
+  const draw = () => again((n) => n + 1);
+  if (held.current?.over && (row.value === held.current.value || refusals.has(row.id))) held.current = null;
+  const release = () => {
+    const mine = held.current;
+    if (!mine || mine.over) return;
+    mine.over = true;
+    setTimeout(() => { if (held.current === mine) { held.current = null; draw(); } }, ANSWER);
+    draw();
+  };
+  return {
+    // Keys come faster than the page is drawn, so it is read when it is used.
+    get value() { return held.current ? held.current.value : Number(row.value); },
+    /** One of the values of a movement. @param {number} wanted in the row's unit */
+    move(wanted) {
+      const value = clamped(row.kind === "int" ? Math.round(wanted) : wanted, row);
+      const gesture = held.current && !held.current.over ? held.current.gesture : newGesture();
+      const same = value === (held.current ? held.current.value : row.value);
+      held.current = { value, gesture, over: false };
+      if (!same) send(row.id, value, gesture);
+      draw();
+    },
+    release,
+    /** A value that was typed. @param {number} value */
+    put(value) {
+      held.current = { value, gesture: 0, over: false };
+      send(row.id, value);
+      release();
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof useHeld>} Held */
+
+/** @param {{row: Row, tab: number}} props */
+export function NumberCell({ row, tab }) {
+  return html`<${NumberField} row=${row} tab=${tab} held=${useHeld(row)} />`;
+}
+
+/** A number that is typed, stepped with the arrow keys or dragged sideways.
+ * @param {{row: Row, tab: number, held: Held}} props */
+function NumberField({ row, tab, held }) {
+  degrees.use();
+  const { unit, factor, step } = shownUnit(row);
+  const free = !row.fixed && !row.off;
+  /** @param {string} typed */
+  const accept = (typed) => {
+    const read = parseNumber(typed, unit);
+    if ("error" in read) return read.error;
+    const value = row.kind === "int" ? Math.round(read.value) : read.value;
+    const why = outside(row, value);
+    if (!why) held.put(clamped(value, row));
+    return why;
+  };
+  /** @param {number} count */
+  const move = (count) => {
+    const fine = Math.abs(count) < 1 && row.kind !== "int";
+    const times = fine ? Math.sign(count) : Math.sign(count) * Math.max(1, Math.abs(count));
+    held.move(stepped(held.value * factor, fine ? step / 10 : step, times) / factor);
+  };
+  // The cell is drawn again while it is dragged; the drag keeps to the latest one.
+  const latest = useRef(held);
+  latest.current = held;
+  /** @param {any} event */
+  const grab = (event) => {
+    const input = event.target;
+    if (event.button !== 0 || event.pointerType === "touch" || document.activeElement === input) return;
+    event.preventDefault();
+    input.setPointerCapture(event.pointerId);
+    let at = event.clientX, shown = latest.current.value * factor, moved = false;
+    input.onpointermove = (/** @type {any} */ e) => {
+      if (!moved && Math.abs(e.clientX - at) < 4) return;
+      moved = true;
+      shown += (e.clientX - at) * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
+      shown = clamped(shown / factor, row) * factor;
+      at = e.clientX;
+      latest.current.move(snapped(shown, e.altKey ? step / 10 : step) / factor);
+    };
+    input.onpointerup = input.onpointercancel = (/** @type {any} */ e) => {
+      input.onpointermove = input.onpointerup = input.onpointercancel = null;
+      if (moved) latest.current.release();
+      else if (e.type === "pointerup") input.focus();
+    };
+  };
+  // Beside a slider there is room for few digits; the tooltip has the others.
+  const number = held.value * factor, few = (row.kind === "slider" ? 4 : 6) - (factor === 1 ? 0 : 2);
+  const shown = formatNumber(number, few), exact = formatNumber(number, 9);
+  return html`<span class="number">
+    <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept} title=${exact === shown ? "" : exact}
+      step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined} shown=${shown} />
+    ${unit && html`<span class="unit">${unit}</span>`}
+  </span>`;
+}
+
+/** A slider with its number: the row of a joint. @param {{row: Row, tab: number}} props */
+export function SliderCell({ row, tab }) {
+  degrees.use();
+  const held = useHeld(row);
+  const over = !row.wheel && (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
+  return html`<span class=${`slide${over ? " over" : ""}`}>
+    ${row.follows ? html`<span class="formula" title=${formula(row)}>${formula(row)}</span>` : html`<${Handle} row=${row} tab=${tab} held=${held} />`}
+    <${NumberField} row=${row} tab=${tab} held=${held} />
+    ${row.wheel && html`<${TurnButton} row=${row} tab=${tab} />`}
+  </span>`;
+}
+
+/** @param {{row: Row, tab: number, held: Held}} props */
+function Handle({ row, tab, held }) {
+  const { factor, step, unit } = shownUnit(row);
+  const low = row.min ?? 0, high = row.max ?? 1;
+  const value = held.value;
+  // The ends are exact, whatever the step.
+  /** @param {number} raw */
+  const slide = (raw) => held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
+  /** @param {any} event */
+  const key = (event) => {
+    const count = /** @type {Record<string, number>} */ ({
+      ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 })[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (/^[\d.,+\-(]$/.test(event.key)) {
+      // A number is typed into the field beside it.
+      event.target.closest("[data-row]").querySelector("input.num").focus();
+      return event.stopPropagation();
+    }
+    if (count) held.move(stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor);
+    else if (event.key === "Home") held.move(low);
+    else if (event.key === "End") held.move(high);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return html`<input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
+    aria-label=${row.name || ""} disabled=${row.fixed || row.off}
+    aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
+    onInput=${(/** @type {any} */ e) => slide(Number(e.target.value))}
+    onChange=${held.release} onPointerUp=${held.release} onPointerCancel=${held.release}
+    onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />`;
+}
+
+/** Starts a wheel, or stops it. @param {{row: Row, tab: number}} props */
+function TurnButton({ row, tab }) {
+  const turning = (useRow("joints/turning")?.value || []).includes(row.id);
+  const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
+  return html`<button class="flat turn" aria-pressed=${String(turning)} aria-label=${label} title=${label} tabindex=${tab}
+    onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} /></button>`;
+}
