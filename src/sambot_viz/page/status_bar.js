@@ -9,8 +9,8 @@ import { ProblemCount } from "./panels/problems.js";
 import { Driving } from "./panels/drive.js";
 import { useRow } from "./state.js";
 
-/** How long a sentence that is not about a mistake stays [ms]. */
-const SAID = 8000;
+/** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
+const SAID = 8000, REFUSED = 20000;
 
 /** @param {{problems: import("./panels/problems.js").Shown}} props */
 export function StatusBar({ problems }) {
@@ -28,12 +28,12 @@ export function StatusBar({ problems }) {
   </footer>`;
 }
 
-/** What was said last; a refusal stays until the next sentence. */
+/** What was said last. */
 function Said() {
   const said = notice.use();
   useEffect(() => {
-    if (!said || said.level === "error") return undefined;
-    const timer = setTimeout(() => notice.set(null), SAID);
+    if (!said) return undefined;
+    const timer = setTimeout(() => notice.set(null), said.level === "error" ? REFUSED : SAID);
     return () => clearTimeout(timer);
   }, [said]);
   return html`<span class=${`notice l-${said?.level || "none"}`} role="alert" title=${said?.text || ""}>${said?.text || ""}</span>`;
