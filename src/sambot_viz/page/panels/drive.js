@@ -58,7 +58,11 @@ export function DrivePanel() {
 function HoldButton({ name }) {
   const [label] = WAYS[name];
   const start = () => hold(name), end = () => letGo(name);
-  useEffect(() => end, []);
+  useEffect(() => {
+    // A hand that goes to another window may let go there.
+    addEventListener("blur", end);
+    return () => { removeEventListener("blur", end); end(); };
+  }, []);
   const element = useRef(/** @type {any} */ (null));
   /** @param {any} event */
   const key = (event) => {
