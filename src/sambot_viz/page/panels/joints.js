@@ -3,6 +3,7 @@
 
 import { html, useMemo, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
+import { focusWhole } from "../field.js";
 import { Icon } from "../icons.js";
 import { refusals } from "../notices.js";
 import { NumberCell } from "../number_cells.js";
@@ -62,13 +63,14 @@ export function JointsPanel() {
       <${Degrees} />
       ${wheels && html`<${TurnRate} />`}
       ${many && html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" ref=${box}
+        onMouseDown=${focusWhole} onFocus=${(/** @type {any} */ e) => e.target.select()}
         onInput=${(/** @type {any} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`}
       <${FoldAll} />
     </div>
     <div class="list" onPointerOver=${(/** @type {any} */ e) => hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
         onPointerLeave=${() => hovered.set("")}>
-      <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />
       ${!found && html`<p class="empty" role="status">No joint has ${words.map((word) => `'${word}'`).join(" and ")} in its name</p>`}
+      <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />
     </div>
     <${OverLimit} />
     <${Help} />
