@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -95,6 +96,14 @@ def test_the_keys_of_a_number_pad_change_the_speeds(
     for key in keys:
         edit(panel, "drive/press", [key])
     assert speeds(drive) == pytest.approx(expected)
+
+
+def test_the_yaw_is_shown_within_half_a_turn(
+    panel: DrivePanel, session: Session
+) -> None:
+    edit(panel, "drive/angular", 2)
+    session.motion.advance(2.0)
+    assert panel.values()["drive/yaw"] == pytest.approx(4 - 2 * math.pi, abs=1e-4)
 
 
 def test_another_key_is_refused(panel: DrivePanel) -> None:

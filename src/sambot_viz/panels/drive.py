@@ -6,6 +6,7 @@ Keys are those of a number pad, because viser's camera has WASD, QE and the arro
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
@@ -67,7 +68,7 @@ class DrivePanel(Panel):
             # A tenth of a millimetre; what nobody sees is not sent.
             "drive/x": round(pose.x, 4) + 0.0,
             "drive/y": round(pose.y, 4) + 0.0,
-            "drive/yaw": round(pose.yaw, 4) + 0.0,
+            "drive/yaw": round(math.remainder(pose.yaw, math.tau), 4) + 0.0,
         }
 
     def _speeds(self) -> Iterator[Row]:
