@@ -29,9 +29,12 @@ export class Cell {
   /** The value, in a component that is drawn again when it changes. @returns {T} */
   use() {
     const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
+    const drawn = this.value;
     useLayoutEffect(() => {
       const listener = () => again(0);
       this.listeners.add(listener);
+      // It may have changed while the component was drawn for the first time.
+      if (this.value !== drawn) listener();
       return () => { this.listeners.delete(listener); };
     }, [this]);
     return this.value;

@@ -9,7 +9,7 @@ import { FileName } from "./files.js";
 import { MenuBar } from "./menus.js";
 import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
-import { DrivePanel } from "./panels/drive.js";
+import { DrivePanel, Driving } from "./panels/drive.js";
 import { JointsPanel } from "./panels/joints.js";
 import { ProblemsPanel } from "./panels/problems.js";
 import { ViewsPanel } from "./panels/views.js";
@@ -105,6 +105,7 @@ export function Window() {
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
+    ${away.all && html`<${Driving} />`}
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
     ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems", show: showProblems, byItself: form === "wide" }} />`}

@@ -5,7 +5,7 @@ import { html, useEffect, useRef } from "../vendor/preact.js";
 import { act } from "../channel.js";
 import { Icon } from "../icons.js";
 import { formatNumber } from "../numbers.js";
-import { degrees, useRow } from "../state.js";
+import { Cell, degrees, useRow } from "../state.js";
 import { Tree } from "../tree.js";
 import { shownUnit } from "../units.js";
 
@@ -42,16 +42,27 @@ function letGo(name) {
   act("drive/stop");
 }
 
+/** Whether the panel is there, with its own Stop. @type {Cell<boolean>} */
+const there = new Cell(false);
+
 export function DrivePanel() {
+  useEffect(() => {
+    there.set(true);
+    return () => there.set(false);
+  }, []);
   return html`<div class="drive">
     <div class="pad" role="group" aria-label="Drive">
       ${Object.keys(WAYS).map((name) => html`<${HoldButton} key=${name} name=${name} />`)}
-      <button class="halt" aria-keyshortcuts="5" title="Stop (5)" onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button>
+      <${Stop} />
       <button class="home" title="Put robot, wheels and path back to the start" onClick=${() => act("drive/reset")}>Reset</button>
       <p class="keys">Hold a button, or press 8 2 4 6; 5 stops</p>
     </div>
     <${Tree} panel="drive" label="Drive" split=${false} />
   </div>`;
+}
+
+function Stop() {
+  return html`<button class="halt" aria-keyshortcuts="5" title="Stop (5)" onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button>`;
 }
 
 /** Drives while it is held, by a mouse, a finger, Space or Enter. @param {{name: string}} props */
@@ -77,9 +88,10 @@ function HoldButton({ name }) {
     onContextMenu=${(/** @type {any} */ e) => e.preventDefault()}><${Icon} name=${name} /></button>`;
 }
 
-/** In the status bar while the robot drives: how fast, and Stop. */
+/** While the robot drives: how fast, and Stop, unless the panel has it. */
 export function Driving() {
   degrees.use();
+  const stops = !there.use();
   const linear = useRow("drive/linear"), angular = useRow("drive/angular");
   const rows = [linear, angular].filter((row) => row?.value);
   if (!linear || !rows.length) return null;
@@ -88,5 +100,5 @@ export function Driving() {
     return `${formatNumber(row?.value * factor, 2)} ${unit}`;
   });
   return html`<span class="driving">Driving ${speeds.join(", ")}
-    <button class="halt" title="Stop (5)" onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button></span>`;
+    ${stops && html`<${Stop} />`}</span>`;
 }
