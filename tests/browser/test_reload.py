@@ -61,13 +61,14 @@ def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(
     model.write_text(content.replace("</robot>", "</rob>"), "utf-8")
     viewer.wait_for(shows(NOTE))
     viewer.wait_for(shows(f"{model.name}:{line}"))
-    # The panel and the name of its tab come in separate messages.
-    viewer.wait_for(shows("Problems (1)"))
-    viewer.wait_until_drawn()
-    assert np.count_nonzero(viewer.pixels() != before) == 0
+    viewer.user.find("button", "Problems: 1 error")
     for frame in ("base_link", LINK):
         place = [float(v) for v in viz.frames.lookup("base_link", frame).translation]
         assert not viewer.is_covered(*viewer.project("", place))
+    # The list takes room from the view; without it, the picture is the one before.
+    viewer.user.click("button", "Close Problems")
+    viewer.wait_until_drawn()
+    assert np.count_nonzero(settled_picture(viewer) != before) == 0
 
     model.write_text(content, "utf-8")
     viewer.wait_for(f"!({shows(NOTE)})")
