@@ -56,8 +56,7 @@ def test_task_52_hang_a_laser_on_the_body(s: Desk) -> None:
     user.until(lambda: changed(before, s.viewer.pixels()) > 10)
     row = user.until(lambda: [r for r in user.rows("Frames") if "base_laser" in r])[-1]
     user.unfold("Frames", row)
-    number = user.row("Frames", row, "x").one("textbox")
-    user.enter(number, "0.15")
+    user.enter(user.row("Frames", row, "Translation").one("textbox"), "0.15; 0; 0.2")
     user.until(lambda: place(s) == pytest.approx((0.15, 0.0, 0.2)))
     user.click_on(user.row("Frames", row).all("gridcell")[0])
     user.click("button", "Remove", ("tabpanel", "Frames"))
