@@ -74,7 +74,7 @@ def test_task_02_start_with_a_mistake(
     line = next(n for n, text in enumerate(lines, 1) if "</rob>" in text)
     user = started(model)
     user.reads(f"{model.name}:{line}")
-    for said in ("is closed by </rob>", "write </robot>", f"{line} </rob>"):
+    for said in ("is closed by </rob>", "write </robot>", f" {line} "):
         user.until(lambda s=said: s in re.sub(r"\s+", " ", user.see().text))
     model.write_text(model.read_text("utf-8").replace("</rob>", "</robot>"), "utf-8")
     user.row("Joints", "drivewhl_l_joint")
@@ -127,8 +127,6 @@ def test_task_06_copy_a_status(s: Desk) -> None:
     status = "Displays", "Global Status", "Fixed Frame"
     user.until(lambda: "does not exist" in user.row(*status).text)
     shown = user.row(*status).all("gridcell")[1].all("StaticText")[0]
-    left, top, width, height = user.box(shown)
-    user.go_to(shown)
     left, top, width, height = user.box(shown)
     s.page.mouse.drag((left + 1, top + 4), (left + width, top + height - 3))
     user.keys("Control+c")
