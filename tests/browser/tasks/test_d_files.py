@@ -121,7 +121,7 @@ def test_task_35_save_with_ctrl_s(desk: Desk) -> None:
     desk.user.gone(*DIALOG)
     cell_size(desk, "0.6")
     desk.user.keys("Control+s")
-    desk.user.until(lambda: size_in(desk.folder / "by key.rviz") == 0.6)
+    desk.user.until(lambda: size_in(desk.folder / "by key.rviz") == pytest.approx(0.6))
     desk.user.until(lambda: "*" not in name_of_config(desk))
 
 
