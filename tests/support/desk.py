@@ -46,7 +46,7 @@ class Desk:
         if letter.startswith("<"):
             self.model = folder / "robot.urdf"
             self.model.write_text(letter, "utf-8")
-        elif letter == "S":
+        elif letter.startswith("S"):
             shutil.copytree(bundled.assets_folder(), folder, dirs_exist_ok=True)
             self.model = folder / "sam_bot.urdf.xacro"
         else:

@@ -28,6 +28,25 @@ def look_near(desk: Desk) -> None:
     raise AssertionError("the picture does not come to rest")
 
 
+def on_page(desk: Desk, *point: float, frame: str = "") -> tuple[float, float]:
+    """Where a point of the fixed frame, or of a frame, is on the page [CSS pixels]."""
+    if frame:
+        found = desk.viz.frames.lookup(desk.fixed_frame, frame)
+        x, y, z = point or (0.0, 0.0, 0.0)
+        point = tuple(float(v) for v in found.matrix[:3] @ (x, y, z, 1.0))
+    column, row = desk.viewer.project("", point)
+    left, top = desk.page.evaluate(
+        "(r => [r.x, r.y])(__viserMutable.canvas.getBoundingClientRect())"
+    )
+    return left + column, top + row
+
+
+def drawn(desk: Desk) -> float:
+    """The part of the 3D view that has another colour than its corner."""
+    pixels = desk.viewer.pixels()[..., :3].astype(int)
+    return float((np.abs(pixels - pixels[5, 5]).max(axis=-1) > 8).mean())
+
+
 def corner(desk: Desk) -> tuple[int, ...]:
     """The colour of the upper left corner of the 3D view."""
     return tuple(int(v) for v in desk.viewer.pixels()[5, 5, :3])

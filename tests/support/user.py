@@ -12,6 +12,7 @@ something else cannot be clicked. Everything waits until the page has what is as
 from __future__ import annotations
 
 import json
+import re
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -74,6 +75,10 @@ _PICK = """function () {
   for (const kind of ["input", "change"]) {
     this.dispatchEvent(new Event(kind, {bubbles: true}));
   }
+}"""
+_MARKED = """function () {
+  return this.type === "number"
+    ? false : this.selectionEnd - this.selectionStart === this.value.length;
 }"""
 _CUT_OFF = """function () {
   const element = this.nodeType === 3 ? this.parentElement : this;
@@ -313,6 +318,23 @@ class User:
                 return
         raise AssertionError(f"row {names} does not {'fold' if fold else 'unfold'}")
 
+    def choose(self, thing: Thing, option: str) -> None:
+        """Choose from a list by the keyboard: go to it and type the option."""
+        self.go_to(thing)
+        self.page.call("DOM.focus", {"backendNodeId": thing.node})
+        self.type(option)
+
+    def menu(self, *names: Name) -> None:
+        """Open a menu of the window and click an entry of it."""
+        head, entry = names
+        self.click("menuitem", head)
+        self.click(re.compile("^menuitem"), entry, ("menu", head))
+
+    def tab(self, name: str) -> None:
+        """Show a panel that has a tab."""
+        self.click("tab", name)
+        self.find("tabpanel", name)
+
     def pick_color(self, thing: Thing, color: str) -> None:
         """Choose a colour such as "#ff0000" in the window that a colour field opens.
 
@@ -333,12 +355,22 @@ class User:
         """Press the key of each character."""
         self.page.keyboard.type(text)
 
-    def enter(self, thing: Thing, text: str, end: str = "Enter") -> None:
-        """Click into a field, which marks what is in it, type, and end with a key."""
+    def click_into(self, thing: Thing) -> None:
+        """Click into a field: in a tree, the first click only selects its row."""
         if thing.state("focused"):
-            self.keys("Control+a")
-        else:
+            return
+        for _ in range(2):
             self.click_on(thing)
+            focused = [t.node for t in self.see().walk() if t.state("focused")]
+            if thing.node in focused:
+                return
+        raise AssertionError(f"{thing.role} {thing.name!r} does not get the keys")
+
+    def enter(self, thing: Thing, text: str, end: str = "Enter") -> None:
+        """Click into a field, mark what is in it, type, and end with a key."""
+        self.click_into(thing)
+        if not self._ask(thing, _MARKED):
+            self.keys("Control+a")
         if not text:
             self.keys("Delete")
         self.type(text)

@@ -19,8 +19,10 @@ import { Tree } from "./tree.js";
 import { Cell, useRow } from "./state.js";
 import { Icon } from "./icons.js";
 
+/** On a tablet the view has half of the window. */
+const small = innerWidth < 1150;
 /** Sizes of the panels [px]. @type {Cell<Record<string, number>>} */
-const sizes = new Cell({ left: 300, right: 320, bottom: 210, views: 240 }, "sizes");
+const sizes = new Cell({ left: small ? 236 : 300, right: small ? 268 : 320, bottom: 210, views: 240 }, "sizes");
 /** Which panels are folded away. @type {Cell<Record<string, boolean>>} */
 export const hidden = new Cell(/** @type {Record<string, boolean>} */ ({}), "hidden");
 /** The chosen tab at the right, or in the sheet of a phone. */

@@ -58,7 +58,7 @@ class Desks:
         from desk import Desk
 
         if letter not in self._open:
-            folder = self._folders.mktemp(letter)
+            folder = self._folders.mktemp(letter.replace(" ", "-"))
             self._open[letter] = Desk(letter, self._chromium, folder)
         return self._open[letter]
 
@@ -110,6 +110,12 @@ def _desk(desks: Desks, letter: str, request: pytest.FixtureRequest) -> Iterator
 def s(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
     """The small two-wheeled robot that comes with the program."""
     yield from _desk(desks, "S", request)
+
+
+@pytest.fixture
+def files(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
+    """The same robot, for tasks that open and save configs."""
+    yield from _desk(desks, "S files", request)
 
 
 @pytest.fixture

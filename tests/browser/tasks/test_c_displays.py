@@ -6,11 +6,10 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 import pytest
 from ax_tree import Thing, row_label
 from desk import Desk
-from judge import changed, corner, drawn_around, look_near
+from judge import changed, corner, drawn, drawn_around, look_near
 
 from sambot_viz.rviz import DisplayConfig
 
@@ -97,12 +96,6 @@ def test_task_22_show_collision_shapes_and_back(
     tick(desk, "RobotModel", "Collision Enabled")
     tick(desk, "RobotModel", "Visual Enabled")
     desk.user.until(lambda: drawn(desk) == pytest.approx(visuals, rel=0.01), AT_ONCE)
-
-
-def drawn(desk: Desk) -> float:
-    """The part of the view that is not background."""
-    pixels = desk.viewer.pixels()[..., :3].astype(int)
-    return float((np.abs(pixels - GREY).max(axis=-1) > 8).mean())
 
 
 def test_task_23_hide_one_link(s: Desk) -> None:

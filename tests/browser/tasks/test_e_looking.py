@@ -1,0 +1,138 @@
+"""Tasks with the view: mouse, types of views, saved views, pictures, hidden panels."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from ax_tree import Thing
+from desk import Desk
+from judge import drawn, look_near
+from PIL import Image
+
+pytestmark = pytest.mark.browser
+
+AT_ONCE = 6.0
+SKY = (420.0, 120.0)
+"""A place of the page with nothing but background."""
+
+
+def row(desk: Desk, *names: str) -> Thing:
+    return desk.user.row("Views", *names)
+
+
+def number(desk: Desk, name: str) -> float:
+    return float(row(desk, "Current View", name).one("textbox").value)
+
+
+def set_number(desk: Desk, name: str, value: str) -> None:
+    desk.user.enter(row(desk, "Current View", name).one("textbox"), value)
+
+
+def is_near(desk: Desk, name: str, value: float, within: float = 0.01) -> bool:
+    return abs(number(desk, name) - value) < within
+
+
+def test_task_39_look_exactly_from_above(s: Desk) -> None:
+    views = ("region", "Views")
+    s.user.choose(s.user.find("combobox", "Type", views), "TopDownOrtho")
+    s.user.row("Views", "Current View", "Scale")
+    look_near(s)
+    s.user.until(lambda: drawn(s) > 0.05, AT_ONCE)
+    middle = s.viewer.pixels()[::, ::, :3]
+    height, width, _ = middle.shape
+    assert tuple(middle[5, 5]) == (48, 48, 48)
+    robot = middle[
+        height // 2 - 20 : height // 2 + 20, width // 2 - 20 : width // 2 + 20
+    ]
+    assert (robot.astype(int).max(axis=-1) > 60).mean() > 0.5
+    scale = number(s, "Scale")
+    s.page.mouse.wheel(*SKY, dy=-300.0)
+    s.user.until(lambda: number(s, "Scale") > 1.2 * scale)
+    s.user.until(lambda: drawn(s) > 0.05, AT_ONCE)
+    s.page.mouse.drag(SKY, (SKY[0], SKY[1] + 200), button="right")
+    s.user.until(lambda: number(s, "Scale") < scale)
+    s.user.until(lambda: drawn(s) > 0.001, AT_ONCE)
+    set_number(s, "Scale", "100")
+    s.user.until(lambda: drawn(s) > 0.001, AT_ONCE)
+    s.user.choose(s.user.find("combobox", "Type", views), "Orbit")
+    s.user.row("Views", "Current View", "Distance")
+
+
+def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
+    set_number(s, "Distance", "3")
+    set_number(s, "Yaw", "1")
+    set_number(s, "Pitch", "0.5")
+    s.user.until(lambda: is_near(s, "Pitch", 0.5))
+    mouse, (x, y) = s.page.mouse, SKY
+    mouse.drag(SKY, (x - 40, y))
+    s.user.until(lambda: is_near(s, "Yaw", 1.2))
+    mouse.drag(SKY, (x, y + 40))
+    s.user.until(lambda: is_near(s, "Pitch", 0.7))
+    mouse.wheel(*SKY, dy=-100.0)
+    s.user.until(lambda: number(s, "Distance") < 2.8)
+    mouse.drag(SKY, (x, y + 40), button="right")
+    s.user.until(lambda: abs(number(s, "Distance") - 2.64) > 0.1)
+    point = row(s, "Focal Point").one("textbox").value
+    for moves in ({"button": "middle"}, {}):
+        shift = () if moves else ("Shift",)
+        mouse.drag(SKY, (x + 50, y), *shift, **moves)
+        s.user.until(lambda p=point: row(s, "Focal Point").one("textbox").value != p)
+        point = row(s, "Focal Point").one("textbox").value
+    assert is_near(s, "Yaw", 1.2) and is_near(s, "Pitch", 0.7)
+    set_number(s, "Pitch", "1.5697")
+    s.user.until(lambda: is_near(s, "Pitch", 1.5697, 0.001))
+    mouse.drag(SKY, (x + 60, y + 30), button="middle")
+    s.user.until(lambda: row(s, "Focal Point").one("textbox").value != point)
+    assert is_near(s, "Yaw", 1.2)
+
+
+def test_task_41_bring_a_lost_robot_back(s: Desk) -> None:
+    look_near(s)
+    near = drawn(s)
+    set_number(s, "Focal Point", "80; 0; 0")
+    s.user.until(lambda: drawn(s) < 0.2 * near, AT_ONCE)
+    s.page.mouse.click(*SKY)
+    s.user.keys("f")
+    s.user.until(lambda: drawn(s) == pytest.approx(near, rel=0.2), AT_ONCE)
+
+
+def test_task_42_keep_a_view_and_return_to_it(s: Desk) -> None:
+    set_number(s, "Distance", "1.7")
+    set_number(s, "Yaw", "2.2")
+    s.user.until(lambda: is_near(s, "Yaw", 2.2))
+    s.user.click("button", "Save", ("region", "Views"))
+    saved = s.user.until(lambda: [n for n in s.user.rows("Views") if "Orbit" in n])[-1]
+    set_number(s, "Distance", "5")
+    set_number(s, "Yaw", "0.3")
+    s.user.until(lambda: is_near(s, "Yaw", 0.3))
+    s.user.click_on(row(s, saved).all("gridcell")[0])
+    s.user.click("button", "Use", ("region", "Views"))
+    s.user.until(lambda: is_near(s, "Yaw", 2.2) and is_near(s, "Distance", 1.7))
+    s.user.click("button", "Remove", ("region", "Views"))
+    s.user.until(lambda: saved not in s.user.rows("Views"))
+
+
+def test_task_43_make_a_picture_for_the_report(s: Desk) -> None:
+    s.user.menu("File", re.compile("^Save Image"))
+    for side, size in (("Width", "1280"), ("Height", "720")):
+        s.user.enter(s.user.find("spinbutton", side), size, end="")
+    s.user.click("button", "Save", ("dialog", "Save Image"))
+    file = s.user.until(lambda: [*s.downloads.glob("*.png")], 30.0)[0]
+    with Image.open(file) as image:
+        assert image.size == (1280, 720)
+        corners = [image.convert("RGB").getpixel(at) for at in ((0, 0), (1279, 719))]
+    assert corners[0] == (48, 48, 48)
+    file.unlink()
+
+
+def test_task_44_see_more_of_the_scene(s: Desk) -> None:
+    before = s.viewer.pixels().shape
+    s.user.click("button", "Hide panels")
+    s.user.gone("treegrid")
+    s.user.until(lambda: s.viewer.pixels().shape[:2] == (720, 1280), AT_ONCE)
+    back = s.user.find("button", re.compile("Show panels"))
+    assert s.user.can_see(back)
+    s.user.click_on(back)
+    s.user.find("treegrid", "Joints")
+    s.user.until(lambda: s.viewer.pixels().shape == before, AT_ONCE)

@@ -1,0 +1,293 @@
+"""Tasks with two people, phones, tablets, the keyboard alone, and mishaps."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from desk import Desk
+from judge import changed, on_page
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+AT_ONCE = 6.0
+LEFT = "drivewhl_l_joint"
+SKY = (420.0, 120.0)
+
+
+@pytest.fixture
+def open_more(s: Desk) -> Callable[..., ViewerPage]:
+    """Open one more page of the shared desk, closed with it."""
+    opened: list[ViewerPage] = []
+
+    def more(*size: int, touch: bool = False) -> ViewerPage:
+        opened.append(s.open(*size, touch=touch))
+        return opened[-1]
+
+    yield more  # type: ignore[misc]
+    for viewer in opened:
+        viewer.page.close()
+    for viewer in opened:
+        assert viewer.errors() == []
+
+
+def field(viewer: ViewerPage) -> str:
+    return str(viewer.user.row("Joints", LEFT).one("textbox").value)
+
+
+def test_task_54_one_types_while_another_drags(
+    s: Desk, open_more: Callable[..., ViewerPage]
+) -> None:
+    other = open_more()
+    s.user.click_into(s.user.row("Joints", LEFT).one("textbox"))
+    s.user.type("2.")
+    other.user.drag_slider(other.user.row("Joints", LEFT).one("slider"), -1.0)
+    s.user.until(lambda: s.viz.joint_positions[LEFT] < -0.5)
+    assert field(s.viewer) == "2."
+    s.user.type("5")
+    s.user.keys("Enter")
+    s.user.until(lambda: s.viz.joint_positions[LEFT] == 2.5)
+    for viewer in (s.viewer, other):
+        viewer.user.until(lambda v=viewer: field(v) == "2.5")
+
+
+def test_task_55_one_measures_while_another_turns(
+    s: Desk, open_more: Callable[..., ViewerPage]
+) -> None:
+    other = open_more()
+
+    def yaw(viewer: ViewerPage) -> str:
+        return viewer.user.row("Views", "Yaw").text
+
+    def tools(viewer: ViewerPage) -> list[str]:
+        buttons = viewer.user.find("toolbar", "Tools").all("button")
+        return [b.name for b in buttons if b.is_on]
+
+    mine, theirs = yaw(s.viewer), yaw(other)
+    s.user.click("button", "Measure", ("toolbar", "Tools"))
+    s.user.until(lambda: tools(s.viewer) == ["Measure"])
+    s.page.mouse.click(*on_page(s, 0.0, 0.0, 0.09))
+    s.user.reads("second point")
+    other.page.mouse.drag(SKY, (SKY[0] - 60, SKY[1]))
+    other.user.until(lambda: yaw(other) != theirs)
+    assert tools(other) == ["Interact"]
+    assert "second point" not in other.user.see().text
+    assert yaw(s.viewer) == mine
+    s.page.mouse.click(*on_page(s, 0.1, 0.1, 0.09))
+    s.user.reads("Length:")
+
+
+@pytest.mark.parametrize("size", [(390, 844), (844, 390)])
+def test_task_56_a_joint_on_a_phone(
+    s: Desk, open_more: Callable[..., ViewerPage], size: tuple[int, int]
+) -> None:
+    phone = open_more(*size, touch=True)
+    user = phone.user
+    slider = user.row("Joints", LEFT).one("slider")
+    user.go_to(slider)
+    place = view(phone)
+    assert place[2] * place[3] > 0.3 * size[0] * size[1]
+    before = phone.pixels()
+    user.drag_slider(user.row("Joints", LEFT).one("slider"), 1.5)
+    user.until(lambda: s.viz.joint_positions[LEFT] > 0.5)
+    user.until(lambda: changed(before, phone.pixels()) > 3, AT_ONCE)
+    assert user.can_see(user.row("Joints", LEFT).one("slider"))
+    assert user.can_see(user.row("Joints", LEFT).one("textbox"))
+    assert font(phone) >= 12
+
+
+def view(viewer: ViewerPage) -> tuple[float, float, float, float]:
+    """Left, top, width and height of the 3D view on the page."""
+    found = viewer.page.evaluate(
+        "(r => [r.x, r.y, r.width, r.height])"
+        "(__viserMutable.canvas.getBoundingClientRect())"
+    )
+    return tuple(found)
+
+
+def font(viewer: ViewerPage) -> float:
+    """The size of the smallest text of the panels [px]."""
+    return float(
+        viewer.page.evaluate(
+            "Math.min(...[...document.querySelectorAll('[role=row] *')]"
+            ".filter(e => e.childNodes[0]?.nodeType === 3 && e.offsetHeight)"
+            ".map(e => parseFloat(getComputedStyle(e).fontSize)))"
+        )
+    )
+
+
+def test_task_57_a_tablet(s: Desk, open_more: Callable[..., ViewerPage]) -> None:
+    tablet = open_more(1024, 768, touch=True)
+    user, touch = tablet.user, tablet.page.touch
+    left, top, width, height = view(tablet)
+    assert width >= 512
+    x, y = left + width / 2, top + height / 2
+
+    def moved(act: Callable[[], None]) -> None:
+        before = tablet.pixels()
+        act()
+        user.until(lambda: changed(before, tablet.pixels()) > 200, AT_ONCE)
+
+    def turn() -> None:
+        touch.start((x, y))
+        for step in range(1, 9):
+            touch.move((x + 10 * step, y))
+        touch.end()
+
+    def two(apart: float, along: float) -> None:
+        touch.start((x - 40, y), (x + 40, y))
+        for step in range(1, 9):
+            wide, far = 40 + apart * step, along * step
+            touch.move((x - wide + far, y), (x + wide + far, y))
+        touch.end()
+
+    moved(turn)
+    moved(lambda: two(6, 0))
+    moved(lambda: two(0, 8))
+    for row in (user.row("Displays", "Grid"), user.row("Joints", LEFT)):
+        assert user.box(row)[3] >= 36
+    assert user.box(user.row("Joints", LEFT).one("slider"))[3] >= 44
+    user.drag_slider(user.row("Joints", LEFT).one("slider"), -1.0)
+    user.until(lambda: s.viz.joint_positions[LEFT] < -0.4)
+    user.click_on(user.row("Displays", "Grid").one("checkbox"))
+    user.until(lambda: not user.row("Displays", "Grid").one("checkbox").is_on)
+    s.user.until(lambda: not s.user.row("Displays", "Grid").one("checkbox").is_on)
+
+
+def test_task_58_the_keyboard_alone(s: Desk) -> None:
+    user = s.user
+
+    def focused() -> tuple[str, str]:
+        """The innermost thing that has the keys."""
+        found = [t for t in user.see().walk() if t.state("focused")]
+        return (found[-1].role, found[-1].name) if found else ("", "")
+
+    def tab_to(role: str, name: str) -> None:
+        for _ in range(60):
+            if focused() == (role, name):
+                return
+            user.keys("Tab")
+        raise AssertionError(f"the Tab key does not come to {role} {name}")
+
+    def go_down_to(label: str, panel: str) -> None:
+        for _ in range(60):
+            rows = user.find("treegrid", panel).all("row")
+            chosen = [r for r in rows if r.state("focused")]
+            if chosen and chosen[0].all("gridcell")[0].name == label:
+                return
+            user.keys("ArrowDown")
+        raise AssertionError(f"the arrow keys do not come to {label}")
+
+    s.page.mouse.click(*SKY)
+    things = user.see()
+    nameless = [
+        t.role
+        for t in things.walk()
+        if t.role in ("button", "slider", "textbox", "combobox", "checkbox", "tab")
+        and not t.name
+    ]
+    assert nameless == []
+    first = user.row("Displays", "Global Options")
+    for _ in range(60):
+        user.keys("Tab")
+        role, name = focused()
+        if role == "row" and name.startswith("Global Options"):
+            break
+    assert first.name.startswith("Global Options")
+    go_down_to("RobotModel", "Displays")
+    user.keys("ArrowRight")
+    user.until(lambda: user.row("Displays", "RobotModel").state("expanded"))
+    go_down_to("Alpha", "Displays")
+    user.keys("Enter")
+    user.keys("Control+a")
+    user.type("0.5")
+    user.keys("Enter")
+    session = s.viz.server.sessions()[0]
+    user.until(lambda: session.config.displays[1].get("Alpha") == 0.5)
+    user.keys("Escape")
+    tab_to("slider", LEFT)
+    user.keys("End")
+    user.until(lambda: s.viz.joint_positions[LEFT] > 3.1)
+    tab_to("button", "Interact")
+    while focused() != ("button", "Select"):
+        user.keys("ArrowRight")
+    user.keys("Enter")
+    user.until(lambda: user.find("button", "Select", ("toolbar", "Tools")).is_on)
+
+
+@pytest.mark.parametrize(
+    ("size", "scale"), [((853, 480), 1.5), ((600, 800), 1.0), ((1440, 900), 1.0)]
+)
+@pytest.mark.parametrize("dark", [False, True])
+def test_task_59_other_windows(
+    s: Desk, size: tuple[int, int], scale: float, dark: bool
+) -> None:
+    user = s.user
+    s.page.set_viewport(*size, scale)
+    s.page.set_dark(dark)
+    try:
+        user.row("Joints", LEFT)
+        s.viewer.wait_for_frames()
+        cut = user.until(lambda: [cut_off(s)])[0]
+        assert cut == []
+        light = s.viewer.screenshot()[..., :3].mean(axis=-1)
+        share = float((light > 200).mean())
+        assert (share < 0.1) if dark else (share > 0.2)
+    finally:
+        s.page.set_viewport(1280, 720)
+        s.page.set_dark(False)
+        user.find("button", "Interact", ("toolbar", "Tools"))
+
+
+def cut_off(desk: Desk) -> list[str]:
+    """Controls that are neither whole on the screen nor can be scrolled to."""
+    found: list[str] = []
+    for thing in desk.user.see().walk():
+        if thing.role not in ("button", "tab", "slider", "checkbox", "menuitem"):
+            continue
+        try:
+            desk.user.go_to(thing)
+        except AssertionError as error:
+            found.append(str(error))
+    return found
+
+
+def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
+    user, port = own.user, own.viz.viser.get_port()
+    own.viewer.expects_errors = True
+    user.unfold("Displays", "Grid")
+    user.enter(user.row("Joints", LEFT).one("textbox"), "1")
+    user.until(lambda: own.viz.joint_positions[LEFT] == 1.0)
+    user.enter(user.row("Views", "Yaw").one("textbox"), "2")
+    user.until(lambda: "2" in user.row("Views", "Yaw").text)
+    rows = user.rows("Displays")
+    own.viz.stop()
+    user.reads("Connection lost")
+    own.viz = Visualizer(own.model, port=port, watch=True)
+    user.reads("connection is back", 20.0)
+    user.until(lambda: user.rows("Displays") == rows)
+    assert user.row("Views", "Yaw").one("textbox").value == "2"
+    if user.there("button", "OK"):
+        user.click("button", "OK")
+    # A page that is loaded again in the middle of a drag.
+    slider = user.row("Joints", LEFT).one("slider")
+    x, y = user.go_to(slider)
+    own.page.mouse.move(x, y)
+    own.page.mouse.press()
+    own.page.mouse.move(x + 10, y)
+    user.until(lambda: own.viz.joint_positions[LEFT] != 0.0)
+    own.page.goto(own.viewer.url)
+    own.page.mouse.release()
+    held = own.viz.joint_positions[LEFT]
+    user.until(
+        lambda: (
+            float(user.row("Joints", LEFT).one("textbox").value)
+            == pytest.approx(held, abs=1e-4)
+        )
+    )
+    user.click("button", re.compile("^Center$"))
+    user.until(lambda: own.viz.joint_positions[LEFT] == 0.0)
