@@ -31,9 +31,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         items[place] = task
 
 
-def pytest_report_header() -> str:
-    """How to have the same order again."""
-    return f"order of the tasks: SAMBOT_VIZ_TASK_SEED={_SEED}"
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Write how to have the same order again."""
+    terminalreporter.write_line(f"order of the tasks: SAMBOT_VIZ_TASK_SEED={_SEED}")
 
 
 @pytest.hookimpl(hookwrapper=True)

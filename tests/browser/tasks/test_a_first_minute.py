@@ -19,7 +19,7 @@ from sambot_viz.export.chromium import Chromium
 
 pytestmark = pytest.mark.browser
 
-AT_ONCE = 6.0
+AT_ONCE = 12.0
 A_REMARK = """<robot name="r"><link name="base_link"><inertial><mass value="1"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"/></inertial>
 <visual><geometry><box size="0.3 0.3 0.3"/></geometry></visual></link>

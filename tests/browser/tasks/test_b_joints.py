@@ -19,7 +19,7 @@ pytestmark = pytest.mark.browser
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 DIGITS = 6e-5
 """A number beside a slider is rounded to so much [rad]."""
-AT_ONCE = 6.0
+AT_ONCE = 12.0
 """On a machine without a graphics card [s]."""
 
 

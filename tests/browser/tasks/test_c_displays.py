@@ -15,7 +15,7 @@ from sambot_viz.rviz import DisplayConfig
 
 pytestmark = pytest.mark.browser
 
-AT_ONCE = 6.0
+AT_ONCE = 12.0
 WHEEL = "drivewhl_l_link"
 GREY, WHITE = (48, 48, 48), (255, 255, 255)
 

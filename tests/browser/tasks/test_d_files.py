@@ -14,7 +14,7 @@ from judge import corner, drawn
 
 pytestmark = pytest.mark.browser
 
-AT_ONCE = 6.0
+AT_ONCE = 12.0
 DIALOG = ("dialog", "Save Config As")
 
 

@@ -12,7 +12,7 @@ from PIL import Image
 
 pytestmark = pytest.mark.browser
 
-AT_ONCE = 6.0
+AT_ONCE = 12.0
 SKY = (420.0, 120.0)
 """A place of the page with nothing but background."""
 

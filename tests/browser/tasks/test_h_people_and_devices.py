@@ -14,7 +14,7 @@ from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
-AT_ONCE = 6.0
+AT_ONCE = 12.0
 LEFT = "drivewhl_l_joint"
 SKY = (420.0, 120.0)
 
