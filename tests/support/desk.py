@@ -23,6 +23,10 @@ MODELS: dict[str, Callable[[], str]] = {
 """Letter of the tasks → URDF; "S" is the robot that comes with the program."""
 
 
+_NOTHING = (330.0, 60.0)
+"""A place of the page where the 3D view shows nothing of a robot."""
+
+
 class Desk:
     """One robot, one server, one page.
 
@@ -92,7 +96,12 @@ class Desk:
         """Put everything back as it was, by what the page offers for that."""
         user = self.user
         user.keys("Escape", "Escape")
-        user.click("tab", "Joints")
+        user.tab("Selection")
+        if user.find("treegrid", "Selection").all("row")[1:]:
+            user.click("button", "Select", ("toolbar", "Tools"))
+            self.page.mouse.click(*_NOTHING)
+            user.reads("Nothing is selected")
+        user.tab("Joints")
         user.click("button", "Interact", ("toolbar", "Tools"))
         for _ in range(300):
             wait_for_workers()
