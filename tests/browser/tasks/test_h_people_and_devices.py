@@ -120,44 +120,6 @@ def font(viewer: ViewerPage) -> float:
     )
 
 
-def test_task_57_a_tablet(s: Desk, open_more: Callable[..., ViewerPage]) -> None:
-    tablet = open_more(1024, 768, touch=True)
-    user, touch = tablet.user, tablet.page.touch
-    left, top, width, height = view(tablet)
-    assert width >= 512
-    x, y = left + width / 2, top + height / 2
-
-    def moved(act: Callable[[], None]) -> None:
-        before = tablet.pixels()
-        act()
-        user.until(lambda: changed(before, tablet.pixels()) > 200, AT_ONCE)
-
-    def turn() -> None:
-        touch.start((x, y))
-        for step in range(1, 9):
-            touch.move((x + 10 * step, y))
-        touch.end()
-
-    def two(apart: float, along: float) -> None:
-        touch.start((x - 40, y), (x + 40, y))
-        for step in range(1, 9):
-            wide, far = 40 + apart * step, along * step
-            touch.move((x - wide + far, y), (x + wide + far, y))
-        touch.end()
-
-    moved(turn)
-    moved(lambda: two(6, 0))
-    moved(lambda: two(0, 8))
-    for row in (user.row("Displays", "Grid"), user.row("Joints", LEFT)):
-        assert user.box(row)[3] >= 36
-    assert user.box(user.row("Joints", LEFT).one("slider"))[3] >= 44
-    user.drag_slider(user.row("Joints", LEFT).one("slider"), -1.0)
-    user.until(lambda: s.viz.joint_positions[LEFT] < -0.4)
-    user.click_on(user.row("Displays", "Grid").one("checkbox"))
-    user.until(lambda: not user.row("Displays", "Grid").one("checkbox").is_on)
-    s.user.until(lambda: not s.user.row("Displays", "Grid").one("checkbox").is_on)
-
-
 def test_task_58_the_keyboard_alone(s: Desk) -> None:
     user = s.user
 
