@@ -161,7 +161,13 @@ def test_a_colour_is_taken_as_people_write_it(
     assert session.context.background == colour
 
 
-@pytest.mark.parametrize("typed", ["255", "1; 2", "#12345", "whitish", "", [1, 2]])
+@pytest.mark.parametrize(
+    "typed",
+    [
+        *("255", "1; 2", "#12345", "whitish", "", [1, 2]),
+        *("300; 0; 0", "0;-1;0", "1; 2; 3; 4", "0.5; 0; 0", [256, 0, 0]),
+    ],
+)
 def test_a_wrong_colour_is_refused_with_a_reason(
     displays: Displays, session: Session, typed: object
 ) -> None:

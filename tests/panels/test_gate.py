@@ -117,6 +117,7 @@ def test_a_deep_nest_of_lists_is_refused() -> None:
         (settable("bool"), False, False),
         (settable("display"), True, True),
         (settable("color"), "white", "white"),
+        (settable("color"), "255;0; +7", "255;0; +7"),
         (settable("color"), [1, 2, 3], (1, 2, 3)),
         (settable("vector"), [1, 2, 3], (1, 2, 3)),
         (settable("text"), "two words", "two words"),
@@ -148,6 +149,12 @@ def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
         (settable("float"), "1", "'Name' needs a number, not '1'"),
         (settable("float"), True, "'Name' needs a number, not True"),
         (settable("int"), 1.5, "'Name' needs a whole number"),
+        (
+            settable("color"),
+            "300;0;0",
+            "'Name' cannot be '300;0;0': a colour is three whole numbers from 0 to "
+            "255, such as '255; 128; 0'",
+        ),
         (settable("float", least=0.0, most=1.0, unit="m"), 2, "its limits are 0 … 1 m"),
         (settable("vector"), [1, 2], "'Name' needs 3 numbers"),
         (settable("text"), "x" * 1001, "'Name' takes at most 1000 characters"),

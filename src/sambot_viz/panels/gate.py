@@ -76,7 +76,7 @@ def checked(row: Row, value: Json) -> Any:
     if row.kind in ("enum", "text", "frame", "file") and isinstance(value, str):
         return _short(row, value)
     if row.kind == "color":
-        return _short(row, value) if isinstance(value, str) else _numbers(row, value, 3)
+        return _color(row, value)
     if row.kind == "vector":
         return _numbers(row, value, len(cast("list[Any]", row.value)))
     if row.kind == "action":
@@ -125,6 +125,25 @@ def _numbers(row: Row, value: Json, count: int) -> tuple[float, ...]:
     if len(known) != count or len(numbers) != count:
         raise UsageError(f"'{text(row.name)}' needs {count} numbers")
     return known
+
+
+def _color(row: Row, value: Json) -> str | tuple[float, ...]:
+    """Names and "#" forms are read where the colour is set; three numbers are checked.
+
+    In a file RViz lowers 300 to 255; a user who types it hears of it.
+    """
+    if isinstance(value, str):
+        parts = [part.strip() for part in _short(row, value).split(";")]
+        numbers = [int(part) for part in parts if re.fullmatch(r"[+-]?\d{1,12}", part)]
+        fits = len(parts) == 1 or len(parts) == len(numbers) == 3
+    else:
+        numbers, fits = _numbers(row, value, 3), True
+    if not fits or not all(0 <= number <= 255 for number in numbers):
+        raise UsageError(
+            f"'{text(row.name)}' cannot be {_shown(value)}: a colour is three whole "
+            "numbers from 0 to 255, such as '255; 128; 0'"
+        )
+    return value if isinstance(value, str) else tuple(numbers)
 
 
 def _arguments(row: Row, value: Json) -> tuple[Any, ...]:
