@@ -48,3 +48,20 @@ def test_the_page_says_that_the_server_is_gone_and_what_was_lost(
 
 def number(viewer: ViewerPage) -> str:
     return str(viewer.user.row("Joints", LEFT).one("textbox").value)
+
+
+def test_a_page_that_was_left_is_not_counted_and_works_after_coming_back(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    with Visualizer(port=0) as viz:
+        viewer, other = open_viewer(viz.url), open_viewer(viz.url)
+        viewer.user.unfold("Displays", "Grid")
+        rows = viewer.user.rows("Displays")
+        other.user.reads("2 browsers")
+        viewer.page.goto("about:blank")
+        other.user.until(lambda: "2 browsers" not in other.user.see().text)
+        viewer.page.evaluate("history.back()")
+        other.user.reads("2 browsers")
+        viewer.user.until(lambda: viewer.user.rows("Displays") == rows)
+        viewer.user.enter(viewer.user.row("Joints", LEFT).one("textbox"), "0.5")
+        viewer.user.until(lambda: viz.joint_positions[LEFT] == 0.5)

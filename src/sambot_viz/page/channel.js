@@ -49,6 +49,17 @@ export function isConnected() {
   return Boolean(sender) && !String(sender).includes("not connected");
 }
 
+/** End the connection for good: this page has to be loaded again. */
+export function disconnect() {
+  // viser's socket is in a worker that only viser knows; it is found by what is sent to it.
+  const { postMessage } = Worker.prototype;
+  /** @type {Worker | undefined} */
+  let worker;
+  Worker.prototype.postMessage = /** @this {Worker} */ function () { worker = this; };
+  try { post([]); } finally { Worker.prototype.postMessage = postMessage; }
+  worker?.terminate();
+}
+
 /** Hold edits back, or send what was held back. @param {boolean} now */
 export function goOnline(now) {
   online = now;

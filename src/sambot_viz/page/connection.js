@@ -1,10 +1,12 @@
 // @ts-check
 /* What the page says when it has lost its connection to the server, and when it is back.
  * viser reconnects by itself, once a second. A browser slows that down after some failures,
- * until viser never gets through: then the page is loaded again, with view and folds. */
+ * until viser never gets through: then the page is loaded again, with view and folds.
+ * So it is when a user comes back to a page that the browser has kept while another address
+ * was shown: it would stay connected, and count as one that is looked at. */
 
 import { html } from "./vendor/preact.js";
-import { goOnline, isConnected, rows, send } from "./channel.js";
+import { disconnect, goOnline, isConnected, rows, send } from "./channel.js";
 import { Cell, folds } from "./state.js";
 
 /** How often the page looks [ms]. */
@@ -42,15 +44,24 @@ export function followConnection() {
     if (!lost && !kept) return;
     lost = false;
     goOnline(true);
-    const known = kept ? kept.session : before?.id;
+    const known = kept ? kept.session : before?.id, silent = kept?.left;
     if (kept) bringBack(kept.view);
     kept = null;
+    if (known === now?.id && silent) return;
     if (known === now?.id) {
       const back = { text: "The connection is back.", level: "ok" };
       said.set(back);
       setTimeout(() => { if (said.value === back) said.set(null); }, BACK);
     } else said.set({ text: `The connection is back. ${now?.lost || ""}`, level: "warn", close: true });
   });
+  addEventListener("pagehide", (event) => { if (event.persisted) disconnect(); });
+  addEventListener("pageshow", (event) => { if (event.persisted) startAgain(session, true); });
+}
+
+/** Load the page again, with what it shows. @param {any} session @param {boolean} left whether a user had left the page */
+function startAgain(session, left) {
+  sessionStorage.setItem(KEPT, JSON.stringify({ session: session?.id, view: viewValues(), folds: folds.value, left }));
+  location.reload();
 }
 
 /** The rows of this page's view that can be set, and their values. @returns {[string, any][]} */
@@ -67,15 +78,11 @@ function startAgainWhenStuck(lost, session) {
     const there = await fetch("./", { cache: "no-cache" }).then((answer) => answer.ok, () => false);
     if (!there) answered = 0;
     else if (!answered) answered = Date.now();
-    else if (lost() && Date.now() - answered > STUCK) {
-      const keep = { session: session()?.id, view: viewValues(), folds: folds.value };
-      sessionStorage.setItem(KEPT, JSON.stringify(keep));
-      location.reload();
-    }
+    else if (lost() && Date.now() - answered > STUCK) startAgain(session(), false);
   }, STUCK / 3);
 }
 
-/** What the page has kept, once. @returns {{session: any, view: [string, any][], folds: any} | null} */
+/** What the page has kept, once. @returns {{session: any, view: [string, any][], folds: any, left: boolean} | null} */
 function takeKept() {
   try {
     const kept = JSON.parse(sessionStorage.getItem(KEPT) || "null");

@@ -50,7 +50,7 @@ function Progress() {
 function Browsers() {
   const count = useRow("statusbar/browsers")?.value || 0;
   if (count < 2) return null;
-  return html`<span class="browsers" title="So many pages show this robot">${count} browsers</span>`;
+  return html`<span class="browsers" title="So many pages show this robot">${`${count} browsers`}</span>`;
 }
 
 /** Pictures drawn in the last second; none are drawn while nothing changes. */
