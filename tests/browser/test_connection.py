@@ -55,6 +55,8 @@ def test_a_page_that_was_left_is_not_counted_and_works_after_coming_back(
 ) -> None:
     with Visualizer(port=0) as viz:
         viewer, other = open_viewer(viz.url), open_viewer(viz.url)
+        # The server is closed before the pages are.
+        viewer.expects_errors = other.expects_errors = True
         viewer.user.unfold("Displays", "Grid")
         rows = viewer.user.rows("Displays")
         other.user.reads("2 browsers")

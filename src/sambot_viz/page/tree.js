@@ -20,8 +20,9 @@ const MANY = 150;
 const HIDDEN = new Set(["action", "names"]);
 /** The width of the names before a hand has moved the line, as a part of the panel. */
 const SPLIT = 0.55;
-/** The row that gets the focus as soon as it is there. @type {Cell<{panel: string, id: string} | null>} */
-const wantedFocus = new Cell(/** @type {{panel: string, id: string} | null} */ (null));
+/** The row that is scrolled to, and gets the focus, as soon as it is there.
+ * @type {Cell<{panel: string, id: string, focus: boolean} | null>} */
+const wantedFocus = new Cell(/** @type {{panel: string, id: string, focus: boolean} | null} */ (null));
 
 /** The ids of the rows that are unfolded, with their depth, in order.
  * @param {string} panel @param {(row: Row) => boolean} [wanted] a search: only rows it finds */
@@ -45,11 +46,12 @@ export function visible(panel, wanted) {
 /** @param {string} id */
 export function canOpen(id) { return rows.children(id).length > 0 || Boolean(rows.get(id)?.lazy); }
 
-/** Select a row, unfold what is above it, and give it the focus. @param {string} panel @param {string} id */
-export function reveal(panel, id) {
+/** Select a row, unfold what is above it, and give it the focus.
+ * @param {string} panel @param {string} id @param {boolean} [focus] false: the focus stays where it is */
+export function reveal(panel, id, focus = true) {
   for (let above = rows.get(id)?.in; above; above = rows.get(above)?.in) fold(above, true);
   select(panel, id);
-  wantedFocus.set({ panel, id });
+  wantedFocus.set({ panel, id, focus });
 }
 
 /** All rows below one. @param {string} id @returns {Row[]} */
@@ -171,10 +173,13 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
   useLazy(panel, shown);
   useKeptFocus(panel, shown, chosen, element);
   useLayoutEffect(() => {
-    if (focus?.panel !== panel || !find(focus.id)) return;
+    const row = focus?.panel === panel && find(focus.id);
+    if (!row) return;
     wantedFocus.set(null);
     // The hand that is typing elsewhere goes on.
-    if (isTyping(document.activeElement)) select(panel, focus.id); else go(focus.id);
+    if (focus.focus && !isTyping(document.activeElement)) return go(focus.id);
+    select(panel, focus.id);
+    row.scrollIntoView({ block: "nearest" });
   });
   return html`<div class="treebox" style=${`--split: ${(ratio * 100).toFixed(1)}%`}>
     <div class=${shown.length > MANY ? "tree many" : "tree"} role="treegrid" aria-label=${label} data-panel=${panel} ref=${element} onKeyDown=${key}></div>

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Sequence
 
+from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames import FramesPanel
@@ -27,7 +28,7 @@ class BrowserPanels:
         session: what it shows.
         browser: the browser.
         files: the disk, for those who may use it.
-        keep_unfolded: writes into the document which rows are unfolded.
+        displays: the rows of the displays, for everyone.
     """
 
     def __init__(
@@ -35,10 +36,10 @@ class BrowserPanels:
         session: Session,
         browser: Browser,
         files: Files | None,
-        keep_unfolded: Callable[[Collection[str]], None],
+        displays: DisplaysPanel,
     ) -> None:
         self._notices = NoticePanel()
-        self._keep_unfolded = keep_unfolded
+        self._displays = displays
         self._browser = browser
         self._publisher = Publisher(
             browser.client,
@@ -49,11 +50,12 @@ class BrowserPanels:
         browser.listeners.append(self.hear)
 
     def _panels(self, session: Session, files: Files | None) -> list[Panel]:
-        browser, keep = self._browser, self._keep_unfolded
+        browser, displays = self._browser, self._displays
+        keep = displays.keep_unfolded
         return [
             self._notices,
             ToolsPanel(session, browser),
-            UndoPanel(session, browser),
+            UndoPanel(session, browser, displays),
             ViewsPanel(session, browser),
             SelectionPanel(session, browser),
             ToolPropertiesPanel(session, browser),

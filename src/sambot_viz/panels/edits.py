@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.row import Json, Row
+from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
 
@@ -16,16 +18,20 @@ class UndoPanel(Panel):
     Args:
         session: whose edits these are.
         browser: who made them.
+        displays: the rows that edits touch.
     """
 
     name = "edit"
     remade_by = frozenset({"edits"})
 
-    def __init__(self, session: Session, browser: Browser) -> None:
+    def __init__(
+        self, session: Session, browser: Browser, displays: DisplaysPanel
+    ) -> None:
         self._edits, self._id = session.edits, browser.client_id
+        self._session, self._displays = session, displays
 
     def rows(self) -> Sequence[Row]:
-        """Undo and Redo, with what they would do."""
+        """Undo and Redo, with what they would do, and what the last one touched."""
         undo, redo = self._edits.undo_label(self._id), self._edits.redo_label(self._id)
         return [
             Row(
@@ -46,4 +52,12 @@ class UndoPanel(Panel):
                 enabled=redo is not None,
                 set=lambda _: self._edits.redo(self._id),
             ),
+            Row("edit/touched", "", "names", value=self._touched()),
         ]
+
+    def _touched(self) -> Json:
+        """The row that the page goes to; the number tells two of one row apart."""
+        number, item = self._edits.touched(self._id)
+        if isinstance(item, DisplayConfig) and self._session.config.holds(item):
+            return {"number": number, "row": self._displays.id_of(item)}
+        return None

@@ -83,7 +83,7 @@ class Window:
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:
             self._browsers[browser.client_id] = BrowserPanels(
-                self._session, browser, self._files, self._displays.keep_unfolded
+                self._session, browser, self._files, self._displays
             )
         else:
             panels = self._browsers.pop(browser.client_id, None)

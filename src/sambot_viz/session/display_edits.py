@@ -187,13 +187,13 @@ class DisplayEdits(ShownDocument):
     def _added(self, label: str, config: DisplayConfig) -> None:
         self.show_config()
         undo, redo = self._removal(config)
-        self.edits.record(label, undo, redo)
+        self.edits.record(label, undo, redo, touched=config)
 
     def remove_display(self, config: DisplayConfig) -> None:
         """Take a display out of the document; a group with all its members."""
         remove, put_back = self._removal(config)
         remove()
-        self.edits.record(f"Remove {config.name}", put_back, remove)
+        self.edits.record(f"Remove {config.name}", put_back, remove, touched=config)
 
     def _removal(self, config: DisplayConfig) -> tuple[PutBack, PutBack]:
         """Functions that take a display out, and put the same one back."""
@@ -241,7 +241,10 @@ class DisplayEdits(ShownDocument):
         after = (self._index_of(config), config.parent)
         if after != before:
             self.edits.record(
-                f"Move {config.name}", lambda: move(*before), lambda: move(*after)
+                f"Move {config.name}",
+                lambda: move(*before),
+                lambda: move(*after),
+                touched=config,
             )
 
     def rename_display(self, config: DisplayConfig, name: str) -> None:
@@ -260,6 +263,7 @@ class DisplayEdits(ShownDocument):
                 f"Rename {before} to {name}",
                 lambda: rename(before),
                 lambda: rename(name),
+                touched=config,
             )
 
     def _require(self, config: DisplayConfig) -> None:

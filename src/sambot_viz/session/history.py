@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.rviz.changes import PutBack, remembered
@@ -30,11 +30,13 @@ class Edit:
         label: what was done, in a few words.
         undo: undoes it, or raises SambotVizError when that is not possible any more.
         redo: does it again, or raises SambotVizError.
+        touched: what was added, removed, moved or named; None for other changes.
     """
 
     label: str
     undo: Callable[[], None]
     redo: Callable[[], None]
+    touched: object = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +77,13 @@ class _Action:
 class _History:
     done: deque[_Step] = field(default_factory=lambda: deque[_Step](maxlen=LIMIT))
     undone: list[_Step] = field(default_factory=list[_Step])
+    touched: object = None
+    times: int = 0
+
+    def went(self, step: _Step) -> str:
+        """A step was undone or done again; its label."""
+        self.touched, self.times = step.edits[0].touched, self.times + 1
+        return step.edits[0].label
 
 
 class EditHistory:
@@ -134,6 +143,7 @@ class EditHistory:
         redo: Callable[[], None],
         merge: object = None,
         *,
+        touched: object = None,
         of_document: bool = True,
     ) -> None:
         """Keep a change that has been made.
@@ -144,6 +154,7 @@ class EditHistory:
             redo: does it again; it may raise SambotVizError.
             merge: what has changed: of one gesture, changes of the same thing in a
                 row are one edit.
+            touched: see `Edit`.
             of_document: whether it is lost unless the document is saved.
         """
         with self._session.lock:
@@ -151,7 +162,7 @@ class EditHistory:
                 return
             action = self._action
             if action is not None:
-                action.edits.append(Edit(label, undo, redo))
+                action.edits.append(Edit(label, undo, redo, touched))
                 action.merge_keys.append(merge)
                 action.of_document |= of_document
             elif of_document:
@@ -188,7 +199,7 @@ class EditHistory:
             history.done.pop()
             self._applied.discard(last.number or 0)
             both = zip(last.edits, step.edits, strict=True)
-            edits = tuple(Edit(a.label, a.undo, b.redo) for a, b in both)
+            edits = tuple(replace(a, redo=b.redo) for a, b in both)
             step = _Step(edits, step.merge_keys, step.gesture, number)
         history.undone.clear()
         history.done.append(step)
@@ -221,8 +232,9 @@ class EditHistory:
             self._run("undone", step, [(e.undo, e.redo) for e in edits])
             history.undone.append(step)
             self._applied.discard(step.number or 0)
+            label = history.went(step)
             self._session.notify("edits")
-            return step.edits[0].label
+            return label
 
     def redo(self, browser_id: int) -> str | None:
         """Do again what a browser has undone last.
@@ -242,8 +254,9 @@ class EditHistory:
             history.done.append(step)
             if step.number is not None:
                 self._applied.add(step.number)
+            label = history.went(step)
             self._session.notify("edits")
-            return step.edits[0].label
+            return label
 
     def _run(
         self,
@@ -277,6 +290,11 @@ class EditHistory:
         """What `redo` would do again; None for nothing."""
         history = self._histories.get(browser_id)
         return history.undone[-1].edits[0].label if history and history.undone else None
+
+    def touched(self, browser_id: int) -> tuple[int, object]:
+        """How often a browser has undone or redone, and what the last one touched."""
+        history = self._histories.get(browser_id, _History())
+        return history.times, history.touched
 
     def leave(self, browser_id: int) -> None:
         """Forget the history of a browser that has closed the page."""

@@ -9,6 +9,7 @@ import { isOpen, selected, useRow } from "../state.js";
 import { reveal, Tree } from "../tree.js";
 import { makeDisplay } from "./new_display.js";
 import { dragDisplay, moveBy, neighbour, place } from "./display_order.js";
+import "./undone.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 

@@ -1,0 +1,97 @@
+"""Undo and Redo of one browser: what they touch is what its page goes to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from panel_rows import edit, rows_of
+
+from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.edits import UndoPanel
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+
+GRID = "rviz_default_plugins/Grid"
+
+
+@pytest.fixture
+def displays(session: Session) -> DisplaysPanel:
+    return DisplaysPanel(session, lambda panel: None)
+
+
+@pytest.fixture
+def panel(session: Session, browser: Browser, displays: DisplaysPanel) -> UndoPanel:
+    return UndoPanel(session, browser, displays)
+
+
+def touched(panel: UndoPanel) -> Any:
+    value = rows_of(panel)["edit/touched"].value
+    return value and value["row"]
+
+
+def test_the_display_that_undo_or_redo_touches_is_named(
+    panel: UndoPanel, session: Session, browser: Browser, displays: DisplaysPanel
+) -> None:
+    first = session.config.displays[0]
+    changes: tuple[Callable[[], object], ...] = (
+        lambda: session.rename_display(first, "Other"),
+        lambda: session.move_display(first, 1, None),
+        lambda: session.remove_display(first),
+    )
+    for change in changes:
+        with session.edits.acting(browser.client_id):
+            change()
+        edit(panel, "edit/undo", None)
+        assert touched(panel) == displays.id_of(first)
+        edit(panel, "edit/redo", None)
+        edit(panel, "edit/undo", None)
+
+
+def test_a_display_that_is_not_there_after_it_is_not_named(
+    panel: UndoPanel, session: Session, browser: Browser, displays: DisplaysPanel
+) -> None:
+    makers: tuple[Callable[[], Any], ...] = (
+        lambda: session.add_display(GRID),
+        lambda: session.duplicate_display(session.config.displays[0]),
+    )
+    for make in makers:
+        with session.edits.acting(browser.client_id):
+            made = make()
+        edit(panel, "edit/undo", None)
+        assert touched(panel) is None
+        edit(panel, "edit/redo", None)
+        assert touched(panel) == displays.id_of(made)
+
+
+def test_each_undo_is_told_from_the_one_before(
+    panel: UndoPanel, session: Session, browser: Browser
+) -> None:
+    for name in ("One", "Two"):
+        with session.edits.acting(browser.client_id):
+            session.rename_display(session.config.displays[0], name)
+    edit(panel, "edit/undo", None)
+    before = rows_of(panel)["edit/touched"].value
+    edit(panel, "edit/undo", None)
+    after = rows_of(panel)["edit/touched"].value
+    assert before["row"] == after["row"] and before != after
+
+
+def test_other_edits_and_other_browsers_name_nothing(
+    panel: UndoPanel,
+    session: Session,
+    browser: Browser,
+    displays: DisplaysPanel,
+    join: Callable[[], Browser],
+) -> None:
+    with session.edits.acting(browser.client_id):
+        session.set_global("Frame Rate", 10)
+        session.rename_display(session.config.displays[0], "One")
+    other = UndoPanel(session, join(), displays)
+    edit(panel, "edit/undo", None)
+    assert touched(other) is None
+    with session.edits.acting(browser.client_id):
+        session.set_global("Frame Rate", 10)
+    edit(panel, "edit/undo", None)
+    assert touched(panel) is None
