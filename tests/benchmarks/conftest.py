@@ -14,12 +14,15 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from sambot_viz.export.chromium import Chromium
+from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
 LONGEST = 120.0
 """How long any one run may take [s]."""
@@ -30,6 +33,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if Path(__file__).parent in item.path.parents:
             item.add_marker(pytest.mark.benchmark)
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Chromium]:
+    """A browser for all; it draws without a GPU, so a frame takes long."""
+    if find_browser() is None:
+        pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
+    with Chromium(timeout=120.0) as browser:
+        yield browser
 
 
 @dataclass(frozen=True)

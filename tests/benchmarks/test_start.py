@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 import time
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -13,7 +13,6 @@ import pytest
 
 from sambot_viz import bundled
 from sambot_viz.export.chromium import Chromium
-from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
 RunServer = Callable[[list[str]], AbstractContextManager[Any]]
 OURS = ["-m", "sambot_viz", "--port", "0"]
@@ -53,14 +52,6 @@ ROBOT_SEEN = """(() => {
       return true;
   return false;
 })()"""
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Chromium]:
-    if find_browser() is None:
-        pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
-    with Chromium(timeout=120.0) as browser:
-        yield browser
 
 
 @pytest.fixture(scope="module")

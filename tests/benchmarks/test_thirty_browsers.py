@@ -42,7 +42,7 @@ def port_of(viz: Visualizer) -> int:
 def step(clients: list[ProtocolClient], value: float) -> float:
     """Seconds from a browser's message to the pose at the last browser."""
     marks = [client.mark() for client in clients]
-    uuid = clients[0].uuid_of(JOINT)
+    row = clients[0].id_of("joints", JOINT)
     arrived: list[float] = []
 
     def wait(client: ProtocolClient, mark: int) -> None:
@@ -56,7 +56,7 @@ def step(clients: list[ProtocolClient], value: float) -> float:
     for thread in waiting:
         thread.start()
     start = time.perf_counter()
-    clients[0].set_value(uuid, value)
+    clients[0].edit(row, value)
     for thread in waiting:
         thread.join()
     return max(arrived) - start

@@ -113,6 +113,7 @@ def checked(
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
     policy = framing_policy(listening_on, allowed)
+    page_files.prepare(panels)
 
     def serve(handler: Any, *arguments: Any, **options: Any) -> Any:
         answer = options.get("process_request")

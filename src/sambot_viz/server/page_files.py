@@ -18,6 +18,15 @@ LICENSES = "/sambot/licenses.txt"
 """Where the licences of the libraries in the page are."""
 
 
+def prepare(panels: bool = True) -> None:
+    """Make the page now: it takes much longer while a thread imports modules.
+
+    Args:
+        panels: as for `answer`.
+    """
+    _tag(panels)
+
+
 def answer(request: Request, panels: bool = True) -> Response | None:
     """The response to a request for the page or its licences; None for all others.
 
