@@ -118,6 +118,18 @@ def test_what_is_half_typed_stays_in_the_hand_when_others_change_the_displays(
     assert user.row("Displays", "Robot", "TF Prefix").state("focused")
 
 
+def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
+    user: User, session: Session
+) -> None:
+    name = "Wheel axes here and there"
+    box = user.box(user.row("Displays", "Grid").one("checkbox"))
+    session.rename_display(session.displays[0].config, name)
+    label = user.row("Displays", name).one("StaticText", name)
+    assert not user.is_cut_off(label)
+    # The boxes of short names stay in line.
+    assert user.box(user.row("Displays", "Grid").one("checkbox")) == box
+
+
 def test_the_first_click_selects_and_the_next_one_edits(
     user: User, session: Session
 ) -> None:
