@@ -130,6 +130,17 @@ def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
     assert user.box(user.row("Displays", "Grid").one("checkbox")) == box
 
 
+def test_a_refusal_moves_no_row_and_goes_with_the_next_edit(user: User) -> None:
+    box = user.box(user.row("Displays", "Grid"))
+    colour = user.row("Displays", "Background Color")
+    user.enter(colour.one("textbox"), "300; 0; 0")
+    user.reads("three whole numbers from 0 to 255")
+    assert user.box(user.row("Displays", "Grid")) == box
+    assert user.row("Displays", "Background Color").one("textbox").value == "48; 48; 48"
+    user.click_on(user.row("Displays", "TF").one("checkbox"))
+    user.until(lambda: "three whole numbers" not in user.see().text)
+
+
 def test_the_first_click_selects_and_the_next_one_edits(
     user: User, session: Session
 ) -> None:

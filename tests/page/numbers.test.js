@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clamped, formatNumber, parseNumber, snapped, stepped } from "../../src/sambot_viz/page/numbers.js";
+import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped } from "../../src/sambot_viz/page/numbers.js";
 
 /** @param {string} typed @param {number} value @param {string} [unit] */
 function reads(typed, value, unit = "rad") {
@@ -101,4 +101,29 @@ test("a slider stops at round numbers, and a value stays inside its limits", () 
   assert.equal(clamped(4, { min: -1, max: 1 }), 1);
   assert.equal(clamped(-4, { min: -1 }), -1);
   assert.equal(clamped(4, {}), 4);
+});
+
+test("a number in a narrow field has the digits that fit", () => {
+  /** @param {number} value @param {string} text @param {number} [digits] @param {number} [room] */
+  const shows = (value, text, digits = 4, room = 7) => {
+    assert.equal(fittingNumber(value, digits, room), text);
+    assert.ok(text.length <= room, text);
+  };
+  shows(0.5, "0.5");
+  shows(0, "0");
+  shows(0.1 + 0.2, "0.3");
+  shows(-Math.PI, "-3.1416");
+  shows(-12.345678, "-12.346");
+  shows(123456.789, "123457");
+  shows(12345678.9, "1.23e7");
+  shows(-180.123456, "-180.12", 2);
+  shows(-1.23456, "-1.235", 4, 6);
+  shows(1e-5, "1e-5");
+  shows(-1.234e-5, "-1.2e-5");
+  shows(1e-13, "0");
+});
+
+test("a number that runs keeps its count of digits", () => {
+  const texts = [1.2, 1.20004, 1.29996, 1.3].map((value) => fittingNumber(value + 1e-7, 4, 7));
+  assert.deepEqual(texts, ["1.2000", "1.2000", "1.3000", "1.3000"]);
 });

@@ -11,6 +11,11 @@ import { Rows } from "./rows.js";
 export const rows = new Rows();
 export const CHANNEL = "sambot-viz";
 
+/** What is heard by those who listen to this key: a user has changed something. */
+export const EDITED = "edited";
+/** The action that reports where the mouse is. */
+export const HOVER = "tools/hover";
+
 let gestures = 0;
 /** A new number for all that a hand does in one go. */
 export const newGesture = () => ++gestures;
@@ -27,6 +32,7 @@ export function send(id, value, gesture) {
     id = row.in;
     rows.hope(id, value);
   }
+  if (id !== HOVER && !id.endsWith("/unfold")) rows.notify(EDITED);
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
   // Without a connection, what was set last is sent as soon as it is back.
   if (online) post(edit);

@@ -25,29 +25,31 @@ export function focusWhole(event) {
 /**
  * A line of text that is accepted by Enter or by leaving it, and put back by Esc.
  * @param {{row: Row, shown: string, accept: (typed: string) => string | void, tab: number,
- *   step?: (count: number) => void, settle?: () => void, grab?: (event: any) => void, mode?: string, kind?: string, title?: string}} props
+ *   full?: string, step?: (count: number) => void, settle?: () => void, grab?: (event: any) => void, mode?: string, kind?: string, title?: string}} props
  *   accept: returns why a text is refused
+ *   full: what is shown while it has the focus, when `shown` leaves something out
  *   step: changes the value by so many steps; settle: the key is up again
  *   grab: a press that may become a drag
  */
-export function Field({ row, shown, accept, tab, step, settle, grab, mode, kind = "", title }) {
+export function Field({ row, shown, full = shown, accept, tab, step, settle, grab, mode, kind = "", title }) {
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
   const element = useRef(/** @type {any} */ (null));
   const why = refusals.get(row.id);
   const put = () => {
     const input = element.current;
+    const held = document.activeElement === input, text = held ? full : shown;
     typing.current = false;
-    if (input.value === shown) return;
-    const whole = document.activeElement === input && input.selectionEnd - input.selectionStart === input.value.length;
-    input.value = shown;
+    if (input.value === text) return;
+    const whole = held && input.selectionEnd - input.selectionStart === input.value.length;
+    input.value = text;
     if (whole) input.select();
   };
   const done = () => {
     if (!typing.current) return;
     const typed = element.current.value;
     typing.current = false;
-    const refused = typed === shown ? undefined : accept(typed) || undefined;
+    const refused = typed === shown || typed === full ? undefined : accept(typed) || undefined;
     if (refused) put();
     refuse(row.id, refused);
   };
@@ -78,7 +80,7 @@ export function Field({ row, shown, accept, tab, step, settle, grab, mode, kind 
   return html`<input class=${`field ${kind}`} ref=${element} tabindex=${tab}
     aria-label=${row.name || ""} aria-invalid=${why ? "true" : undefined} title=${why || title}
     inputmode=${mode} spellcheck=${false} autocomplete="off" readonly=${row.fixed} disabled=${row.off}
-    onFocus=${(/** @type {any} */ e) => e.target.select()} onMouseDown=${focusWhole} onPointerDown=${grab}
+    onFocus=${(/** @type {any} */ e) => { if (!typing.current) put(); e.target.select(); }} onMouseDown=${focusWhole} onPointerDown=${grab}
     onInput=${() => { typing.current = true; if (why) refuse(row.id); }}
-    onKeyDown=${key} onKeyUp=${settle} onBlur=${() => { done(); settle?.(); }} />`;
+    onKeyDown=${key} onKeyUp=${settle} onBlur=${() => { if (typing.current) done(); else put(); settle?.(); }} />`;
 }

@@ -3,7 +3,7 @@
 
 import "./bare.js";
 import { html, render } from "./vendor/preact.js";
-import { act, connect, newGesture, rows, send } from "./channel.js";
+import { act, connect, HOVER, newGesture, rows, send } from "./channel.js";
 import { followConnection } from "./connection.js";
 import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
@@ -24,7 +24,7 @@ const start = () => {
   followMouse({
     wantsHover: () => rows.children("panel:tools").some((id) => rows.get(id)?.hover),
     // Of the places that wait, only the last one counts.
-    hover: (place) => send("tools/hover", place, hovering),
+    hover: (place) => send(HOVER, place, hovering),
     rightClick: () => act("tools/right_click"),
   });
   tellView();

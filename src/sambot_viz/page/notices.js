@@ -2,10 +2,10 @@
 /* Sentences for this browser, from the server or from the page itself, and why values
  * were refused. */
 
-import { rows } from "./channel.js";
+import { EDITED, rows } from "./channel.js";
 import { Cell } from "./state.js";
 
-/** @typedef {{text: string, level: string}} Notice */
+/** @typedef {{text: string, level: string, row?: string}} Notice row: the one that has refused a value */
 
 /** The sentence that the status bar shows. @type {Cell<Notice | null>} */
 export const notice = new Cell(/** @type {Notice | null} */ (null));
@@ -19,6 +19,8 @@ export const refusals = new Map();
 /** @param {string} id @param {string} [why] */
 export function refuse(id, why) {
   const told = [...refusals.keys()];
+  // What the server has refused elsewhere is over.
+  if (why && notice.value?.row && notice.value.row !== id) notice.set(null);
   refusals.clear();
   if (why) {
     refusals.set(id, why);
@@ -26,6 +28,13 @@ export function refuse(id, why) {
   }
   for (const other of new Set([...told, id])) rows.notify(other);
 }
+
+// The next edit is the answer to a refusal; if it is refused too, the server says so again.
+rows.listen(EDITED, () => {
+  if (notice.value?.row) notice.set(null);
+  const [refused] = refusals.keys();
+  if (refused) refuse(refused);
+});
 
 rows.listen("notice", () => {
   const said = rows.value("notice");

@@ -6,7 +6,7 @@ import { act, newGesture, send } from "./channel.js";
 import { Field } from "./field.js";
 import { Icon } from "./icons.js";
 import { refusals } from "./notices.js";
-import { clamped, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
+import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
 import { degrees, useRow } from "./state.js";
 import { formula, outside, shownUnit } from "./units.js";
 
@@ -14,6 +14,8 @@ import { formula, outside, shownUnit } from "./units.js";
 
 /** How long a value that a hand has set is shown without an answer of the server [ms]. */
 const ANSWER = 1000;
+/** How many characters fit into the field beside a slider. */
+export const NARROW = 7;
 
 /** The value of a row, or the one that a hand has set until the server has it too.
  * @param {Row} row */
@@ -53,14 +55,14 @@ function useHeld(row) {
 
 /** @typedef {ReturnType<typeof useHeld>} Held */
 
-/** @param {{row: Row, tab: number}} props */
-export function NumberCell({ row, tab }) {
-  return html`<${NumberField} row=${row} tab=${tab} held=${useHeld(row)} />`;
+/** @param {{row: Row, tab: number, room?: number}} props room: how many characters fit into it */
+export function NumberCell({ row, tab, room }) {
+  return html`<${NumberField} row=${row} tab=${tab} held=${useHeld(row)} room=${room} />`;
 }
 
 /** A number that is typed, stepped with the arrow keys or dragged sideways.
- * @param {{row: Row, tab: number, held: Held}} props */
-function NumberField({ row, tab, held }) {
+ * @param {{row: Row, tab: number, held: Held, room?: number}} props */
+function NumberField({ row, tab, held, room }) {
   degrees.use();
   const { unit, factor, step } = shownUnit(row);
   const free = !row.fixed && !row.off;
@@ -103,12 +105,12 @@ function NumberField({ row, tab, held }) {
       else if (e.type === "pointerup") input.focus();
     };
   };
-  // Beside a slider there is room for few digits; the tooltip has the others.
-  const number = held.value * factor, few = (row.kind === "slider" ? 4 : 6) - (factor === 1 ? 0 : 2);
-  const shown = formatNumber(number, few), exact = formatNumber(number, 9);
+  // Beside a slider there is room for few digits; the others are in the tooltip, and in the hand.
+  const slider = row.kind === "slider", number = held.value * factor, few = (slider ? 4 : 6) - (factor === 1 ? 0 : 2);
+  const shown = room ? fittingNumber(number, few, room) : formatNumber(number, few), exact = formatNumber(number, 9);
   return html`<span class="number">
     <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept} title=${exact === shown ? "" : exact}
-      step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined} shown=${shown} />
+      full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined} shown=${shown} />
     ${unit && html`<span class="unit">${unit}</span>`}
   </span>`;
 }
@@ -120,7 +122,7 @@ export function SliderCell({ row, tab }) {
   const over = !row.wheel && (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
   return html`<span class=${`slide${over ? " over" : ""}`}>
     ${row.follows ? html`<span class="formula" title=${formula(row)}>${formula(row)}</span>` : html`<${Handle} row=${row} tab=${tab} held=${held} />`}
-    <${NumberField} row=${row} tab=${tab} held=${held} />
+    <${NumberField} row=${row} tab=${tab} held=${held} room=${row.fixed ? NARROW - 1 : NARROW} />
     ${row.wheel && html`<${TurnButton} row=${row} tab=${tab} />`}
   </span>`;
 }

@@ -84,6 +84,18 @@ export function formatNumber(value, digits = 6) {
   return String(Number(value.toFixed(digits)));
 }
 
+/** The text of a number in a field without much room. While a number runs, the count of its digits stays.
+ * @param {number} value @param {number} digits after the point, at most @param {number} room characters, at least 6 */
+export function fittingNumber(value, digits, room) {
+  const exact = formatNumber(value, 9);
+  if (exact.length <= room && (exact.split(".")[1] || "").length <= digits && !exact.includes("e")) return exact;
+  const whole = Math.trunc(Math.abs(value)).toFixed().length + (value < 0 ? 1 : 0);
+  const text = value.toFixed(Math.max(0, Math.min(digits, room - whole - 1)));
+  // What is very small is not shown as 0.
+  if (text.length <= room && Number(text) !== 0) return text;
+  return value.toExponential(value < 0 ? room - 6 : room - 5).replace("+", "").replace(/\.?0*e/, "e");
+}
+
 /** A value moved by some steps, to a round number. @param {number} value @param {number} step @param {number} count */
 export function stepped(value, step, count) {
   const near = Math.round(value / step);

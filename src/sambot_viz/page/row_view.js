@@ -6,6 +6,7 @@ import { CopyButton, ValueCell } from "./cells.js";
 import { Icon } from "./icons.js";
 import { refusals } from "./notices.js";
 import { fold, select, useRow } from "./state.js";
+import { Why } from "./why.js";
 
 /** @typedef {import("./rows.js").Row} Row */
 
@@ -78,7 +79,7 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
         : html`<span class="label" title=${row.name}>${row.name}${row.whole ? `: ${row.value}` : ""}</span>`}
     </span>
     ${!alone && html`<span class="value" role="gridcell" onDblClick=${twice}><${ValueCell} row=${row} tab=${tab} /></span>`}`}
-    ${why && html`<span class="why" role="alert">${why}</span>`}
+    ${why && html`<${Why} text=${why} />`}
   </div>`;
 }
 

@@ -8,6 +8,7 @@ import { refusals, refuse } from "../notices.js";
 import { parseNumber } from "../numbers.js";
 import { degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
+import { Why } from "../why.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 
@@ -46,8 +47,7 @@ function Add({ children }) {
   return html`<div class="buttons">
       <button aria-expanded=${String(open)} onClick=${() => fold("frames/form", !open)}>Add static transform …</button>${children}
     </div>
-    ${open && html`<${Form} setWrong=${setWrong} />`}
-    ${open && said && html`<div class="why" role="alert">${said}</div>`}`;
+    ${open && html`<div class="refuses"><${Form} setWrong=${setWrong} />${said && html`<${Why} text=${said} />`}</div>`}`;
 }
 
 /** @param {{setWrong: (why: string) => void}} props */

@@ -6,11 +6,12 @@ import { act, rows } from "../channel.js";
 import { focusWhole } from "../field.js";
 import { Icon } from "../icons.js";
 import { refusals } from "../notices.js";
-import { NumberCell } from "../number_cells.js";
+import { NARROW, NumberCell } from "../number_cells.js";
 import { Popup } from "../popup.js";
 import { Cell, degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
 import { formula, limits } from "../units.js";
+import { Why } from "../why.js";
 import { Poses } from "./poses.js";
 
 /** @typedef {import("../rows.js").Row} Row */
@@ -110,8 +111,8 @@ function TurnRate() {
   const row = useRow("joints/rate");
   if (!row) return null;
   const why = refusals.get(row.id);
-  return html`<label class="rate" title=${row.help}>Turn rate <${NumberCell} row=${row} tab=${0} />
-    ${why && html`<span class="why" role="alert">${why}</span>`}</label>`;
+  return html`<label class="rate" title=${row.help}>Turn rate <${NumberCell} row=${row} tab=${0} room=${NARROW} /></label>
+    ${why && html`<${Why} text=${why} />`}`;
 }
 
 /** Folds all groups, or unfolds them. */
