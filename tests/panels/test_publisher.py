@@ -116,3 +116,36 @@ def test_after_many_changes_all_rows_are_sent_once_and_a_step_is_small_again(
     assert changes.data()["rows"] == {"n8": {"value": 2}}
     assert len(whole.contents) == 2
     made.close()
+
+
+class Slow(Numbers):
+    name = "slow"
+    moved_by = frozenset({"motion"})
+    period = 120.0
+
+    def rows(self) -> Sequence[Row]:
+        return [Row("slow", "", "float", value=0)]
+
+    def values(self) -> dict[str, Any]:
+        return {"slow": self.numbers[0]}
+
+
+def test_a_step_need_not_wait_where_nothing_has_changed_before(
+    worker: Worker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(publisher, "PERIOD", 60.0)
+    owner, panel = Owner(), Numbers(1)
+    made = Publisher(owner, worker, [panel, Slow(1)], "session")
+    made.hear("motion")
+    move(made, panel, 0)
+    assert owner.elements[1].data()["rows"] == {"n0": {"value": 1}}
+    made.close()
+
+
+def test_what_a_slow_panel_shows_is_sent(worker: Worker) -> None:
+    owner, panel = Owner(), Slow(1)
+    made = Publisher(owner, worker, [panel], "session")
+    panel.numbers[0] = 5
+    made.hear("motion")
+    assert owner.elements[1].data()["rows"] == {"slow": {"value": 5}}
+    made.close()

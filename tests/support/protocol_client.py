@@ -90,6 +90,7 @@ class Received:
         size: bytes of the message alone, not compressed, arrays included.
         frame: number of the websocket frame it came in, from 0.
         frame_size: bytes of that whole frame as it was on the wire.
+        at: when it arrived (`time.perf_counter`) [s].
     """
 
     type: str
@@ -97,6 +98,7 @@ class Received:
     size: int
     frame: int
     frame_size: int
+    at: float
 
 
 class ProtocolClient:
@@ -324,6 +326,7 @@ def decode_frame(data: bytes, number: int = 0) -> list[Received]:
     The frame starts with two little-endian 64-bit lengths (msgpack unpacked, packed),
     then the packed msgpack, then the arrays, each aligned to 8 bytes.
     """
+    now = time.perf_counter()
     unpacked_size = int.from_bytes(data[:8], "little")
     packed_end = 16 + int.from_bytes(data[8:16], "little")
     content = zstandard.ZstdDecompressor().decompress(
@@ -344,7 +347,7 @@ def decode_frame(data: bytes, number: int = 0) -> list[Received]:
         filled = _fill_arrays(fields, arrays, used)
         kind: str = filled.pop("type")
         size += sum(map(len, used))
-        received.append(Received(kind, filled, size, number, len(data)))
+        received.append(Received(kind, filled, size, number, len(data), now))
     return received
 
 

@@ -37,6 +37,7 @@ class RecordedPage(BrowserPage):
         exceptions: every exception that no script caught.
         requests: the address of everything that was asked for, websockets included.
         failures: (address, reason) of every request that got no answer.
+        messages: how many messages came and went over websockets so far.
         mouse: its mouse.
         keyboard: its keyboard.
         touch: fingers on it.
@@ -52,6 +53,7 @@ class RecordedPage(BrowserPage):
         self.exceptions: list[str] = []
         self.requests: list[str] = []
         self.failures: list[tuple[str, str]] = []
+        self.messages = 0
         self.mouse = Mouse(self)
         self.keyboard = Keyboard(self)
         self.touch = Touch(self)
@@ -132,6 +134,8 @@ class RecordedPage(BrowserPage):
                 self._record_request(fields["requestId"], fields["request"]["url"])
             case "Network.webSocketCreated":
                 self.requests.append(fields["url"])
+            case "Network.webSocketFrameSent" | "Network.webSocketFrameReceived":
+                self.messages += 1
             case "Network.loadingFailed":
                 url = self._urls_by_request.get(fields["requestId"], "")
                 self.failures.append((url, fields["errorText"]))

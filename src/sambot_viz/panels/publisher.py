@@ -21,8 +21,8 @@ from sambot_viz.session import Event
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.worker import Worker
 
-PERIOD = 0.05
-"""Shortest time between two messages with rows [s]."""
+PERIOD = 0.04
+"""Shortest time between two messages with rows [s]; 50 ms later would be noticed."""
 MOST_CHANGES = 16_000
 """When the changes are longer than this, all rows are sent again [characters]."""
 FEW_CHANGES = 2000
@@ -67,6 +67,7 @@ class Publisher:
         self._patches: dict[str, dict[str, Json]] = {}
         self._remake: set[Panel] = set()
         self._move: set[Panel] = set()
+        self._followed = False
         self._throttle = Throttle(worker, PERIOD, self._publish)
         self._slow = {
             panel: Throttle(worker, panel.period, partial(self._moved, panel))
@@ -106,8 +107,11 @@ class Publisher:
             self._throttle.request()
 
     def _moved(self, panel: Panel) -> None:
-        self._move.add(panel)
-        self._throttle.request()
+        with self._worker.lock:
+            # Where nothing has changed, the next step need not wait for a period.
+            if self._follow(panel):
+                self._followed = True
+                self._throttle.request()
 
     def remake(self, panel: Panel) -> None:
         """Make the rows of a panel again, soon."""
@@ -120,7 +124,8 @@ class Publisher:
             move, self._move = self._move - remake, set()
             changed = [self._make(panel) for panel in self._panels if panel in remake]
             changed += [self._follow(panel) for panel in self._panels if panel in move]
-            if any(changed):
+            followed, self._followed = self._followed, False
+            if followed or any(changed):
                 self._send()
 
     def _send(self) -> None:

@@ -1,0 +1,56 @@
+"""What the page costs a browser and the network."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+import robots
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+Open = Callable[..., ViewerPage]
+COUNT = 60
+ROWS = "document.querySelectorAll('#sambot .joints .k-slider')"
+
+
+@pytest.fixture
+def viz(tmp_path: Path) -> Iterator[Visualizer]:
+    """So many joints that they are in groups."""
+    model = tmp_path / "chain.urdf"
+    model.write_text(robots.chain(COUNT), "utf-8")
+    with Visualizer(model, port=0) as viz:
+        yield viz
+
+
+def test_a_page_at_rest_sends_and_gets_nothing(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_until_drawn()
+    assert viewer.page.messages > 0
+    # It takes a moment to come to rest.
+    assert any(is_quiet(viewer, 1.5) for _ in range(4))
+
+
+def is_quiet(viewer: ViewerPage, seconds: float) -> bool:
+    before = viewer.page.messages
+    viewer.page.evaluate(f"new Promise(done => setTimeout(done, {1000 * seconds}))")
+    return viewer.page.messages == before
+
+
+def test_a_joint_is_a_few_elements_and_a_folded_one_none(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.wait_for(f"{ROWS}.length === {COUNT}")
+    most = viewer.page.evaluate(
+        f"Math.max(...[...{ROWS}].map(row => row.querySelectorAll('*').length))"
+    )
+    assert most <= 12
+    viewer.user.click("button", "Fold all groups")
+    viewer.wait_for(f"{ROWS}.length === 0")
