@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped } from "../../src/sambot_viz/page/numbers.js";
+import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped, writtenNumber } from "../../src/sambot_viz/page/numbers.js";
 
 /** @param {string} typed @param {number} value @param {string} [unit] */
 function reads(typed, value, unit = "rad") {
@@ -54,6 +54,19 @@ test("a unit may be typed, and a plain number has the unit that is shown", () =>
   reads("15 mm", 0.015, "m");
   reads("2 cm", 0.02, "m");
   reads("3", 3, "Hz");
+});
+
+test("an angle with pi is in radians, whatever unit is shown", () => {
+  reads("pi", Math.PI, "°");
+  reads("-pi/2", -Math.PI / 2, "°");
+  reads("tau", 2 * Math.PI, "°/s");
+  reads("pi deg", Math.PI * Math.PI / 180, "rad");
+  reads("2pi", 2 * Math.PI, "m");
+});
+
+test("a sentence has one sign for what is below zero", () => {
+  assert.equal(writtenNumber(-1.25, 2), "−1.25");
+  assert.equal(writtenNumber(-1e-9, 4), "−1e−9");
 });
 
 test("a rate is read like an angle or a length per second", () => {

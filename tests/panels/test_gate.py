@@ -148,6 +148,7 @@ def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
     [
         (settable("float"), "1", "'Name' needs a number, not '1'"),
         (settable("float"), True, "'Name' needs a number, not True"),
+        (settable("float", most=-1.0), 2, "'Name' cannot be 2: its limits are −∞ … −1"),
         (settable("int"), 1.5, "'Name' needs a whole number"),
         (
             settable("color"),

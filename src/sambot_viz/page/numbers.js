@@ -13,7 +13,8 @@ const SUFFIX = /^(.*?)\s*(°|deg|degrees?|rad|radians?|[ckm]?m)?\s*(\/\s*s)?$/s;
 /**
  * Read a number: "0.5", "1,5", "1e-3", "pi/2", "-90deg", "2*pi", "15 mm", "(1+2)/4".
  * @param {string} typed
- * @param {string} unit the unit of a plain number: "rad", "°", "m", each also with "/s", or anything else
+ * @param {string} unit the unit of a plain number: "rad", "°", "m", each also with "/s", or anything else;
+ *   an angle with pi or tau is in radians all the same
  * @returns {{value: number} | {error: string}} the value in rad or m where that is the unit
  */
 export function parseNumber(typed, unit = "") {
@@ -25,7 +26,8 @@ export function parseNumber(typed, unit = "") {
     return { error: `'${typed.trim()}' is not a number` };
   }
   const own = UNITS[unit.replace("/s", "")];
-  if (!named && !perSecond) return { value: value * (own ? own[1] : 1) };
+  const circle = own?.[0] === "angle" && /pi|tau/.test(expression);
+  if (!named && !perSecond) return { value: value * (own && !circle ? own[1] : 1) };
   const given = UNITS[named];
   if (!given || !own || given[0] !== own[0] || (perSecond && !unit.endsWith("/s"))) {
     return { error: `'${named}${perSecond}' does not fit: the unit is ${unit || "none"}` };
@@ -83,6 +85,9 @@ export function formatNumber(value, digits = 6) {
   if ( (size >= 1e7 || size < 10 ** -digits)) return String(Number(value.toPrecision(6)));
   return String(Number(value.toFixed(digits)));
 }
+
+/** A number in a sentence: with a minus, not a hyphen. @param {number} value @param {number} digits */
+export function writtenNumber(value, digits) { return formatNumber(value, digits).replace(/-/g, "−"); }
 
 /** The text of a number in a field without much room. While a number runs, the count of its digits stays.
  * @param {number} value @param {number} digits after the point, at most @param {number} room characters, at least 6 */

@@ -2,7 +2,7 @@
 /* Numbers with their units and limits as they are shown: angles in radians or degrees. */
 
 import { rows } from "./channel.js";
-import { formatNumber } from "./numbers.js";
+import { writtenNumber } from "./numbers.js";
 import { degrees } from "./state.js";
 
 /** @typedef {import("./rows.js").Row} Row */
@@ -26,7 +26,7 @@ export function outside(row, value) {
   // A limit typed as it is shown, without all its digits, means the limit.
   const near = 0.6 * 10 ** -limitDigits(unit) / factor;
   if (value >= low - near && value <= high + near) return "";
-  return `${formatNumber(value * factor, limitDigits(unit))} ${unit} is outside ${limits(row)}`;
+  return `${writtenNumber(value * factor, limitDigits(unit))} ${unit} is outside ${limits(row)}`;
 }
 
 /** @param {string} unit */
@@ -35,7 +35,7 @@ const limitDigits = (unit) => (unit.startsWith("°") ? 2 : 4);
 export function limits(row) {
   const { unit, factor } = shownUnit(row);
   const ends = [row.min ?? -Infinity, row.max ?? Infinity].map((end) =>
-    (Number.isFinite(end) ? formatNumber(end * factor, limitDigits(unit)) : end < 0 ? "−∞" : "∞").replace("-", "−"));
+    (Number.isFinite(end) ? writtenNumber(end * factor, limitDigits(unit)) : end < 0 ? "−∞" : "∞"));
   return `${ends[0]} … ${ends[1]} ${unit}`.trim();
 }
 
@@ -43,7 +43,7 @@ export function limits(row) {
 export function formula(row) {
   const leader = rows.get(row.follows);
   const { factor, unit } = shownUnit(row);
-  const times = formatNumber(row.times * factor / (leader ? shownUnit(leader).factor : 1), 4);
-  const plus = row.plus ? ` ${row.plus < 0 ? "−" : "+"} ${formatNumber(Math.abs(row.plus) * factor, 4)} ${unit}` : "";
-  return `= ${times === "1" ? "" : `${times} × `}${leader?.name || ""}${plus}`.replace("-", "−");
+  const times = writtenNumber(row.times * factor / (leader ? shownUnit(leader).factor : 1), 4);
+  const plus = row.plus ? ` ${row.plus < 0 ? "−" : "+"} ${writtenNumber(Math.abs(row.plus) * factor, 4)} ${unit}` : "";
+  return `= ${times === "1" ? "" : `${times} × `}${leader?.name || ""}${plus}`;
 }

@@ -92,9 +92,10 @@ def _number(row: Row, value: Json) -> float:
     high = math.inf if row.most is None else row.most
     if not low <= number <= high:
         limits = f"{low:.6g} … {high:.6g} {row.unit}".strip()
-        raise UsageError(
-            f"'{text(row.name)}' cannot be {number:.6g}: its limits are {limits}"
-        )
+        numbers = f"{number:.6g}: its limits are {limits}".replace("inf", "∞")
+        # The sign that the page writes in its own sentences too.
+        signed = numbers.replace("-", "−")
+        raise UsageError(f"'{text(row.name)}' cannot be {signed}")
     if row.kind == "int" and number != int(number):
         raise UsageError(f"'{text(row.name)}' needs a whole number")
     return int(number) if row.kind == "int" else number
