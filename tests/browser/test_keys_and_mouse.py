@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from inside import node_of, session_of
@@ -143,3 +144,24 @@ def test_the_mouse_is_reported_at_most_twenty_times_a_second_while_measure_wants
     assert len(times) >= 2
     gaps = [after - before for before, after in pairwise(times)]
     assert min(gaps) > 45.0
+
+
+def test_undo_and_escape_act_in_the_list_of_poses_after_one_is_removed(
+    open_viewer: Callable[..., ViewerPage], tmp_path: Path
+) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text("near: {drivewhl_l_joint: 1.0}\nfar: {drivewhl_l_joint: 2.0}\n")
+    with Visualizer(port=0, poses=path) as viz:
+        viewer = open_viewer(viz.url)
+        # The server is closed before the page is.
+        viewer.expects_errors = True
+        user = viewer.user
+        user.click("button", "Poses")
+        for name in ("near", "far"):
+            user.click("button", f"Remove pose {name}")
+            user.gone("button", f"Remove pose {name}")
+        user.keys("Control+z")
+        user.find("button", "Remove pose far")
+        assert "near" not in path.read_text()
+        user.keys("Escape")
+        user.gone("button", "Remove pose far")

@@ -10,6 +10,7 @@ from panel_rows import edit, rows_of
 
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
+from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
 
@@ -76,6 +77,19 @@ def test_each_undo_is_told_from_the_one_before(
     edit(panel, "edit/undo", None)
     after = rows_of(panel)["edit/touched"].value
     assert before["row"] == after["row"] and before != after
+
+
+def test_undo_and_redo_say_what_they_did(
+    panel: UndoPanel, session: Session, browser: Browser
+) -> None:
+    with session.edits.acting(browser.client_id):
+        session.set_global("Frame Rate", 10)
+    for row_id, said in (
+        ("edit/undo", "Undone: Global Options: Frame Rate"),
+        ("edit/redo", "Done again: Global Options: Frame Rate"),
+    ):
+        row = rows_of(panel)[row_id]
+        assert row.set is not None and row.set(()) == Answer(said)
 
 
 def test_other_edits_and_other_browsers_name_nothing(

@@ -92,7 +92,8 @@ def test_a_removed_pose_comes_back_by_undo(
 ) -> None:
     send(panel, "poses/save", "half")
     with session.edits.acting(1):
-        send(panel, "poses/remove", "half")
+        said = send(panel, "poses/remove", "half")
+    assert said == Answer("Removed pose 'half'; Undo brings it back")
     assert names(panel) == [] and "half" not in path.read_text()
     session.edits.undo(1)
     assert names(panel) == ["half"] and "half" in path.read_text()

@@ -26,6 +26,7 @@ const PATHS = {
   full: "M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4", hide: "M2 3h12v10H2zM5 3v10M11 3v10",
   view: "M1.5 8c3-5 10-5 13 0c-3 5-10 5-13 0M8 6a2 2 0 1 0 .01 0",
   turn: "M13 4.5A6 6 0 1 0 14 9M13.5 1.5v3.5H10", stop: "M4 4h8v8H4z", close: "M4 4l8 8M12 4l-8 8",
+  trash: "M2.5 4.5h11M6 4.5V2.5h4v2M4 4.5l.8 9.5h6.4l.8-9.5M6.7 7v4.5M9.3 7v4.5",
   add: "M8 3v10M3 8h10", remove: "M3 8h10", copy: "M5.5 5.5h8v8h-8zM3 10.5h-.5v-8h8V3", search: "M7 2.5a4.5 4.5 0 1 0 .01 0M10.3 10.3l3.7 3.7",
   forwards: "M8 3l5 9H3z", back: "M8 13L3 4h10z", left: "M3 8l9-5v10z", right: "M13 8l-9 5V3z",
   down: "M4 6l4 4 4-4", foldAll: "M4 2l4 4 4-4M4 14l4-4 4 4", unfoldAll: "M4 6l4-4 4 4M4 10l4 4 4-4",

@@ -2,6 +2,8 @@
 /* A button that opens a small panel below it: a menu, or a form. */
 
 import { html, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
+import { act } from "./channel.js";
+import { isTyping, meaning } from "./keys.js";
 
 const EDGE = 4;
 
@@ -28,7 +30,11 @@ export function Popup({ label, name, role, title, children }) {
   /** @param {any} event */
   const key = (event) => {
     const by = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1 })[event.key];
+    const does = meaning(event, []);
+    const edits = typeof does === "object" && does.act.startsWith("edit/");
     if (event.key === "Escape") close();
+    // A field with nothing in it has nothing of its own to undo.
+    else if (edits && !(isTyping(event.target) && event.target.value)) act(does.act);
     else if (by) {
       const stops = [...panel.current.querySelectorAll("button:enabled, input")];
       stops[(stops.indexOf(document.activeElement) + by + stops.length) % stops.length]?.focus();

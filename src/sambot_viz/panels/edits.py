@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.row import Answer, Json, Row
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
@@ -41,7 +41,7 @@ class UndoPanel(Panel):
                 "Undo",
                 value=undo or "",
                 enabled=undo is not None,
-                set=lambda _: self._edits.undo(self._id),
+                set=lambda _: _said("Undone", self._edits.undo(self._id)),
             ),
             Row(
                 "edit/redo",
@@ -50,7 +50,7 @@ class UndoPanel(Panel):
                 "Redo",
                 value=redo or "",
                 enabled=redo is not None,
-                set=lambda _: self._edits.redo(self._id),
+                set=lambda _: _said("Done again", self._edits.redo(self._id)),
             ),
             Row("edit/touched", "", "names", value=self._touched()),
         ]
@@ -61,3 +61,7 @@ class UndoPanel(Panel):
         if isinstance(item, DisplayConfig) and self._session.config.holds(item):
             return {"number": number, "row": self._displays.id_of(item)}
         return None
+
+
+def _said(what: str, label: str | None) -> Answer | None:
+    return None if label is None else Answer(f"{what}: {label}")

@@ -66,7 +66,7 @@ class PosesPanel(Panel):
         where = f"in {poses.path.absolute()}" if poses.path else "in memory only"
         return Answer(f"Saved pose '{name}' {where}")
 
-    def _delete(self, arguments: tuple[str]) -> None:
+    def _delete(self, arguments: tuple[str]) -> Answer:
         (name,), poses = arguments, self._session.poses
         pose = poses.get(name)
 
@@ -79,3 +79,4 @@ class PosesPanel(Panel):
         remove()
         label = f"Remove pose {name}"
         self._session.edits.record(label, save, remove, of_document=False)
+        return Answer(f"Removed pose '{name}'; Undo brings it back")

@@ -21,8 +21,8 @@ const KEYS = [
     ["Ctrl+C", "copy the row"], ["Shift+F10", "more that can be done with the row"],
   ]],
   ["Numbers", [
-    ["1,5   1e-3   (1+2)/4", "a number, or a sum"], ["90deg   15 mm", "in this unit, whatever unit is shown"],
-    ["pi/2   tau", "in radians: pi is half a turn, also where degrees are shown"],
+    ["1.5, 1e-3, (1+2)/4", "a number, or a sum"], ["90deg, 15 mm", "in this unit, whatever unit is shown"],
+    ["pi/2, tau", "in radians: pi is half a turn, also where degrees are shown"],
   ]],
   ["Everywhere", [
     ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],

@@ -1,7 +1,7 @@
 // @ts-check
 /* Named poses: choose one, save the present one, remove one. */
 
-import { html, useRef, useState } from "../vendor/preact.js";
+import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act } from "../channel.js";
 import { Icon } from "../icons.js";
 import { refusals } from "../notices.js";
@@ -29,10 +29,19 @@ function Form({ close }) {
     event.preventDefault();
     act("poses/save", [field.current.value]);
   };
-  return html`<div class="poses">
+  // The button that has removed a pose goes with it: the next one has the focus, or the field.
+  const list = useRef(/** @type {any} */ (null)), removed = useRef(-1);
+  /** @param {string} name */
+  const remove = (name) => { removed.current = names.indexOf(name); act("poses/remove", [name]); };
+  useLayoutEffect(() => {
+    const buttons = list.current.querySelectorAll(".pose .flat");
+    if (removed.current >= 0) (buttons[Math.min(removed.current, buttons.length - 1)] || field.current).focus();
+    removed.current = -1;
+  }, [names.join("\n")]);
+  return html`<div class="poses" ref=${list}>
     ${names.map((name) => html`<div class="pose" key=${name}>
       <button title=${`Move the joints to '${name}'`} onClick=${() => { act("poses/use", [name]); close(); }}>${name}</button>
-      <button class="flat" aria-label=${`Remove ${name}`} title=${`Remove '${name}'`} onClick=${() => act("poses/remove", [name])}><${Icon} name="close" /></button>
+      <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`} onClick=${() => remove(name)}><${Icon} name="trash" /></button>
     </div>`)}
     ${!names.length && html`<p class="empty">No pose is saved yet</p>`}
     <form onSubmit=${save}>
