@@ -161,6 +161,36 @@ def test_the_rate_holds_for_the_wheels_that_turn_already(
     assert rows_of(panel)["joints/rate"].value == -2
 
 
+def test_undo_stops_a_wheel_and_puts_it_where_it_stood_before_it_turned(
+    panel: JointsPanel, session: Session, viz: Visualizer
+) -> None:
+    session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    viz.set_joint_positions({LEFT: 0.25})
+    for stops in (True, False):
+        with session.edits.acting(1):
+            edit(panel, "joints/turn", [f"j/{LEFT}"])
+        session.motion.advance(0.5)
+        if stops:
+            with session.edits.acting(1):
+                edit(panel, "joints/turn", [f"j/{LEFT}"])
+        assert session.edits.undo(1) == f"Turn {LEFT}"
+        assert turning(panel) == []
+        assert viz.joint_positions[LEFT] == 0.25
+        session.edits.redo(1)
+        assert viz.joint_positions[LEFT] == pytest.approx(0.75)
+        assert turning(panel) == []
+        session.edits.undo(1)
+
+
+def test_the_turn_rate_can_be_undone(panel: JointsPanel, session: Session) -> None:
+    for rate in (2.0, 3.0):
+        with session.edits.acting(1, gesture=7):
+            edit(panel, "joints/rate", rate)
+    assert session.edits.undo(1) == "Turn rate"
+    assert rows_of(panel)["joints/rate"].value == 1.0
+    assert not session.edits.modified
+
+
 def test_nothing_turns_at_a_rate_of_zero(panel: JointsPanel) -> None:
     edit(panel, "joints/turn", [f"j/{LEFT}"])
     edit(panel, "joints/rate", 0)

@@ -152,6 +152,17 @@ class JointsPanel(Panel):
         yield _action("joints/copy", self._copy, str)
 
     def _set_rate(self, rate: float) -> None:
+        before = self._rate
+        self._take_rate(rate)
+        self._session.edits.record(
+            "Turn rate",
+            partial(self._take_rate, before),
+            partial(self._take_rate, rate),
+            "turn rate",
+            of_document=False,
+        )
+
+    def _take_rate(self, rate: float) -> None:
         self._rate = rate
         for name in self._session.motion.turning:
             self._session.motion.turn(name, rate)
@@ -165,7 +176,32 @@ class JointsPanel(Panel):
         elif self._rate == 0:
             raise UsageError("nothing turns at a turn rate of 0; set another one")
         else:
-            motion.turn(name, self._rate)
+            self._start(name)
+
+    def _start(self, name: str) -> None:
+        """Let a wheel turn; undo stops it, and puts it where it stood before."""
+        session = self._session
+        session.motion.turn(name, self._rate)
+        before = reached = self._position(name)
+
+        def put_back() -> None:
+            nonlocal reached
+            reached = self._position(name)
+            session.motion.turn(name, 0.0)
+            session.move({name: before}, {})
+
+        session.edits.record(
+            f"Turn {name}",
+            put_back,
+            lambda: session.move({name: reached}, {}),
+            of_document=False,
+        )
+
+    def _position(self, name: str) -> float:
+        joints = self._session.joints
+        if joints is None or name not in joints.positions:
+            raise UsageError(f"there is no joint '{name}' that can be set")
+        return joints.positions[name]
 
     def _copy(self, arguments: tuple[str]) -> Answer:
         joints = self._session.joints
