@@ -13,8 +13,16 @@ export const CHANNEL = "sambot-viz";
 
 /** What is heard by those who listen to this key: a user has changed something. */
 export const EDITED = "edited";
+/** There is no connection any more: what was sent meanwhile shows it first. */
+export const CUT = "cut";
+/** An action was not done, for want of a connection. */
+export const NOT_DONE = "not done";
 /** The action that reports where the mouse is. */
 export const HOVER = "tools/hover";
+/** What a page sends without a user who means it. @param {string} id */
+const byItself = (id) => id === HOVER || id.endsWith("/unfold") || id.endsWith("/shown");
+/** What was sent so shortly before the connection was lost may be lost with it [ms]. */
+const DOUBTFUL = 1000;
 
 let gestures = 0;
 /** A new number for all that a hand does in one go. */
@@ -32,11 +40,18 @@ export function send(id, value, gesture) {
     id = row.in;
     rows.hope(id, value);
   }
-  if (id !== HOVER && !id.endsWith("/unfold")) rows.notify(EDITED);
+  if (!byItself(id)) rows.notify(EDITED);
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
-  // Without a connection, what was set last is sent as soon as it is back.
-  if (online) post(edit);
-  else if (rows.get(id)?.kind !== "action") waiting.set(id, edit);
+  const action = rows.get(id)?.kind === "action", there = isConnected();
+  if (online && !there && sent.size) {
+    goOnline(false);
+    rows.notify(CUT);
+  }
+  if (online) {
+    post(edit);
+    if (there) sent.set(id, { edit, at: action ? -Infinity : performance.now() });
+  } else if (!action) waiting.set(id, edit);
+  else if (!byItself(id)) rows.notify(NOT_DONE);
 }
 
 /** @param {any[]} edit */
@@ -45,7 +60,10 @@ function post(edit) {
 }
 
 let online = true;
-/** The last edit of each row since the connection was lost. @type {Map<string, any[]>} */
+/** The last edit of each row that was sent. @type {Map<string, {edit: any[], at: number}>} */
+const sent = new Map();
+/** The last edit of each row since the connection was lost; they are sent as soon as it is back.
+ * @type {Map<string, any[]>} */
 const waiting = new Map();
 
 /** Whether there is a connection. */
@@ -69,6 +87,8 @@ export function disconnect() {
 /** Hold edits back, or send what was held back. @param {boolean} now */
 export function goOnline(now) {
   online = now;
+  for (const [id, { edit, at }] of sent) if (!now && performance.now() - at < DOUBTFUL) waiting.set(id, edit);
+  sent.clear();
   if (!now) return;
   for (const edit of waiting.values()) post(edit);
   waiting.clear();

@@ -6,7 +6,7 @@
  * was shown: it would stay connected, and count as one that is looked at. */
 
 import { html } from "./vendor/preact.js";
-import { disconnect, goOnline, isConnected, rows, send } from "./channel.js";
+import { CUT, disconnect, goOnline, isConnected, rows, send } from "./channel.js";
 import { Cell, folds } from "./state.js";
 
 /** How often the page looks [ms]. */
@@ -27,14 +27,17 @@ export function followConnection() {
   /** The session that the rows are of. @type {any} */
   let session;
   let kept = takeKept();
+  const cut = () => {
+    if (lost) return;
+    lost = true;
+    goOnline(false);
+    said.set({ text: "Connection lost. Trying again…", level: "error" });
+    startAgainWhenStuck(() => lost, () => session);
+  };
+  rows.listen(CUT, cut);
   setInterval(() => {
     const now = isConnected();
-    if (was && !now) {
-      lost = true;
-      goOnline(false);
-      said.set({ text: "Connection lost. Trying again…", level: "error" });
-      startAgainWhenStuck(() => lost, () => session);
-    }
+    if (was && !now) cut();
     was = now;
   }, PERIOD);
   // The rows of this browser come after those of everyone.

@@ -2,7 +2,7 @@
 /* Sentences for this browser, from the server or from the page itself, and why values
  * were refused. */
 
-import { EDITED, rows } from "./channel.js";
+import { EDITED, NOT_DONE, rows } from "./channel.js";
 import { Cell } from "./state.js";
 
 /** @typedef {{text: string, level: string, row?: string}} Notice row: the one that has refused a value */
@@ -35,6 +35,8 @@ rows.listen(EDITED, () => {
   const [refused] = refusals.keys();
   if (refused) refuse(refused);
 });
+
+rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
 
 rows.listen("notice", () => {
   const said = rows.value("notice");
