@@ -147,11 +147,12 @@ def test_a_step_of_one_user_in_the_other_page(
 ) -> None:
     """As above, until the row's elements in a Chromium say so.
 
-    Without a GPU the page is busy with drawing most of the time, and a row waits for
-    the end of a frame: so these times depend on the machine and are only reported.
+    viser hands messages on once in a frame. Without a GPU a frame of a large picture
+    takes longer than all else, so the window is small, and the times still depend on
+    the machine and are only reported.
     """
     with run_server(command(model)) as started:
-        page = chromium.open(viewer_url(started.url))
+        page = chromium.open(viewer_url(started.url), width=700, height=500)
         record = RECORD.replace("ROW", f"j/{JOINTS[model]}")
         page.wait_for(f"{THERE} && sambotVizLook.lit > 0", timeout=60.0)
         page.evaluate(record)
