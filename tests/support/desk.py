@@ -22,7 +22,7 @@ MODELS: dict[str, Callable[[], str]] = {
 }
 """Letter of the tasks → URDF; "S" is the robot that comes with the program."""
 
-
+_TOOLS = ("toolbar", "Tools")
 _NOTHING = (330.0, 60.0)
 """A place of the page where the 3D view shows nothing of a robot."""
 
@@ -57,8 +57,7 @@ class Desk:
             self.model = folder / f"{letter.lower()}.urdf"
             self.model.write_text(MODELS[letter](), "utf-8")
         self._chromium = chromium
-        self.viz = Visualizer(self.model, port=0, watch=True)
-        self.viewer = self.open()
+        self._start()
 
     def open(
         self, width: int = 1280, height: int = 720, *, touch: bool = False
@@ -89,8 +88,14 @@ class Desk:
     def restart(self) -> None:
         """End program and page, and start both again."""
         self.close()
+        self._start()
+
+    def _start(self) -> None:
         self.viz = Visualizer(self.model, port=0, watch=True)
         self.viewer = self.open()
+        # The first view is Orbit's, 10 m away, until the robot is there to be framed.
+        distance = ("Views", "Current View", "Distance")
+        self.user.until(lambda: self.user.row(*distance).one("textbox").value != "10")
 
     def tidy(self) -> None:
         """Put everything back as it was, by what the page offers for that."""
@@ -98,11 +103,11 @@ class Desk:
         user.keys("Escape", "Escape")
         user.tab("Selection")
         if user.find("treegrid", "Selection").all("row")[1:]:
-            user.click("button", "Select", ("toolbar", "Tools"))
+            self.choose_tool("Select")
             self.page.mouse.click(*_NOTHING)
             user.reads("Nothing is selected")
         user.tab("Joints")
-        user.click("button", "Interact", ("toolbar", "Tools"))
+        self.choose_tool("Interact")
         for _ in range(300):
             wait_for_workers()
             self.viewer.wait_for_frames()
@@ -110,9 +115,22 @@ class Desk:
             if undo.state("disabled"):
                 break
             user.click_on(undo)
-        tools = ("toolbar", "Tools")
-        user.click("button", "Zero", tools)
-        user.click("button", "Focus", tools)
+        for button in ("Zero", "Focus"):
+            user.click("button", button, _TOOLS)
+
+    def choose_tool(self, tool: str) -> None:
+        """Press the button of a tool, and wait until it is the current one."""
+        self.user.click("button", tool, _TOOLS)
+        self.has_tool(tool)
+
+    def has_tool(self, tool: str) -> None:
+        """Wait until a tool is the current one."""
+        self.user.until(
+            lambda: (
+                [b.name for b in self.user.find(*_TOOLS).all("button") if b.is_on]
+                == [tool]
+            )
+        )
 
     def close(self) -> None:
         """End page and program."""

@@ -64,6 +64,7 @@ def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
     set_number(s, "Yaw", "1")
     set_number(s, "Pitch", "0.5")
     s.user.until(lambda: is_near(s, "Pitch", 0.5))
+    s.viewer.wait_until_drawn()
     mouse, (x, y) = s.page.mouse, SKY
     mouse.drag(SKY, (x - 40, y))
     s.user.until(lambda: is_near(s, "Yaw", 1.2))

@@ -21,20 +21,6 @@ KEYS = {
 }
 
 
-def choose(desk: Desk, tool: str) -> None:
-    """Press the button of a tool; it is current at once."""
-    desk.user.click("button", tool, TOOLS)
-    is_current(desk, tool)
-
-
-def is_current(desk: Desk, tool: str) -> None:
-    desk.user.until(
-        lambda: (
-            [b.name for b in desk.user.find(*TOOLS).all("button") if b.is_on] == [tool]
-        )
-    )
-
-
 def look(desk: Desk, yaw: str, pitch: str, distance: str = "1.2") -> None:
     """Look at the middle of the robot from a side."""
     for name, value in (
@@ -62,7 +48,7 @@ def test_task_45_measure_the_height_of_the_body(s: Desk) -> None:
         box = s.user.row("Displays", "Grid").one("checkbox")
         if box.is_on != grid:
             s.user.click_on(box)
-        choose(s, "Measure")
+        s.choose_tool("Measure")
         # Along the edge at the front, the grid is at half of its height.
         s.page.mouse.click(*on_page(s, 0.209, 0.1, 0.088))
         s.user.reads("second point")
@@ -72,7 +58,7 @@ def test_task_45_measure_the_height_of_the_body(s: Desk) -> None:
         )
         assert float(length[1]) == pytest.approx(0.18, abs=0.012)
         s.user.keys("Escape")
-        is_current(s, "Interact")
+        s.has_tool("Interact")
 
 
 def test_task_46_measure_the_wheel_base(s: Desk) -> None:
@@ -85,7 +71,7 @@ def test_task_46_measure_the_wheel_base(s: Desk) -> None:
 def test_task_47_click_on_the_lower_half_of_a_wheel(s: Desk) -> None:
     look(s, "1.57", "0.1")
     s.user.tab("Selection")
-    choose(s, "Select")
+    s.choose_tool("Select")
     s.page.mouse.click(*on_page(s, 0.0, 0.02, -0.07, frame=LEFT))
     s.user.until(lambda: selected(s) == [LEFT])
     text = s.user.find("treegrid", "Selection").text
@@ -98,7 +84,7 @@ def test_task_48_select_by_rectangle_add_and_take_away(s: Desk) -> None:
     look(s, "0.9", "0.6", "1.5")
     s.user.click_on(s.user.row("Displays", "TF").one("checkbox"))
     s.user.tab("Selection")
-    choose(s, "Select")
+    s.choose_tool("Select")
     x, y = on_page(s, frame=LEFT)
     s.page.mouse.drag((x - 6, y - 6), (x + 6, y + 6))
     s.user.until(lambda: selected(s) == [LEFT])
@@ -119,18 +105,18 @@ def test_task_49_from_any_tool_to_any_other(s: Desk) -> None:
         for after in KEYS:
             if before == after:
                 continue
-            choose(s, before)
-            choose(s, after)
+            s.choose_tool(before)
+            s.choose_tool(after)
     grid = s.user.row("Displays", "Grid").one("checkbox")
     slider = s.user.row("Joints", "drivewhl_l_joint").one("slider")
     for used in (grid, slider):
         for tool, key in KEYS.items():
             s.user.click_on(used)
             other = "Measure" if tool != "Measure" else "Select"
-            choose(s, other)
+            s.choose_tool(other)
             s.user.click_on(used)
             s.user.keys(key)
-            is_current(s, tool)
+            s.has_tool(tool)
 
 
 def test_task_50_letters_of_tool_keys_in_text_fields(t: Desk) -> None:
@@ -154,7 +140,7 @@ def test_task_50_letters_of_tool_keys_in_text_fields(t: Desk) -> None:
     user.type(letters)
     user.keys("Enter")
     user.row("Displays", letters)
-    is_current(t, "Interact")
+    t.has_tool("Interact")
     assert user.there("treegrid", "Joints") and user.there("treegrid", "Views")
     after = [user.row("Views", name).text for name in ("Yaw", "Pitch", "Distance")]
     assert after == view
