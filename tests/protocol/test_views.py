@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -15,6 +16,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.session.browser_view import BrowserView
+from sambot_viz.views.camera import FIELD_OF_VIEW
 
 FRESH = (3.0, 3.0, 3.0)
 ORBIT = "rviz_default_plugins/Orbit"
@@ -215,6 +217,20 @@ def test_a_new_type_takes_over_the_target_and_forgets_the_rest(
     assert view.values["Target Frame"] == "drivewhl_l_link"
     assert view.values["Near Clip Distance"] == 0.01
     assert view.camera.position == pytest.approx((4, 0, 0))
+
+
+def test_a_view_from_above_shows_the_robot_as_large_as_before_and_back(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    join(viz, protocol, FRESH)
+    (view,) = views_of(viz)
+    view.set("Distance", 4.0)
+    view.set_kind("rviz_default_plugins/TopDownOrtho")
+    height = 2.0 * 4.0 * math.tan(FIELD_OF_VIEW / 2.0)
+    (client,) = viser_server(viz).get_clients().values()
+    assert view.values["Scale"] == pytest.approx(client.camera.image_height / height)
+    view.set_kind(ORBIT)
+    assert view.values["Distance"] == pytest.approx(4.0)
 
 
 def test_saved_views_are_copies_that_can_be_named_and_removed(

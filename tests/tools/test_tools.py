@@ -415,10 +415,14 @@ def test_measure_takes_points_of_what_is_drawn_near_a_frame(
     open_browser: Callable[..., Browser],
 ) -> None:
     browser = open_browser("Grid", "TF")
+    session, x = browser.session, -0.12 + 0.03
+    with session.lock:
+        session.config.displays[0].set("Offset", (x, 0.0, 0.0))
+    browser.settle()
     browser.choose("Measure")
-    # Beside the axes of the wheel, though within the sphere that selects the frame.
-    browser.click((-0.12 + 0.03, 0.18 + 0.03, 5.0))
-    browser.click((-0.12 + 0.03, 2.21, 5.0))
+    # On a line beside the axes of the wheel, in the sphere that selects the frame.
+    browser.click((x, 0.18 + 0.03, 5.0))
+    browser.click((x, 2.21, 5.0))
     assert browser.tools.status.startswith("[Length: 2m] ")
 
 

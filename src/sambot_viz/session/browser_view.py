@@ -133,6 +133,8 @@ class BrowserView(SavedViews):
             new.set("Target Frame", old.config.get("Target Frame"))
             self._take(new)
             self._apply(self.view.mimic(old))
+            _, height = window_of(self._browser.client)
+            self._apply(_rounded(self.view.as_near_as(old, height)))
 
     def zero(self) -> None:
         """Bring the view to where RViz's "Zero" brings it."""

@@ -11,14 +11,17 @@ from sambot_viz.tools.tool import Click
 
 
 def click_of(event: viser.SceneClickEvent) -> Click | None:
-    """A click as a browser reports it; None when its numbers are not a ray."""
+    """A click as a browser reports it; None when they are not a ray."""
     origin, direction = _numbers(event.ray_origin), _numbers(event.ray_direction)
     if origin.shape != (3,) or direction.shape != (3,):
         return None
     length = float(np.linalg.norm(direction))
     if not (np.isfinite(origin).all() and np.isfinite(length) and length > 0.0):
         return None
-    return Click(origin, direction / length, event.modifier)
+    picture = Picture.of(event.client.camera)
+    if picture is None:
+        return None
+    return Click(origin, direction / length, picture.pixel, event.modifier)
 
 
 def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
@@ -33,7 +36,7 @@ def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
     if not ((point >= 0.0) & (point <= 1.0)).all():
         return None
     x, y = point.tolist()
-    return Click(picture.eye, picture.direction((x, y)))
+    return Click(picture.eye, picture.direction((x, y)), picture.pixel)
 
 
 def rays_of(event: viser.SceneRectSelectEvent) -> RayGrid | None:

@@ -163,9 +163,7 @@ class ToolControl:
             else:
                 self.look_at(hit.point)
 
-        self._session.rays.follow(
-            lambda s: s.first_hit(click.origin, click.direction), then
-        )
+        self._follow(click, then)
 
     # What tools may use (tools.tool.ToolContext)
 
@@ -201,6 +199,10 @@ class ToolControl:
 
     # Inside
 
+    def _follow(self, click: Click, then: Callable[[Hit], None]) -> None:
+        ray = click.origin, click.direction, click.pixel
+        self._session.rays.follow(lambda s: s.first_hit(*ray), then)
+
     def _follow_mouse(self, tool: Tool) -> None:
         """Give a tool what is under the mouse, once more when it has moved on."""
         click = pointed_at(self._browser.client, self._mouse)
@@ -216,9 +218,7 @@ class ToolControl:
             if self._mouse != followed:
                 self.hover(self._mouse)
 
-        self._session.rays.follow(
-            lambda s: s.first_hit(click.origin, click.direction), then
-        )
+        self._follow(click, then)
 
     def _take_config(self) -> None:
         """The tools of the document, then the others, each with its settings."""
@@ -279,9 +279,7 @@ class ToolControl:
                 if self.current is tool:
                     tool.click(click, hit)
 
-        self._session.rays.follow(
-            lambda s: s.first_hit(click.origin, click.direction), then
-        )
+        self._follow(click, then)
 
     def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
         worker = self._session.worker

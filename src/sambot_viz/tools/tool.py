@@ -21,11 +21,13 @@ class Click:
     Attributes:
         origin: the position of its camera, (3,) [m].
         direction: from there through the pixel, (3,), of length 1.
+        pixel: size of a pixel at 1 m [m].
         modifier: held keys as viser names them ("shift", "cmd/ctrl"), or None.
     """
 
     origin: Array
     direction: Array
+    pixel: float
     modifier: str | None = None
 
 

@@ -16,7 +16,14 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sambot_viz.rviz import Property, ViewConfig
-from sambot_viz.views.camera import Camera, Vector, Vectors, turned, vector
+from sambot_viz.views.camera import (
+    FIELD_OF_VIEW,
+    Camera,
+    Vector,
+    Vectors,
+    turned,
+    vector,
+)
 
 Values = Mapping[str, Any]
 """Property → value, for those that are to be set."""
@@ -90,6 +97,22 @@ class View:
     def mimic(self, old: View) -> Values:
         """What a view of this type takes over from another, as in RViz."""
         raise NotImplementedError
+
+    def as_near_as(self, old: View, height: int) -> Values:
+        """What shows the same things as large, with and without perspective.
+
+        RViz starts at 10 pixels per metre or at 100 m, where a robot is a dot.
+
+        Args:
+            old: the view before.
+            height: of the picture [pixels].
+        """
+        camera = old.local_camera()
+        if (self.nearness, old.nearness) == ("Scale", "Distance"):
+            return {"Scale": camera.as_orthographic(height).scale}
+        if (self.nearness, old.nearness) == ("Distance", "Scale"):
+            return {"Distance": camera.as_perspective(height, FIELD_OF_VIEW).distance}
+        return {}
 
     def zero(self) -> Values:
         """What RViz's "Zero" sets."""

@@ -13,7 +13,7 @@ from sambot_viz.robot.origin import Origin
 from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.tools.picking.pick_scene import PickSnapshot, PlacedGrid, PlacedMesh
 from sambot_viz.tools.picking.picture import Picture
-from sambot_viz.tools.picking.rays import RayGrid, TriangleMesh
+from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
 
 SHAPES = [
     TriangleMesh.of(shape.vertices, shape.faces)
@@ -25,6 +25,7 @@ METRE = 96
 """Pixels of the picture per metre, on the ground."""
 PICTURE = Picture(np.array((0.0, 0.0, 5.0)), AXES, 0.5, 640, 480)
 """From 5 m above the origin, x to the right and y up."""
+PIXEL = PICTURE.pixel
 
 
 def link(name: str) -> Selectable:
@@ -67,7 +68,7 @@ def test_a_rectangle_has_what_the_rays_through_its_pixels_meet_first() -> None:
         grid = coarse.pixels(low, high)
         assert grid is not None
         one_by_one = {
-            snapshot.first_hit(grid.origin, ray / np.linalg.norm(ray)).item
+            snapshot.first_hit(grid.origin, ray / np.linalg.norm(ray), PIXEL).item
             for column, row in product(range(grid.columns), range(grid.rows))
             for ray in [grid.axes @ (column, row, 1.0)]
         }
@@ -109,18 +110,33 @@ def test_what_is_behind_the_eye_or_beside_the_picture_is_not_selected() -> None:
     assert seen(box("half", (3.5, 0.0, 0.0), (1.0, 1.0, 1.0))) == {"half"}
 
 
-def test_a_grid_is_hit_within_its_square_where_nothing_else_is() -> None:
-    T = Origin((1.0, 0.0, 0.5), (0.0, 0.0, 0.3)).matrix
-    grid = PlacedGrid(T, np.array((0.0, 0.0, 1.0)), np.array((0.0, 0.0, 0.1)), 2.0)
+def test_a_grid_is_hit_at_its_lines_where_nothing_else_is() -> None:
+    T = Origin((1.0, 0.0, 0.5), (0.0, 0.0, 0.0)).matrix
+    grid = PlacedGrid(
+        T, np.array((0.0, 0.0, 1.0)), np.array((0.0, 0.0, 0.1)), cells=4, cell=1.0
+    )
     snapshot = PickSnapshot((box("low", (0.0, 0.0, 0.0), (0.2, 0.2, 0.2)),), (grid,))
     down = np.array((0.0, 0.0, -1.0))
-    hit = snapshot.first_hit(np.array((2.0, 1.0, 5.0)), down)
-    assert hit.point == pytest.approx((2.0, 1.0, 0.6))
-    assert hit.item is None
-    below = snapshot.first_hit(np.array((0.0, 0.0, 5.0)), down)
+
+    def point(*origin: float, direction: Array = down) -> Array | None:
+        return snapshot.first_hit(np.array(origin), direction, PIXEL).point
+
+    # From 4.4 m above, a pixel is 4.4 · PIXEL, and a line is met from three of them.
+    near, beside = 2.8 * 4.4 * PIXEL, 3.2 * 4.4 * PIXEL
+    for x, y in ((2.0, 0.4), (2.0 - near, 0.4), (1.4, 1.0 + near), (3.0 + near, 0.3)):
+        assert point(x, y, 5.0) == pytest.approx((x, y, 0.6)), (x, y)
+    for x, y in ((1.5, 0.5), (2.0 + beside, 0.4), (3.0 + beside, 0.3), (7.0, 1.0)):
+        assert point(x, y, 5.0) is None, (x, y)
+    assert point(2.0, 1.0, 5.0, direction=-down) is None
+    below = snapshot.first_hit(np.array((0.0, 0.0, 5.0)), down, PIXEL)
     assert below.point == pytest.approx((0.0, 0.0, 0.1))
     assert below.item == link("low")
-    assert snapshot.first_hit(np.array((2.0, 1.0, 5.0)), -down).point is None
-    assert snapshot.first_hit(np.array((7.0, 1.0, 5.0)), down).point is None
     along = np.array((1.0, 0.0, 0.0))
-    assert snapshot.first_hit(np.array((-5.0, 0.0, 0.6)), along).point is None
+    assert point(-5.0, 0.0, 0.6, direction=along) is None
+
+
+def test_ribbons_of_a_grid_are_hit_in_all_their_width() -> None:
+    z = np.array((0.0, 0.0, 1.0))
+    grid = PlacedGrid(np.eye(4), z, np.zeros(3), cells=2, cell=1.0, thickness=0.4)
+    hit = PickSnapshot((), (grid,)).first_hit(np.array((0.19, 0.5, 5.0)), -z, 1e-6)
+    assert hit.point == pytest.approx((0.19, 0.5, 0.0))

@@ -17,6 +17,9 @@ from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
 
 NORMALS = {"XY": (0.0, 0.0, 1.0), "XZ": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
 
+NEAR_LINE = 3.0
+"""A line of a grid is met from so far [pixels]."""
+
 Corners = tuple[Array, Array]
 """The lowest and the highest corner of a box along the axes, (3,) [m]."""
 
@@ -38,30 +41,50 @@ class PlacedMesh:
 
 @dataclass(frozen=True, slots=True)
 class PlacedGrid:
-    """The square of a grid: the plane is z = 0 or another pair of axes of its frame.
+    """The lines of a grid, in the plane z = 0 or another pair of axes of its frame.
 
     Attributes:
         T: (4, 4) from the grid's frame to the fixed frame.
         normal: which axis of that frame is across the plane, (3,).
         offset: middle of the square in that frame, (3,) [m].
-        half: half of a side [m].
+        cells: how many cells there are along each side.
+        cell: side of a cell [m].
+        thickness: of a line [m].
     """
 
     T: Matrix
     normal: Array
     offset: Array
-    half: float
+    cells: int
+    cell: float
+    thickness: float = 0.0
 
-    def cast(self, origin: Array, direction: Array) -> float:
-        """How far along a ray the square is, inf beside it."""
+    def cast(self, origin: Array, direction: Array, pixel: float) -> float:
+        """How far along a ray a line is; inf where the ray passes between them.
+
+        Args:
+            origin: (3,), in the fixed frame [m].
+            direction: (3,), of length 1.
+            pixel: size of a pixel at 1 m [m]; a line is met from `NEAR_LINE` of them.
+        """
         o = (origin - self.T[:3, 3]) @ self.T[:3, :3] - self.offset
         d = direction @ self.T[:3, :3]
         towards = float(d @ self.normal)
         if towards == 0.0:
             return np.inf
         t = -float(o @ self.normal) / towards
-        beside = np.abs(o + t * d) * (self.normal == 0)
-        return t if t >= 0.0 and np.all(beside <= self.half) else np.inf
+        if t < 0.0:
+            return np.inf
+        reach = max(NEAR_LINE * pixel * t, self.thickness / 2)
+        half = self.cells * self.cell / 2
+        place, along = (o + t * d)[self.normal == 0], d[self.normal == 0]
+        # From each coordinate to the nearest line across it, in the plane …
+        line = np.round((place + half) / self.cell).clip(0, self.cells)
+        aside = np.abs(place - (line * self.cell - half))
+        # … and between the ray and that line, which is less at a flat angle.
+        apart = aside * abs(towards) / np.sqrt(1.0 - along[::-1] ** 2)
+        inside = np.abs(place[::-1]) <= half + reach
+        return t if bool(np.any((apart <= reach) & inside)) else np.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +104,7 @@ class PickSnapshot:
         """How many triangles there are."""
         return sum(len(placed.mesh.faces) for placed in self.placed)
 
-    def first_hit(self, origin: Array, direction: Array) -> Hit:
+    def first_hit(self, origin: Array, direction: Array, pixel: float) -> Hit:
         """What one ray meets first.
 
         A grid is lines, and what is behind it is seen through it: it only counts
@@ -90,12 +113,13 @@ class PickSnapshot:
         Args:
             origin: (3,), in the fixed frame [m].
             direction: (3,), of length 1.
+            pixel: size of a pixel at 1 m [m].
         """
         near, owner = self._draw(RayGrid.through(origin, direction))
         if near[0, 0] > 0.0:
             item = self.placed[int(owner[0, 0])].item
             return Hit(origin + direction / near[0, 0], item)
-        on_grids = (grid.cast(origin, direction) for grid in self.grids)
+        on_grids = (grid.cast(origin, direction, pixel) for grid in self.grids)
         nearest = min(on_grids, default=np.inf)
         if not np.isfinite(nearest):
             return Hit(None, None)
@@ -218,8 +242,15 @@ class PickScene:
             T = self._pose(self._context.frame(get("Reference Frame")))
             if T is not None:
                 normal = NORMALS.get(str(get("Plane")), NORMALS["XY"])
-                half = float(get("Plane Cell Count")) * float(get("Cell Size")) / 2
-                yield PlacedGrid(T, np.array(normal), np.array(get("Offset")), half)
+                ribbons = get("Line Style") == "Billboards"
+                yield PlacedGrid(
+                    T,
+                    np.array(normal),
+                    np.array(get("Offset")),
+                    int(get("Plane Cell Count")),
+                    float(get("Cell Size")),
+                    float(get("Line Style/Line Width")) if ribbons else 0.0,
+                )
 
     def _pose(self, frame: str) -> Matrix | None:
         """T_fixed_frame, (4, 4); None when the frame cannot be placed."""

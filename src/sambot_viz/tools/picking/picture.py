@@ -55,6 +55,11 @@ class Picture:
         width, height = (int(side) for side in size.tolist())
         return cls(eye, axes, math.tan(float(fov[0]) / 2), width, height)
 
+    @property
+    def pixel(self) -> float:
+        """Size of a pixel at 1 m [m]."""
+        return 2.0 * self.half / self.height
+
     def direction(self, at: ScreenPoint) -> Array:
         """The direction of the ray through a point of the picture, (3,), length 1."""
         x = (2.0 * at[0] - 1.0) * self.half * self.width / self.height
@@ -76,7 +81,7 @@ class Picture:
         first = np.minimum(np.floor(ends[0]), size - 1)
         count = np.maximum(np.ceil(ends[1]) - first, 1)
         step = math.ceil(math.sqrt(float(count.prod()) / MOST_PIXELS))
-        pixel = 2.0 * self.half / self.height
+        pixel = self.pixel
         # Pixel i is seen through its middle, at i + 1/2.
         x, y = (first + 0.5 * step - size / 2).tolist()
         right, down, ahead = (self.axes[:, i] for i in range(3))
