@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from panel_rows import edit, rows_of
 
-from sambot_viz import FrameError, Visualizer
+from sambot_viz import FrameError, Visualizer, load_robot
 from sambot_viz.errors import UsageError
+from sambot_viz.frames import Transform
 from sambot_viz.frames.static_transform import StaticTransformError
 from sambot_viz.panels.frames import FramesPanel, pasted_arguments
 from sambot_viz.panels.row import Level
@@ -16,6 +18,12 @@ from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
 
 LEFT = "drivewhl_l_link"
+FLOATS = """<robot name="floats">
+  <link name="ground"/><link name="drone"/>
+  <joint name="flies" type="floating">
+    <parent link="ground"/><child link="drone"/>
+  </joint>
+</robot>"""
 LASER = (0.1, 0, 0.2, 0, 0, 0.5, "base_link", "base_laser")
 
 
@@ -46,6 +54,8 @@ def test_where_the_wheel_is_in_the_body(panel: FramesPanel, viz: Visualizer) -> 
     x, y, z = (float(part) for part in str(found["frames/xyz"]).split())
     expected = viz.frames.lookup("base_link", LEFT).translation.tolist()
     assert [x, y, z] == pytest.approx(expected, abs=1e-6)
+    length = sum(part * part for part in expected) ** 0.5
+    assert float(str(found["frames/distance"])) == pytest.approx(length, abs=1e-6)
     assert len(str(found["frames/xyzw"]).split()) == 4
     assert len(str(found["frames/matrix/rows"]).splitlines()) == 4
 
@@ -135,6 +145,8 @@ def test_a_laser_is_hung_up_moved_and_removed(
         ("base_lnk", "laser", "did you mean 'base_link'"),
         ("base_link", "base_link", "its own parent"),
         (LEFT, "base_link", "ring"),
+        ("base_link", LEFT, "joint 'drivewhl_l_joint' already holds"),
+        ("base_link", f"/{LEFT}", "one parent"),
     ],
 )
 def test_a_wrong_entry_is_refused_with_the_reason(
@@ -144,6 +156,24 @@ def test_a_wrong_entry_is_refused_with_the_reason(
     with pytest.raises((UsageError, FrameError), match=reason):
         edit(panel, "frames/add", [0, 0, 0, 0, 0, 0, parent, child])
     assert set(viz.frames.frames) == before
+
+
+def test_a_frame_that_drive_moves_has_its_parent(
+    panel: FramesPanel, session: Session
+) -> None:
+    session.add_frame("odom", "base_link", Transform.identity(), static=False)
+    with pytest.raises(UsageError, match="Drive already holds 'base_link' in 'odom'"):
+        edit(panel, "frames/add", [0, 0, 0, 0, 0, 0, "map", "base_link"])
+
+
+def test_a_floating_joint_leaves_its_child_to_others(
+    panel: FramesPanel, viz: Visualizer, session: Session, tmp_path: Path
+) -> None:
+    model = tmp_path / "floats.urdf"
+    model.write_text(FLOATS, "utf-8")
+    session.show_robot(load_robot(model))
+    edit(panel, "frames/add", [1, 0, 0, 0, 0, 0, "ground", "drone"])
+    assert viz.frames.lookup("ground", "drone").translation.tolist() == [1, 0, 0]
 
 
 def test_a_wrong_paste_is_refused_as_the_tool_itself_does(panel: FramesPanel) -> None:

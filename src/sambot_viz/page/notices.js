@@ -19,8 +19,8 @@ export const refusals = new Map();
 /** @param {string} id @param {string} [why] */
 export function refuse(id, why) {
   const told = [...refusals.keys()];
-  // What the server has refused elsewhere is over.
-  if (why && notice.value?.row && notice.value.row !== id) notice.set(null);
+  // What was refused before is over.
+  if (notice.value?.row && notice.value.text !== why) notice.set(null);
   refusals.clear();
   if (why) {
     refusals.set(id, why);
@@ -29,10 +29,15 @@ export function refuse(id, why) {
   for (const other of new Set([...told, id])) rows.notify(other);
 }
 
+/** Say why something was refused, at its place and in the status bar. @param {string} id @param {string} why */
+export function sayRefused(id, why) {
+  notice.set({ text: why, level: "error", row: id });
+  refuse(id, why);
+}
+
 // The next edit is the answer to a refusal; if it is refused too, the server says so again.
 rows.listen(EDITED, () => {
-  if (notice.value?.row) notice.set(null);
-  const [refused] = refusals.keys();
+  const refused = notice.value?.row || [...refusals.keys()][0];
   if (refused) refuse(refused);
 });
 
@@ -41,6 +46,5 @@ rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
 rows.listen("notice", () => {
   const said = rows.value("notice");
   if (!said || said.copy?.length) return;
-  notice.set(said);
-  if (said.row) refuse(said.row, said.text);
+  if (said.row) sayRefused(said.row, said.text); else notice.set(said);
 });

@@ -4,11 +4,10 @@
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
 import { Combo } from "../combo.js";
-import { refusals, refuse } from "../notices.js";
+import { refusals, refuse, sayRefused } from "../notices.js";
 import { parseNumber } from "../numbers.js";
 import { degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
 import { Tree } from "../tree.js";
-import { Why } from "../why.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 
@@ -40,21 +39,19 @@ const LENGTHS = ["x", "y", "z"], ANGLES = ["roll", "pitch", "yaw"];
 function Add({ children }) {
   folds.use();
   const open = isOpen("frames/form");
-  const why = useRow("frames/add") && (refusals.get("frames/add") || refusals.get("frames/paste"));
-  useRow("frames/paste");
-  const [wrong, setWrong] = useState("");
-  const said = wrong || why;
   return html`<div class="buttons">
       <button aria-expanded=${String(open)} onClick=${() => fold("frames/form", !open)}>Add static transform …</button>${children}
     </div>
-    ${open && html`<div class="refuses"><${Form} setWrong=${setWrong} />${said && html`<${Why} text=${said} />`}</div>`}`;
+    ${open && html`<${Form} />`}`;
 }
 
-/** @param {{setWrong: (why: string) => void}} props */
-function Form({ setWrong }) {
+function Form() {
   const inDegrees = degrees.use();
   useRow("names/frames");
   useRow("frames/from");
+  useRow("frames/add");
+  useRow("frames/paste");
+  const why = refusals.get("frames/add") || refusals.get("frames/paste");
   const form = useRef(/** @type {any} */ (null));
   const [parent, setParent] = useState(/** @type {string | null} */ (null));
   const within = parent ?? rows.value("frames/from") ?? "";
@@ -70,7 +67,7 @@ function Form({ setWrong }) {
   }, [count]);
   /** @param {string} name */
   const typed = (name) => form.current.querySelector(`[name=${name}]`).value;
-  const begin = () => { setWrong(""); refuse("frames/add"); refuse("frames/paste"); };
+  const begin = () => refuse("frames/add");
   /** @param {Event} event */
   const add = (event) => {
     event.preventDefault();
@@ -81,21 +78,22 @@ function Form({ setWrong }) {
     const numbers = [];
     for (const name of [...LENGTHS, ...ANGLES]) {
       const read = parseNumber(typed(name) || "0", LENGTHS.includes(name) ? "m" : angle);
-      if ("error" in read) return setWrong(`${name}: ${read.error}`);
+      if ("error" in read) return sayRefused("frames/add", `${name}: ${read.error}`);
       numbers.push(read.value);
     }
     return act("frames/add", [...numbers, within, typed("child")]);
   };
   /** @param {string} name @param {string} unit */
-  const number = (name, unit) => html`<label>${name} <input name=${name} inputmode="decimal" autocomplete="off"
+  const number = (name, unit) => html`<label><span>${name}</span> <input name=${name} inputmode="text" autocomplete="off"
     placeholder=${`0 ${unit}`} title=${`${name}, in ${unit} or with a unit behind it`} /></label>`;
   return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
     ${LENGTHS.map((name) => number(name, "m"))}
     ${ANGLES.map((name) => number(name, angle))}
-    <label class="wide">Parent <${Combo} label="Parent" value=${within} options=${rows.value("names/frames") || []} tab=${0} accept=${setParent} /></label>
-    <label class="wide">Child <input name="child" autocomplete="off" spellcheck=${false} placeholder="base_laser" /></label>
-    <label class="wide">Or paste <input name="pasted" autocomplete="off" spellcheck=${false} aria-label="Arguments of static_transform_publisher"
+    <label class="wide"><span>Parent</span> <${Combo} label="Parent" value=${within} options=${rows.value("names/frames") || []} tab=${0} accept=${setParent} /></label>
+    <label class="wide"><span>Child</span> <input name="child" autocomplete="off" spellcheck=${false} placeholder="base_laser" /></label>
+    <label class="wide"><span>Or paste</span> <input name="pasted" autocomplete="off" spellcheck=${false} aria-label="Arguments of static_transform_publisher"
       placeholder="x y z yaw pitch roll parent child" title="The arguments of static_transform_publisher, a command or a line of a launch file" /></label>
     <button class="wide" type="submit">Add</button>
+    <p class=${why ? "wide refused" : "wide"} role=${why ? "alert" : undefined}>${why || "Numbers may be pi/2, 90deg or 5cm; an empty field is 0."}</p>
   </form>`;
 }

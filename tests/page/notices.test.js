@@ -1,0 +1,36 @@
+// Why something was refused: at its place, and in the status bar.
+
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+import { EDITED, rows } from "../../src/sambot_viz/page/channel.js";
+import { notice, refusals, refuse, sayRefused, tell } from "../../src/sambot_viz/page/notices.js";
+
+beforeEach(() => { notice.set(null); refusals.clear(); });
+
+test("a second mistake takes the place of the first", () => {
+  sayRefused("frames/add", "name the child frame");
+  sayRefused("frames/add", "z: 'abc' is not a number");
+  assert.equal(notice.value?.text, "z: 'abc' is not a number");
+  assert.equal(refusals.get("frames/add"), "z: 'abc' is not a number");
+});
+
+test("what is refused in the page takes away what the server has refused", () => {
+  sayRefused("joint/a", "joint/a: there is no such joint");
+  refuse("joint/a", "4 rad is outside -1 … 1 rad");
+  assert.equal(notice.value, null);
+  assert.equal(refusals.get("joint/a"), "4 rad is outside -1 … 1 rad");
+});
+
+test("typing again, or the next edit, ends a refusal; other sentences stay", () => {
+  sayRefused("frames/add", "name the child frame");
+  refuse("frames/add");
+  assert.equal(notice.value, null);
+  sayRefused("displays/rename", "there is one of this name");
+  rows.notify(EDITED);
+  assert.equal(notice.value, null);
+  assert.equal(refusals.size, 0);
+  tell("Saved");
+  rows.notify(EDITED);
+  refuse("joint/a");
+  assert.equal(notice.value?.text, "Saved");
+});
