@@ -137,3 +137,9 @@ def test_task_44_see_more_of_the_scene(s: Desk) -> None:
     s.user.click_on(back)
     s.user.find("treegrid", "Joints")
     s.user.until(lambda: s.viewer.pixels().shape == before, AT_ONCE)
+    width = before[1]
+    for side in ("left", "right"):
+        s.user.click("button", f"Hide the {side} panels")
+        s.user.until(lambda: s.viewer.pixels().shape[1] > width + 250, AT_ONCE)
+        s.user.click("button", f"Show the {side} panels")
+        s.user.until(lambda: s.viewer.pixels().shape == before, AT_ONCE)
