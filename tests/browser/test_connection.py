@@ -11,39 +11,53 @@ from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
-LEFT = "drivewhl_l_joint"
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
 
-def test_the_page_says_that_the_server_is_gone_and_what_was_lost(
+def test_the_page_comes_back_to_a_program_that_was_started_again(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
     with Visualizer(port=0) as first:
         port = first.viser.get_port()
-        viewer = open_viewer(first.url)
+        viewer, other = open_viewer(first.url), open_viewer(first.url)
         # The browser reports every attempt to connect that fails.
-        viewer.expects_errors = True
+        viewer.expects_errors = other.expects_errors = True
         user = viewer.user
-        user.unfold("Displays", "Grid")
+        for names in (("RobotModel",), ("Links",), ("Links", "base_link")):
+            user.unfold("Displays", *names)
+        user.row("Displays", "Links", "base_link", "Parent joint")
         first.set_joint_positions({LEFT: 1.0})
-        user.until(lambda: number(viewer) == "1")
+        for page in (viewer, other):
+            page.user.until(lambda page=page: number(page) == "1")
         rows = user.rows("Displays")
         position = "__viserMutable.camera.position.toArray()"
         viewer.page.mouse.drag((600.0, 300.0), (640.0, 330.0))
         viewer.wait_until_drawn()
         camera = viewer.page.evaluate(position)
+        first.set_static_transform("base_link", "added", [0.0, 0.0, 1.0])
+        user.tab("Frames")
+        user.reads("added")
+        user.tab("Joints")
     user.reads("Connection lost. Trying again…")
     assert user.rows("Displays") == rows
-    # What is set meanwhile is kept and sent.
-    user.enter(user.row("Joints", "drivewhl_r_joint").one("textbox"), "0.5")
+    # What is set meanwhile is shown as such, and sent.
+    user.enter(user.row("Joints", RIGHT).one("textbox"), "0.5")
+    user.reads("A change waits and is sent then.")
+    user.unfold("Displays", "TF", "Frames")
     with Visualizer(port=port) as second:
-        user.reads("The connection is back. The program was started again")
-        user.until(lambda: second.joint_positions["drivewhl_r_joint"] == 0.5)
-        assert second.joint_positions[LEFT] == 0.0
-        user.until(lambda: number(viewer) == "0")
-        assert user.rows("Displays") == rows
+        user.reads("The connection is back. The program was started again.", 20.0)
+        user.reads("Lost: the static transform of added.")
+        user.until(lambda: dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5})
+        other.user.reads("The connection is back.", 20.0)
+        for page in (viewer, other):
+            page.user.until(lambda page=page: number(page) == "1")
+        user.row("Displays", "TF", "Frames", "drivewhl_l_link")
+        user.unfold("Displays", "TF", "Frames", fold=True)
+        user.until(lambda: user.rows("Displays") == rows)
         assert viewer.page.evaluate(position) == pytest.approx(camera)
         user.click("button", "OK")
         user.until(lambda: "connection is back" not in user.see().text)
+        assert dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5}
 
 
 def number(viewer: ViewerPage) -> str:

@@ -10,15 +10,17 @@ const fails = () => { /* Tried to send, but the websocket is not connected! */ }
 const page = { sendMessage: works };
 Object.assign(globalThis, { window: { __viserMutable: page } });
 
-const { act, CUT, goOnline, NOT_DONE, rows, send } = await import("../../src/sambot_viz/page/channel.js");
+const { act, CUT, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } = await import("../../src/sambot_viz/page/channel.js");
 
 rows.take("session", "rows", { base: 0, panels: { p: [
   { id: "a", in: "", kind: "float", value: 0 }, { id: "b", in: "", kind: "float", value: 0 },
-  { id: "do", in: "", kind: "action" }, { id: "p/unfold", in: "", kind: "action" },
+  { id: "c", in: "", kind: "color", value: [0, 0, 0] }, { id: "do", in: "", kind: "action" }, { id: "p/unfold", in: "", kind: "action" },
 ] } });
 /** @type {string[]} */
 const heard = [];
 for (const key of [CUT, NOT_DONE]) rows.listen(key, () => heard.push(key));
+rows.listen(CUT, goOffline);
+const back = () => { goOnline(); return sendHeldBack(); };
 
 test("an edit of the first moment without a connection is kept, and an action says that it is not done", () => {
   send("a", 1);
@@ -31,9 +33,11 @@ test("an edit of the first moment without a connection is kept, and an action sa
   act("do");
   act("p/unfold", ["x"]);
   assert.deepEqual(heard, [CUT, NOT_DONE]);
+  // What waits is shown.
+  assert.deepEqual([rows.value("a"), rows.value("b")], [1, 3]);
   page.sendMessage = works;
   received = [];
-  goOnline(true);
+  back();
   // What was sent just before may not have come through, and is sent again.
   assert.deepEqual(received, [["a", 1], ["b", 3]]);
 });
@@ -44,9 +48,33 @@ test("what was sent long before is not sent again, and nothing is sent twice", (
   send("a", 5);
   context.mock.method(performance, "now", () => 1e9 + 5000);
   act("do");
-  goOnline(false);
-  goOnline(true);
-  goOnline(false);
-  goOnline(true);
+  goOffline();
+  back();
+  goOffline();
+  back();
   assert.deepEqual(received, [["a", 5], ["do", []]]);
+});
+
+test("a colour that waits is shown when the page can read it", () => {
+  goOffline();
+  for (const [typed, shown] of [["#ff8000", [255, 128, 0]], ["1; 2; 3", [1, 2, 3]], ["red", [1, 2, 3]]]) {
+    send("c", typed);
+    assert.deepEqual(rows.value("c"), shown);
+  }
+  received = [];
+  back();
+  assert.deepEqual(received, [["c", "red"]]);
+});
+
+test("what waits goes to the row that it is now, waits on, or is dropped", () => {
+  goOffline();
+  for (const id of ["a", "b", "later"]) send(id, 7);
+  received = [];
+  goOnline();
+  /** @type {Record<string, any>} */
+  const now = { a: "x", b: null };
+  assert.equal(sendHeldBack((id) => now[id]), 1);
+  assert.deepEqual(received, [["x", 7]]);
+  assert.equal(sendHeldBack(), 0);
+  assert.deepEqual(received, [["x", 7], ["later", 7]]);
 });

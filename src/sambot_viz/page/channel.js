@@ -6,7 +6,7 @@
  * that uses viser's names for that.
  */
 
-import { Rows } from "./rows.js";
+import { Rows, same } from "./rows.js";
 
 export const rows = new Rows();
 export const CHANNEL = "sambot-viz";
@@ -15,6 +15,10 @@ export const CHANNEL = "sambot-viz";
 export const EDITED = "edited";
 /** There is no connection any more: what was sent meanwhile shows it first. */
 export const CUT = "cut";
+/** There is a connection again. */
+export const ONLINE = "online";
+/** Another edit waits for the connection. */
+export const WAITING = "waiting";
 /** An action was not done, for want of a connection. */
 export const NOT_DONE = "not done";
 /** The action that reports where the mouse is. */
@@ -43,14 +47,13 @@ export function send(id, value, gesture) {
   if (!byItself(id)) rows.notify(EDITED);
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
   const action = rows.get(id)?.kind === "action", there = isConnected();
-  if (online && !there && sent.size) {
-    goOnline(false);
-    rows.notify(CUT);
-  }
+  // Who hears it notes how things were, and holds edits back.
+  if (online && !there && sent.size) rows.notify(CUT);
   if (online) {
     post(edit);
+    waiting.delete(id);
     if (there) sent.set(id, { edit, at: action ? -Infinity : performance.now() });
-  } else if (!action) waiting.set(id, edit);
+  } else if (!action) holdBack([edit]);
   else if (!byItself(id)) rows.notify(NOT_DONE);
 }
 
@@ -65,6 +68,9 @@ const sent = new Map();
 /** The last edit of each row since the connection was lost; they are sent as soon as it is back.
  * @type {Map<string, any[]>} */
 const waiting = new Map();
+
+/** The edits that wait for the connection. */
+export const heldBack = () => [...waiting.values()];
 
 /** Whether there is a connection. */
 export function isConnected() {
@@ -84,14 +90,54 @@ export function disconnect() {
   worker?.terminate();
 }
 
-/** Hold edits back, or send what was held back. @param {boolean} now */
-export function goOnline(now) {
-  online = now;
-  for (const [id, { edit, at }] of sent) if (!now && performance.now() - at < DOUBTFUL) waiting.set(id, edit);
+/** Hold edits back from now on. */
+export function goOffline() {
+  online = false;
+  const doubtful = [...sent.values()].filter(({ edit: [id, value], at }) =>
+    performance.now() - at < DOUBTFUL && !same(rows.value(id), shown(id, value)));
   sent.clear();
-  if (!now) return;
-  for (const edit of waiting.values()) post(edit);
-  waiting.clear();
+  holdBack(doubtful.map(({ edit }) => edit));
+}
+
+/** Let edits wait, and show what they set. @param {any[][]} edits */
+export function holdBack(edits) {
+  for (const edit of edits) {
+    const [id, value] = edit, seen = shown(id, value);
+    waiting.set(id, edit);
+    if (seen !== undefined) rows.hope(id, seen);
+  }
+  if (edits.length) rows.notify(WAITING);
+}
+
+/** What a row shows when an edit sets it, as far as the page knows. @param {string} id @param {any} value */
+function shown(id, value) {
+  if (rows.get(id)?.kind !== "color" || typeof value !== "string") return value;
+  const hex = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(value);
+  const parts = hex ? hex.slice(1).map((part) => parseInt(part, 16)) : value.split(";").map(Number);
+  return parts.length === 3 && parts.every(Number.isFinite) ? parts : undefined;
+}
+
+/** Send edits from now on. */
+export function goOnline() {
+  online = true;
+  rows.notify(ONLINE);
+}
+
+/**
+ * Send what was held back.
+ * @param {(id: string) => string | null | undefined} [now] the id that a row has now; null when
+ *   it is not there any more, undefined when it may still come
+ * @returns {number} how many edits were dropped, for want of their row
+ */
+export function sendHeldBack(now = (id) => id) {
+  let dropped = 0;
+  for (const [id, edit] of [...waiting]) {
+    const there = now(id);
+    if (there === undefined) continue;
+    waiting.delete(id);
+    if (there === null) dropped += 1; else post([there, ...edit.slice(1)]);
+  }
+  return dropped;
 }
 
 /** Do what an action row does, if it can be done now. @param {string} id @param {any[]} [args] */

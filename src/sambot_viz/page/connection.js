@@ -6,8 +6,13 @@
  * was shown: it would stay connected, and count as one that is looked at. */
 
 import { html } from "./vendor/preact.js";
-import { CUT, disconnect, goOnline, isConnected, rows, send } from "./channel.js";
-import { Cell, folds } from "./state.js";
+import { act, CUT, disconnect, goOffline, goOnline, heldBack, holdBack, isConnected, rows, send, sendHeldBack, WAITING } from "./channel.js";
+import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember } from "./comeback.js";
+import { hasDisk } from "./files.js";
+import { Cell, folds, useRow } from "./state.js";
+
+/** @typedef {import("./comeback.js").Memory} Memory */
+/** @typedef {Memory & {view: [string, any][], waiting: any[][], stuck: boolean}} Kept what a page that is loaded again has kept */
 
 /** How often the page looks [ms]. */
 const PERIOD = 250;
@@ -18,21 +23,25 @@ const KEPT = "sambot-viz-again";
 /** How long the page says that the connection is back [ms]. */
 const BACK = 8000;
 
-/** What is said over the view. @type {Cell<{text: string, level: string, close?: boolean} | null>} */
-const said = new Cell(/** @type {{text: string, level: string, close?: boolean} | null} */ (null));
+/** What is said over the view: that the connection is lost, or what came back.
+ * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
+const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
 export function followConnection() {
-  let was = false, lost = false;
-  /** The session that the rows are of. @type {any} */
-  let session;
+  let was = false, lost = false, stuck = false;
   let kept = takeKept();
+  /** How things were before the connection was lost. @type {Memory | null} */
+  let before = kept;
+  /** What waits for the robot, which may come later than the page. */
+  let whenJoints = () => {};
   const cut = () => {
     if (lost) return;
     lost = true;
-    goOnline(false);
-    said.set({ text: "Connection lost. Trying again…", level: "error" });
-    startAgainWhenStuck(() => lost, () => session);
+    before = remember();
+    goOffline();
+    said.set("lost");
+    startAgainWhenStuck(() => lost, () => { stuck = true; location.reload(); });
   };
   rows.listen(CUT, cut);
   setInterval(() => {
@@ -42,29 +51,57 @@ export function followConnection() {
   }, PERIOD);
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
-    const now = rows.value("names/session"), before = session;
-    session = now;
-    if (!lost && !kept) return;
-    lost = false;
-    goOnline(true);
-    const known = kept ? kept.session : before?.id, silent = kept?.left;
+    if (!before || !(lost || kept)) return;
+    const then = before, silent = kept && !kept.stuck, again = rows.value("names/session");
     if (kept) bringBack(kept.view);
+    lost = false;
     kept = null;
-    if (known === now?.id && silent) return;
-    if (known === now?.id) {
-      const back = { text: "The connection is back.", level: "ok" };
-      said.set(back);
-      setTimeout(() => { if (said.value === back) said.set(null); }, BACK);
-    } else said.set({ text: `The connection is back. ${now?.lost || ""}`, level: "warn", close: true });
+    goOnline();
+    if (then.session === again?.id) {
+      sendHeldBack();
+      if (!silent) say("", then, 0);
+      return;
+    }
+    folds.set(foldsNow(then, folds.value));
+    const there = idsNow(then);
+    const flush = () => sendHeldBack((id) => {
+      const now = there(id);
+      if (now && rows.get(now)) return now;
+      return now?.startsWith("j/") && !hasJoints() ? undefined : null;
+    });
+    whenJoints = () => {
+      if (!hasJoints()) return;
+      whenJoints = () => {};
+      const [moved, positions] = jointsToBringBack(then);
+      if (moved.length && rows.value("joints/again")) act("joints/again", [moved, positions]);
+      flush();
+    };
+    whenJoints();
+    say(again?.again || "", then, flush(), Boolean(silent));
   });
-  addEventListener("pagehide", (event) => { if (event.persisted) disconnect(); });
-  addEventListener("pageshow", (event) => { if (event.persisted) startAgain(session, true); });
+  rows.listen("panel:joints_again", () => whenJoints());
+  addEventListener("pagehide", (event) => {
+    const now = lost && before ? before : remember();
+    if (kept || now.session) keep(kept || { ...now, folds: folds.value, view: viewValues(), waiting: heldBack(), stuck });
+    if (event.persisted) disconnect();
+  });
+  addEventListener("pageshow", (event) => { if (event.persisted) location.reload(); });
 }
 
-/** Load the page again, with what it shows. @param {any} session @param {boolean} left whether a user had left the page */
-function startAgain(session, left) {
-  sessionStorage.setItem(KEPT, JSON.stringify({ session: session?.id, view: viewValues(), folds: folds.value, left }));
-  location.reload();
+/** Say that the connection is back, and what is not as before.
+ * @param {string} again why @param {Memory} before @param {number} dropped edits @param {boolean} [quiet] when all is as before */
+function say(again, before, dropped, quiet = false) {
+  const lost = lostOf(before), other = otherConfig(before);
+  if (dropped) lost.push(dropped > 1 ? `${dropped} changes that you made meanwhile` : "a change that you made meanwhile");
+  if (quiet && !lost.length && !other) return said.set(null);
+  const back = { text: `The connection is back. ${again}`.trim(), lost, other, before };
+  said.set(back);
+  if (!lost.length && !other) setTimeout(() => { if (said.value === back) said.set(null); }, BACK);
+}
+
+/** Keep what a page that is loaded again has to know. @param {Kept} kept */
+function keep(kept) {
+  try { sessionStorage.setItem(KEPT, JSON.stringify(kept)); } catch { /* private windows have none */ }
 }
 
 /** The rows of this page's view that can be set, and their values. @returns {[string, any][]} */
@@ -73,24 +110,27 @@ function viewValues() {
     .map((row) => /** @type {[string, any]} */ ([row?.id, row?.value]));
 }
 
-/** @param {() => boolean} lost @param {() => any} session */
-function startAgainWhenStuck(lost, session) {
+/** @param {() => boolean} lost @param {() => void} startAgain loads the page again */
+function startAgainWhenStuck(lost, startAgain) {
   let answered = 0;
   const look = setInterval(async () => {
     if (!lost()) return clearInterval(look);
     const there = await fetch("./", { cache: "no-cache" }).then((answer) => answer.ok, () => false);
     if (!there) answered = 0;
     else if (!answered) answered = Date.now();
-    else if (lost() && Date.now() - answered > STUCK) startAgain(session(), false);
+    else if (lost() && Date.now() - answered > STUCK) startAgain();
   }, STUCK / 3);
 }
 
-/** What the page has kept, once. @returns {{session: any, view: [string, any][], folds: any, left: boolean} | null} */
+/** What the page has kept, once. @returns {Kept | null} */
 function takeKept() {
   try {
     const kept = JSON.parse(sessionStorage.getItem(KEPT) || "null");
     sessionStorage.removeItem(KEPT);
-    if (kept) folds.set(kept.folds);
+    if (kept) {
+      folds.set(kept.folds);
+      holdBack(kept.waiting);
+    }
     return kept;
   } catch { return null; }
 }
@@ -108,9 +148,38 @@ function bringBack(values) {
   setTimeout(set, 1000);
 }
 
+/** Open the config that was open before, with the rows that were unfolded. @param {Memory} before */
+function openAgain(before) {
+  const stop = rows.listen("names/document", () => {
+    stop();
+    folds.set(foldsNow(before, before.folds));
+    said.set(null);
+  });
+  act("file/open", [before.file.name]);
+}
+
 /** The sentence over the view. */
 export function Connection() {
   const now = said.use();
-  return html`<div class="connection" role="status" aria-live="assertive">${now && html`<p class=${`l-${now.level}`}>${now.text}
-    ${now.close && html`<button onClick=${() => said.set(null)}>OK</button>`}</p>`}</div>`;
+  return html`<div class="connection" role="status" aria-live="assertive">
+    ${now === "lost" ? html`<${Lost} />` : now && html`<${Back} ...${now} />`}</div>`;
+}
+
+function Lost() {
+  useRow(WAITING);
+  const count = heldBack().length;
+  const waits = count > 1 ? ` ${count} changes wait and are sent then.` : count ? " A change waits and is sent then." : "";
+  return html`<p class="l-error">Connection lost. Trying again…${waits}</p>`;
+}
+
+/** @param {{text: string, lost: string[], other: Memory["file"] | null, before: Memory}} props */
+function Back({ text, lost, other, before }) {
+  const file = useRow("file/state")?.value || {};
+  const same = file.name === other?.name && file.folder === other?.folder;
+  const can = other && !same && other.own && other.folder === file.folder && hasDisk();
+  return html`<p class=${lost.length || other ? "l-warn" : "l-ok"}>${text}
+    ${lost.length > 0 && ` Lost: ${listed(lost)}.`}
+    ${other && !same && ` The config ${file.name || "without a file"} is open now; before, it was ${other.name}.`}
+    ${can && html`<button onClick=${() => openAgain(before)}>Open ${other.name}</button>`}
+    ${(lost.length > 0 || other) && html`<button onClick=${() => said.set(null)}>OK</button>`}</p>`;
 }

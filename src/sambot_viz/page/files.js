@@ -65,10 +65,13 @@ export function followFile() {
     if (state().private && state().modified) event.preventDefault();
   });
   // A document that was opened or read again is unfolded as its file says.
-  let shown = rows.value("names/document");
-  rows.listen("names/document", () => {
-    const now = rows.value("names/document");
-    if (shown !== undefined && now !== undefined && now !== shown) folds.set({});
-    shown = now ?? shown;
-  });
+  const current = () => ({ session: rows.value("names/session")?.id, document: rows.value("names/document") });
+  let shown = current();
+  const look = () => {
+    const now = current();
+    // A program that was started again counts from 0.
+    if (shown.document !== undefined && now.session === shown.session && now.document !== shown.document) folds.set({});
+    shown = now;
+  };
+  for (const id of ["names/session", "names/document"]) rows.listen(id, look);
 }

@@ -2,7 +2,7 @@
 /* A panel's rows as RViz's property tree: a tree grid with the keys of one. */
 
 import { html, useLayoutEffect, useRef, useState } from "./vendor/preact.js";
-import { act, rows, send } from "./channel.js";
+import { act, ONLINE, rows, send } from "./channel.js";
 import { copy } from "./clipboard.js";
 import { isTyping } from "./keys.js";
 import { Menu } from "./menu.js";
@@ -192,6 +192,9 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
  * @param {string} panel @param {{id: string}[]} shown */
 function useLazy(panel, shown) {
   const asked = useRef(new Set());
+  // Who answers now may not have heard what was asked before, or without a connection.
+  useRow(ONLINE);
+  useLayoutEffect(() => rows.listen(ONLINE, () => asked.current.clear()), []);
   useLayoutEffect(() => {
     for (const { id } of shown) {
       if (!rows.get(id)?.lazy) asked.current.delete(id);

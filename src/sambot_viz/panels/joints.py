@@ -85,10 +85,11 @@ class JointsPanel(Panel):
         if joints is None:
             return {}
         values: dict[str, Any] = {
-            _id(name): position for name, position in joints.all_positions().items()
+            joint_id(name): position
+            for name, position in joints.all_positions().items()
         }
         values["joints/over"] = list(joints.over_limit())
-        values["joints/turning"] = [_id(n) for n in self._session.motion.turning]
+        values["joints/turning"] = [joint_id(n) for n in self._session.motion.turning]
         return values
 
     # The joints
@@ -106,7 +107,7 @@ class JointsPanel(Panel):
     def _slider(self, joint: Joint, position: float, above: str) -> Row:
         lower, upper = sorted(joint.range)
         return Row(
-            _id(joint.name),
+            joint_id(joint.name),
             above,
             "slider",
             joint.name,
@@ -227,7 +228,7 @@ def _followers(joints: JointState) -> Iterator[Row]:
         joint, mimic = joints.joints[name], follower.mimic
         lower, upper = sorted(joint.range) if joint.limit is not None else (None, None)
         yield Row(
-            _id(name),
+            joint_id(name),
             FOLLOWERS,
             "slider",
             name,
@@ -237,7 +238,7 @@ def _followers(joints: JointState) -> Iterator[Row]:
             most=upper,
             help=_help(joint),
             extra={
-                "follows": _id(mimic.joint),
+                "follows": joint_id(mimic.joint),
                 "times": mimic.multiplier,
                 "plus": mimic.offset,
             },
@@ -261,7 +262,8 @@ def _action(row_id: str, act: Callable[[Any], object], *takes: type) -> Row:
     return Row(row_id, "", "action", takes=takes, set=act)
 
 
-def _id(name: str) -> str:
+def joint_id(name: str) -> str:
+    """The id of a joint's row."""
     return f"{_PREFIX}{name}"
 
 

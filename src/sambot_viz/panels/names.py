@@ -13,7 +13,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
 from sambot_viz.session import Session
 
-_STARTED_AGAIN, _PRIVATE = "The program was started again", "This page begins again"
+_STARTED_AGAIN, _PRIVATE = "The program was started again.", "This page begins again."
 
 
 class NamesPanel(Panel):
@@ -32,8 +32,7 @@ class NamesPanel(Panel):
         private = isinstance(session.audience, viser.ClientHandle)
         self._session_value = {
             "id": secrets.token_hex(8),
-            "lost": f"{_PRIVATE if private else _STARTED_AGAIN}: joints, added frames "
-            "and unsaved changes are as it started.",
+            "again": _PRIVATE if private else _STARTED_AGAIN,
         }
         self._document = weakref.ref(session.config)
         self._documents = 0

@@ -12,6 +12,7 @@ from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints import JointsPanel
+from sambot_viz.panels.joints_again import JointsAgainPanel
 from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
@@ -60,6 +61,7 @@ class Window:
         panels.append(NewDisplaysPanel(session, self._displays, self._remake))
         if joints:
             panels.append(JointsPanel(session, self._remake))
+            panels.append(JointsAgainPanel(session, lambda id: self._shared.row(id)))
             panels.append(PosesPanel(session, self._remake))
             panels.append(DrivePanel(session))
         return panels

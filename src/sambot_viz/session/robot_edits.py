@@ -70,12 +70,24 @@ class RobotEdits(DisplayEdits):
         """The positions of its joints; move them with the methods of the session."""
         return self._posed.joints
 
+    @property
+    def first_positions(self) -> Mapping[str, float]:
+        """Joint → its position before anything has moved it [rad or m]."""
+        return self._posed.first
+
+    @property
+    def joints_moved(self) -> bool:
+        """Whether anything has moved a joint since the start."""
+        return self._posed.moved
+
     # Joints
 
-    def set_joint_positions(self, positions: Mapping[str, float]) -> None:
+    def set_joint_positions(
+        self, positions: Mapping[str, float], label: str = ""
+    ) -> None:
         """Move some joints, as an edit that can be undone; see `move`."""
         names = tuple(positions)
-        label = f"Move {names[0]}" if len(names) == 1 else "Move joints"
+        label = label or (f"Move {names[0]}" if len(names) == 1 else "Move joints")
         self._move_joints(label, partial(self._posed.move, positions, {}), names)
 
     def use_pose(self, name: str) -> tuple[str, ...]:

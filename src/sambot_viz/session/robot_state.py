@@ -25,11 +25,15 @@ class RobotState:
     Attributes:
         robot: what is shown, or None before the first robot.
         joints: the positions of its joints.
+        first: joint → its position before anything has moved it [rad or m].
+        moved: whether anything has moved a joint.
     """
 
     def __init__(self, tree: FrameTree, added: UserFrames) -> None:
         self.robot: Robot | None = None
         self.joints: JointState | None = None
+        self.first: dict[str, float] = {}
+        self.moved = False
         self._tree = tree
         self._added = added
         self._moved: dict[str, None] = {}
@@ -42,6 +46,8 @@ class RobotState:
             self.joints = start.state(robot)
         else:
             self.joints.reload(robot)
+        known = self.first
+        self.first = {n: known.get(n, q) for n, q in self.joints.positions.items()}
 
     def build_tree(self) -> tuple[Problem, ...]:
         """Set the frames of the robot, then the added ones; returns refused ones."""
@@ -106,6 +112,7 @@ class RobotState:
 
     def _note(self, joints: Iterable[str]) -> None:
         self._moved.update(dict.fromkeys(joints))
+        self.moved = self.moved or bool(self._moved)
 
     def _joint_frames(self, moved: Iterable[str]) -> dict[str, Matrix]:
         robot, joints = self.robot, self.joints

@@ -226,7 +226,9 @@ def cut_off(desk: Desk) -> list[str]:
 def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
     user, port = own.user, own.viz.viser.get_port()
     own.viewer.expects_errors = True
-    user.unfold("Displays", "Grid")
+    user.unfold("Displays", "RobotModel")
+    user.unfold("Displays", "Links")
+    user.row("Displays", "Links", "drivewhl_l_link")
     user.enter(user.row("Joints", LEFT).one("textbox"), "1")
     user.until(lambda: own.viz.joint_positions[LEFT] == 1.0)
     user.enter(user.row("Views", "Yaw").one("textbox"), "2")
@@ -235,18 +237,19 @@ def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
     own.viz.stop()
     user.reads("Connection lost")
     own.viz = Visualizer(own.model, port=port, watch=True)
-    user.reads("connection is back", 20.0)
+    user.reads("The connection is back. The program was started again.", 20.0)
+    user.until(lambda: own.viz.joint_positions[LEFT] == 1.0)
+    user.until(lambda: field(own.viewer) == "1")
     user.until(lambda: user.rows("Displays") == rows)
     assert user.row("Views", "Yaw").one("textbox").value == "2"
-    if user.there("button", "OK"):
-        user.click("button", "OK")
+    assert "Lost:" not in user.see().text
     # A page that is loaded again in the middle of a drag.
     slider = user.row("Joints", LEFT).one("slider")
     x, y = user.go_to(slider)
     own.page.mouse.move(x, y)
     own.page.mouse.press()
     own.page.mouse.move(x + 10, y)
-    user.until(lambda: own.viz.joint_positions[LEFT] != 0.0)
+    user.until(lambda: own.viz.joint_positions[LEFT] != 1.0)
     own.page.goto(own.viewer.url)
     own.page.mouse.release()
     held = own.viz.joint_positions[LEFT]
@@ -256,5 +259,8 @@ def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
             == pytest.approx(held, abs=1e-4)
         )
     )
+    assert own.viz.joint_positions[LEFT] == held != 1.0
+    user.until(lambda: user.rows("Displays") == rows)
+    user.until(lambda: user.row("Views", "Yaw").one("textbox").value == "2")
     user.click("button", re.compile("^Center$"))
     user.until(lambda: own.viz.joint_positions[LEFT] == 0.0)
