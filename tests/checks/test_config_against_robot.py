@@ -23,6 +23,7 @@ Visualization Manager:
   Displays:
     - Class: rviz_default_plugins/RobotModel
       Description Topic:
+        Depth: 1
         Durability Policy: Transient Local
         Value: /robot_description
       Enabled: true
@@ -60,7 +61,7 @@ def test_a_fixed_frame_that_does_not_exist_is_pointed_at(checked: Checked) -> No
 
     assert problem.code == "setup-fixed-frame"
     assert problem.severity == "warning"
-    assert (problem.line, problem.column) == (10, 18)
+    assert (problem.line, problem.column) == (11, 18)
     assert problem.hint == "choose base_link, the root of this robot"
 
 
@@ -72,24 +73,33 @@ def test_a_volatile_description_is_pointed_at(checked: Checked) -> None:
     (problem,) = checked(GOOD.replace("Transient Local", "Volatile"))
 
     assert problem.code == "setup-description-volatile"
-    assert problem.line == 5
+    assert problem.line == 6
+    assert "Depth is not 5" in problem.message
+
+
+def test_what_rviz_itself_saves_is_no_problem(checked: Checked) -> None:
+    config = GOOD.replace("Transient Local", "Volatile")
+
+    assert checked(config.replace("Depth: 1", "Depth: 5")) == []
+    assert checked(config.replace("        Depth: 1\n", "")) == []
+    assert checked(config.replace("Depth: 1", "Reliability Policy: Best Effort"))
 
 
 def test_a_description_from_another_topic_is_pointed_at(checked: Checked) -> None:
     (problem,) = checked(GOOD.replace("/robot_description", "/robot"))
 
     assert problem.code == "setup-description-topic"
-    assert problem.line == 6
+    assert problem.line == 7
 
 
 def test_a_display_in_a_group_is_found(checked: Checked) -> None:
     listed = GOOD.replace("Transient Local", "Volatile").splitlines(keepends=True)
-    inner = [f"    {line}" for line in listed[2:8]]
+    inner = [f"    {line}" for line in listed[2:9]]
     group = "    - Class: rviz_common/Group\n      Name: G\n      Displays:\n"
 
-    (problem,) = checked("".join([*listed[:2], group, *inner, *listed[8:]]))
+    (problem,) = checked("".join([*listed[:2], group, *inner, *listed[9:]]))
 
-    assert problem.line == 8
+    assert problem.line == 9
 
 
 @pytest.mark.parametrize(
@@ -108,25 +118,18 @@ def test_a_config_without_a_robot_model_is_reported(
     assert said in problem.message
 
 
-@pytest.mark.parametrize(
-    ("name", "line", "word"),
-    [
-        ("fixed-frame-map.rviz", 11, "map"),
-        ("description-topic-volatile.rviz", 6, "Volatile"),
-    ],
-)
-def test_the_bad_configs_of_the_collection_are_explained(
-    shared: Path, robot: Robot, name: str, line: int, word: str
+def test_the_bad_config_of_the_collection_is_explained(
+    shared: Path, robot: Robot
 ) -> None:
-    folder = shared / "data" / "bad-models" / "launch"
-    config = RvizConfig.load(folder / name, Declarations())
+    file = shared / "data" / "bad-models" / "launch" / "fixed-frame-map.rviz"
+    config = RvizConfig.load(file, Declarations())
 
     (problem,) = check_config(robot, config)
 
     assert problem.severity == "warning"
     assert problem.line is not None
-    assert abs(problem.line - line) <= 1
-    assert word in problem.message
+    assert abs(problem.line - 11) <= 1
+    assert "map" in problem.message
 
 
 def test_a_launch_file_in_which_no_node_publishes_joints_is_explained(

@@ -62,6 +62,12 @@ def test_the_hint_is_that_of_the_tool(panel: ToolsPanel) -> None:
     assert rows_of(panel)["tools/hint"].value == rows_of(panel)["tool/Select"].help
 
 
+def test_fingers_have_a_hint_of_their_own(panel: ToolsPanel) -> None:
+    rows = rows_of(panel)
+    assert "Left" in rows["tools/hint"].value
+    assert (rows["tools/hint"].extra or {})["touch"].startswith("One finger")
+
+
 def test_there_is_no_such_tool(panel: ToolsPanel) -> None:
     with pytest.raises(UsageError, match="no tool 'Paint'"):
         edit(panel, "tools/press", ["Paint"])

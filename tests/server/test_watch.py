@@ -17,6 +17,7 @@ from sambot_viz.errors import Problem
 from sambot_viz.server import watch
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
+from sambot_viz.session.shown_problems import last_good_note
 
 Changes = queue.Queue[frozenset[Path]]
 LEFT = "drivewhl_l_joint"
@@ -423,6 +424,15 @@ def test_what_is_not_a_file_in_place_of_the_model_ends_nothing(
     replace(sam_bot.model, content.replace("front_caster", "rear_caster"))
     sam_bot.wait_for(lambda: "rear_caster" in sam_bot.viz.frames.frames)
     sam_bot.wait_for(lambda: sam_bot.failed == [])
+
+
+def test_a_model_that_is_deleted_is_said_to_be_gone(sam_bot: Followed) -> None:
+    content = sam_bot.model.read_text("utf-8")
+    sam_bot.model.unlink()
+    gone = "Showing the last good version: sam_bot.urdf.xacro is gone."
+    sam_bot.wait_for(lambda: last_good_note(sam_bot.session) == gone)
+    replace(sam_bot.model, content)
+    sam_bot.wait_for(lambda: last_good_note(sam_bot.session) == "")
 
 
 def test_a_session_that_fails_does_not_keep_the_others_from_a_save(

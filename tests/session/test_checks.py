@@ -83,6 +83,20 @@ def test_a_fixed_frame_that_a_static_transform_brings_is_not_a_problem(
         assert codes(viz) == ["limit-in-degrees"]
 
 
+def test_a_display_that_is_switched_on_or_removed_is_checked_again(
+    model: Path, config: Path
+) -> None:
+    config.write_text(CONFIG.replace("true", "false").replace("lnk", "link"))
+    with Visualizer(model, config, port=0) as viz:
+        session = session_of(viz)
+        (display,) = session.displays
+        assert codes(viz) == ["limit-in-degrees", "setup-no-robot-model"]
+        session.set_enabled(display, True)
+        assert codes(viz) == ["limit-in-degrees"]
+        session.remove_display(display.config)
+        assert codes(viz) == ["limit-in-degrees", "setup-no-robot-model"]
+
+
 def test_a_private_session_lists_the_same(
     model: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from sambot_viz.bundled import is_bundled
 from sambot_viz.errors import Place, Problem, did_you_mean
 from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import QOS_PROPERTIES
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
 
 if TYPE_CHECKING:
@@ -106,17 +107,31 @@ def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
             f"robot_state_publisher publishes it on /{_DESCRIPTION}",
             f"write Value: /{_DESCRIPTION}",
         )
+    yield from _volatile(display, topic, file)
+
+
+def _volatile(
+    display: DisplayConfig, topic: Node, file: str | None
+) -> Iterator[Problem]:
+    """RViz shows Volatile, but asks for old descriptions until a value differs."""
     durability = topic.get("Durability Policy") if isinstance(topic, Map) else None
-    if _text(durability) == "Volatile":
+    if not isinstance(topic, Map) or _text(durability) != "Volatile":
+        return
+    for known in QOS_PROPERTIES:
+        written = _text(topic.get(known.name))
+        if not written or written == str(known.default):
+            continue
         yield Problem.at(
             _place(file, durability),
             "warning",
             "setup-description-volatile",
             f"the display {display.name} reads the robot with the Durability Policy "
-            "Volatile: RViz then misses the description, which is published only "
+            f"Volatile, which counts in RViz because {known.name} is not "
+            f"{known.default}: it misses the description, which is published only "
             "once, and shows nothing and no error",
             "write Durability Policy: Transient Local",
         )
+        return
 
 
 def _text(node: Node | None) -> str:

@@ -25,13 +25,13 @@ export function focusWhole(event) {
 /**
  * A line of text that is accepted by Enter or by leaving it, and put back by Esc.
  * @param {{row: Row, shown: string, accept: (typed: string) => string | void, tab: number,
- *   full?: string, step?: (count: number) => void, settle?: () => void, grab?: (event: any) => void, mode?: string, kind?: string, title?: string}} props
+ *   full?: string, step?: (count: number) => void, settle?: () => void, grab?: (event: any) => void, kind?: string, title?: string}} props
  *   accept: returns why a text is refused
  *   full: what is shown while it has the focus, when `shown` leaves something out
  *   step: changes the value by so many steps; settle: the key is up again
  *   grab: a press that may become a drag
  */
-export function Field({ row, shown, full = shown, accept, tab, step, settle, grab, mode, kind = "", title }) {
+export function Field({ row, shown, full = shown, accept, tab, step, settle, grab, kind = "", title }) {
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
   const element = useRef(/** @type {any} */ (null));
@@ -79,7 +79,7 @@ export function Field({ row, shown, full = shown, accept, tab, step, settle, gra
   };
   return html`<input class=${`field ${kind}`} ref=${element} tabindex=${tab}
     aria-label=${row.name || ""} aria-invalid=${why ? "true" : undefined} title=${why || title}
-    inputmode=${mode} spellcheck=${false} autocomplete="off" readonly=${row.fixed} disabled=${row.off}
+    spellcheck=${false} autocomplete="off" readonly=${row.fixed} disabled=${row.off}
     onFocus=${(/** @type {any} */ e) => { if (!typing.current) put(); e.target.select(); }} onMouseDown=${focusWhole} onPointerDown=${grab}
     onInput=${() => { typing.current = true; if (why) refuse(row.id); }}
     onKeyDown=${key} onKeyUp=${settle} onBlur=${() => { if (typing.current) done(); else put(); settle?.(); }} />`;

@@ -35,14 +35,19 @@ export function open() { if (hasDisk()) { takeTyped(); show(OpenConfig); } }
 export function download() { takeTyped(); act("file/download"); }
 export function saveImage() { show(SaveImage); }
 
+/** A name of more characters may be cut before its last ones. */
+const LONG = 24, TAIL = 14;
+
 /** The name of the file, with a star after an edit; also the title of the page. */
 export function FileName() {
   const { name, own, modified } = useRow("file/state")?.value || {};
   const shown = (name || "no file yet") + (modified ? "*" : "");
   useEffect(() => { document.title = `${shown} - sambot-viz`; }, [shown]);
-  // In a narrow window the end is seen, with the star.
+  // Of a long name the middle is left out: its end has the star.
+  const tail = shown.length > LONG ? shown.slice(-TAIL) : "";
   const where = own ? "" : name ? "This config comes with the program; saving asks for a name." : "";
-  return html`<span class="file-name" title=${[modified ? "With changes that are not saved." : "Saved.", where].join(" ")}><bdi dir="ltr">${shown}</bdi></span>`;
+  const title = `${name || "no file yet"}: ${modified ? "with changes that are not saved." : "without changes."} ${where}`;
+  return html`<span class="file-name" title=${title}><bdi>${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
 }
 
 /** The keys of the file menu, which also act while a text is typed. */

@@ -109,7 +109,7 @@ function NumberField({ row, tab, held, room }) {
   const slider = row.kind === "slider", number = held.value * factor, few = (slider ? 4 : 6) - (factor === 1 ? 0 : 2);
   const shown = room ? fittingNumber(number, few, room) : formatNumber(number, few), exact = formatNumber(number, 9);
   return html`<span class="number">
-    <${Field} row=${row} tab=${tab} kind="num" mode="decimal" accept=${accept} title=${exact === shown ? "" : exact}
+    <${Field} row=${row} tab=${tab} kind="num" accept=${accept} title=${exact === shown ? "" : exact}
       full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined} shown=${shown} />
     ${unit && html`<span class="unit">${unit}</span>`}
   </span>`;

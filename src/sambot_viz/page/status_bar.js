@@ -14,7 +14,8 @@ const SAID = 8000, REFUSED = 20000;
 
 /** @param {{problems: import("./panels/problems.js").Shown}} props */
 export function StatusBar({ problems }) {
-  const hint = useRow("tools/hint")?.value || "";
+  const tool = useRow("tools/hint");
+  const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.value) || "";
   return html`<footer class="statusbar" aria-label="Status bar">
     <button title="Reset (R): draw everything again, with meshes as they are in their files"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>

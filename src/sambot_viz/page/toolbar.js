@@ -54,7 +54,7 @@ function ToolButton({ id }) {
 /** @param {{icon: string, name: string, keys: string, help: string, bare?: boolean, onClick: () => void}} props
  *   bare: without its word, and on a phone only in the menu */
 function Button({ icon, name, keys, help, bare, onClick }) {
-  return html`<button class=${bare ? "tool rare" : "tool"} aria-label=${name} aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
+  return html`<button class=${bare ? "tool rare" : "tool view-button"} aria-label=${name} aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
     onClick=${onClick}><${Icon} name=${icon} />${!bare && html` <span class="word">${name}</span>`}</button>`;
 }
 

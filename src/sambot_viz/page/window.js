@@ -1,7 +1,7 @@
 // @ts-check
 /* The window: toolbar, panels at the left, right and bottom, status bar. */
 
-import { html, useEffect, useRef } from "./vendor/preact.js";
+import { html, useEffect, useLayoutEffect, useRef } from "./vendor/preact.js";
 import { rows } from "./channel.js";
 import { Connection } from "./connection.js";
 import { Dialogs } from "./dialogs/dialog.js";
@@ -178,6 +178,16 @@ function Sheet() {
   </aside>`;
 }
 
+/** How much of the tabs fades where there are more beyond the edge [px]. */
+const EDGE = 32;
+
+/** Fade the ends of a strip beyond which there is more. @param {HTMLElement} strip */
+function fadeEdges(strip) {
+  const rest = strip.scrollWidth - strip.clientWidth - strip.scrollLeft;
+  strip.style.setProperty("--before", `${Math.min(EDGE, strip.scrollLeft)}px`);
+  strip.style.setProperty("--after", `${Math.max(0, Math.min(EDGE, rest))}px`);
+}
+
 /** @param {{names: string[], of: Record<string, {title: string}>, current: string}} props */
 function Tabs({ names, of, current }) {
   /** @param {any} event */
@@ -190,7 +200,22 @@ function Tabs({ names, of, current }) {
     event.preventDefault();
     event.stopPropagation();
   };
-  return html`<div class="tabs" role="tablist" onKeyDown=${key}>
+  const element = useRef(/** @type {any} */ (null));
+  const fade = () => fadeEdges(element.current);
+  // The chosen tab is in sight, and so is that there are others beside it.
+  useLayoutEffect(() => {
+    const strip = element.current, { left, right } = strip.getBoundingClientRect();
+    const chosen = strip.querySelector("[aria-selected=true]")?.getBoundingClientRect();
+    if (chosen?.left < left + EDGE) strip.scrollLeft -= left + EDGE - chosen.left;
+    if (chosen?.right > right - EDGE) strip.scrollLeft += chosen.right - right + EDGE;
+  }, [current]);
+  useLayoutEffect(fade);
+  useLayoutEffect(() => {
+    const observer = new ResizeObserver(fade);
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, []);
+  return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key} onScroll=${fade}>
     ${names.map((name) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
       aria-controls=${name === current ? "panel-right" : undefined} tabindex=${name === current ? 0 : -1}
       onClick=${() => tab.set(name)}>${of[name].title}</button>`)}

@@ -57,7 +57,8 @@ class ToolsPanel(Panel):
     def _others(self) -> Iterator[Row]:
         tools, view = self._browser.tools, self._browser.view
         hint = tools.status or tools.current.help
-        yield Row("tools/hint", "", "note", value=hint)
+        touch = hint.replace(tools.current.help, tools.current.touch)
+        yield Row("tools/hint", "", "note", value=hint, extra={"touch": touch})
         yield _action("tools/escape", lambda _: tools.escape())
         yield Row("tools/press", "", "action", takes=(str,), set=self._press)
         yield Row("tools/hover", "", "action", takes=_NUMBERS, set=tools.hover)

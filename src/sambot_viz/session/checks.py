@@ -32,7 +32,7 @@ class CheckResults:
         session.listeners.append(self._hear)
 
     def give(self) -> None:
-        """Check what is shown, unless that has been done already."""
+        """Check what is shown; the robot only when there is more to know of it."""
         session = self._session
         with session.lock:
             robot, joints = session.robot, session.joints
@@ -40,7 +40,7 @@ class CheckResults:
                 return
             before, self._checked = self._checked, self._state()
             of_joints, of_config = joints.problems, self._of_config(robot)
-        if before is None or before[:2] != self._checked[:2]:
+        if before != self._checked:
             # The import is late so that the first page does not wait for the rules.
             from sambot_viz.checks import check_robot
 
@@ -60,20 +60,16 @@ class CheckResults:
         return found if isinstance(found, Mesh) else None
 
     def _state(self) -> tuple[object, ...]:
-        """The robot with what is known of its meshes, then the rest that is checked."""
+        """The robot, with what is known of its meshes."""
         session = self._session
-        fixed = session.context.fixed_frame
-        read = session.context.assets.read_count
-        config = session.config
-        return (id(session.robot), read, id(config), fixed, fixed in session.tree)
+        return (id(session.robot), session.context.assets.read_count)
 
     def _hear(self, event: Event) -> None:
         """Check again after a change that may fix, or bring, a problem."""
         if event not in ("config", "frames", "status") or self._checked is None:
             return
         if self._checked[0] == id(self._session.robot):
-            if self._checked != self._state():
-                self.give()
+            self.give()
 
     def _of_config(self, robot: Robot) -> list[Problem]:
         from sambot_viz.checks.config_against_robot import check_config

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
@@ -40,13 +41,21 @@ def last_good_note(session: Session) -> str:
         notes.append(
             "The model has a mistake: the robot appears as soon as it is fixed."
             if session.robot is None
-            else "Showing the last good version: what was saved has a mistake."
+            else f"Showing the last good version: {_what_is_wrong(session)}."
         )
     if _has_error(session, "config"):
         notes.append(
             "The config has a mistake: its displays appear as soon as it is fixed."
         )
     return " ".join(notes)
+
+
+def _what_is_wrong(session: Session) -> str:
+    """What became of the model's file."""
+    for fault in session.problems.of_saves.get("model", ()):
+        if fault.code == "model-not-found" and fault.file is not None:
+            return f"{Path(fault.file).name} is gone"
+    return "what was saved has a mistake"
 
 
 def _has_error(session: Session, of: Reloaded) -> bool:

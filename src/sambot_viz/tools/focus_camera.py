@@ -16,6 +16,7 @@ class FocusCameraTool(Tool):
     label = "Focus Camera"
     key = "C"
     help = "Click on the point that the camera should look at."
+    touch = "Tap the point that the camera should look at."
     clicks = True
 
     def click(self, click: Click, hit: Hit) -> None:

@@ -14,6 +14,7 @@ class InteractTool(Tool):
     label = "Interact"
     key = "I"
     help = MoveCameraTool.help
+    touch = MoveCameraTool.touch
     properties = (
         BoolProperty(
             "Hide Inactive Objects",

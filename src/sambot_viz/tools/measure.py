@@ -25,6 +25,7 @@ class MeasureTool(Tool):
     label = "Measure"
     key = "N"
     help = "Click on two points. Right click or Esc: start again."
+    touch = "Tap two points; a third one starts again."
     clicks = True
     properties = (
         ColorProperty("Line color", default=COLOR, help="Colour of the line."),

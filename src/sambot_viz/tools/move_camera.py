@@ -12,3 +12,4 @@ class MoveCameraTool(Tool):
     label = "Move Camera"
     key = "M"
     help = "Left: turn. Middle: move. Right or wheel: zoom. Shift: move."
+    touch = "One finger: turn. Two: move and zoom."

@@ -13,6 +13,7 @@ class SelectTool(Tool):
     label = "Select"
     key = "S"
     help = "Click, or drag a rectangle. Shift: add. Ctrl: remove. Alt: camera."
+    touch = "Tap, or draw a rectangle."
     clicks = True
     rectangles = True
 

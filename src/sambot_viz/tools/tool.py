@@ -64,6 +64,7 @@ class Tool:
         label: the text of its button.
         key: the key that chooses it.
         help: how to use it; shown while it is current.
+        touch: the same for fingers, where there is no mouse.
         clicks: whether it uses clicks. Only then does the page send them: with any
             other tool a press of the mouse moves the camera.
         rectangles: whether dragging with the left button draws a rectangle.
@@ -74,6 +75,7 @@ class Tool:
     label: ClassVar[str]
     key: ClassVar[Key]
     help: ClassVar[str]
+    touch: ClassVar[str]
     clicks: ClassVar[bool] = False
     rectangles: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]] = ()

@@ -84,7 +84,7 @@ function Form() {
     return act("frames/add", [...numbers, within, typed("child")]);
   };
   /** @param {string} name @param {string} unit */
-  const number = (name, unit) => html`<label><span>${name}</span> <input name=${name} inputmode="text" autocomplete="off"
+  const number = (name, unit) => html`<label><span>${name}</span> <input name=${name} autocomplete="off"
     placeholder=${`0 ${unit}`} title=${`${name}, in ${unit} or with a unit behind it`} /></label>`;
   return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
     ${LENGTHS.map((name) => number(name, "m"))}
