@@ -14,6 +14,8 @@ from viewer_page import ViewerPage, viewer_url
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.export.chromium import Chromium
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
 
 MODELS: dict[str, Callable[[], str]] = {
     "T": robots.humanoid,
@@ -82,8 +84,18 @@ class Desk:
     @property
     def fixed_frame(self) -> str:
         """The frame in which all is drawn."""
+        return str(self._session.config.global_options.get("Fixed Frame"))
+
+    @property
+    def _session(self) -> Session:
         (session,) = self.viz.server.sessions()
-        return str(session.config.global_options.get("Fixed Frame"))
+        return session
+
+    @property
+    def _browser(self) -> Browser:
+        """That of the first page; others of a task have left, or leave now."""
+        browsers = self._session.browsers
+        return browsers[min(browsers)]
 
     def restart(self) -> None:
         """End program and page, and start both again."""
@@ -96,27 +108,34 @@ class Desk:
         # The first view is Orbit's, 10 m away, until the robot is there to be framed.
         distance = ("Views", "Current View", "Distance")
         self.user.until(lambda: self.user.row(*distance).one("textbox").value != "10")
+        self._view = dict(self._browser.view.values)
 
     def tidy(self) -> None:
-        """Put everything back as it was, by what the page offers for that."""
-        user = self.user
+        """Put everything back as it was, by what the page offers for that.
+
+        The server knows what is not as it was; a page is slow to ask.
+        """
+        user, browser = self.user, self._browser
+        tools, edits = browser.tools, self._session.edits
         user.keys("Escape", "Escape")
-        user.tab("Selection")
-        if user.find("treegrid", "Selection").all("row")[1:]:
+        wait_for_workers()
+        if tools.selection:
             self.choose_tool("Select")
             self.page.mouse.click(*_NOTHING)
-            user.reads("Nothing is selected")
-        user.tab("Joints")
-        self.choose_tool("Interact")
-        for _ in range(300):
-            wait_for_workers()
-            self.viewer.wait_for_frames()
-            undo = user.find("button", "Undo")
-            if undo.state("disabled"):
-                break
+            user.until(lambda: not tools.selection)
+        if tools.current.label != "Interact":
+            self.choose_tool("Interact")
+        things = user.see()
+        if not things.one("tab", "Joints").state("selected"):
+            user.click_on(things.one("tab", "Joints"))
+        undo = things.one("button", "Undo")
+        while edits.undo_label(browser.client_id) is not None:
+            times, _ = edits.touched(browser.client_id)
             user.click_on(undo)
-        for button in ("Zero", "Focus"):
-            user.click("button", button, _TOOLS)
+            user.until(lambda n=times: edits.touched(browser.client_id)[0] > n)
+        if browser.view.values != self._view:
+            for button in ("Zero", "Focus"):
+                user.click("button", button, _TOOLS)
 
     def choose_tool(self, tool: str) -> None:
         """Press the button of a tool, and wait until it is the current one."""
