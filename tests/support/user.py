@@ -12,6 +12,7 @@ something else cannot be clicked. Everything waits until the page has what is as
 from __future__ import annotations
 
 import json
+import math
 import re
 import threading
 import time
@@ -29,6 +30,8 @@ from sambot_viz.export.devtools import BrowserError
 T = TypeVar("T")
 PATIENCE = 10.0
 """How long a user waits for something to appear [s]."""
+_SLOP = 16.0
+"""How far a finger goes before a browser scrolls [CSS pixels]."""
 
 # Where an element is, how much of it can be seen, what can be scrolled to show more,
 # and what lies over the middle of what can be seen.
@@ -272,11 +275,17 @@ class User:
         """Turn the wheel, or push with the finger, over a point [CSS pixels]."""
         if not self.finger:
             return self.page.mouse.wheel(x, y, dy, dx)
-        self.page.call(
-            "Input.synthesizeScrollGesture",
-            {"x": x, "y": y, "yDistance": -dy, "xDistance": -dx, "preventFling": True}
-            | {"gestureSourceType": "touch", "speed": 4000},
-        )
+        # The first pixels decide only that it is not a tap.
+        dx, dy = (d + math.copysign(_SLOP, d) if d else 0.0 for d in (dx, dy))
+        self.swipe((x + dx / 2, y + dy / 2), (x - dx / 2, y - dy / 2))
+
+    def swipe(self, start: Point, end: Point, steps: int = 10) -> None:
+        """Put a finger down, move it in equal steps, and lift it."""
+        self.page.touch.start(start)
+        for step in range(1, steps + 1):
+            x, y = (a + (b - a) * step / steps for a, b in zip(start, end, strict=True))
+            self.page.touch.move((x, y))
+        self.page.touch.end()
 
     def drag_slider(self, thing: Thing, *values: float, steps: int = 10) -> None:
         """Take the handle of a slider, pull it to some values in turn, and let go."""

@@ -127,6 +127,40 @@ export function SliderCell({ row, tab }) {
   </span>`;
 }
 
+/** How far a finger goes before it is known whether it slides or scrolls [px]. */
+const SLOP = 8;
+
+/** What a finger on a slider wants. A browser moves the handle to where a finger is put down, also
+ * when it then scrolls the list: until it goes sideways, or is lifted, nothing counts.
+ * @param {() => number} value what the slider shows @param {(raw: number) => void} slide */
+function useFinger(value, slide) {
+  const finger = useRef(/** @type {{x: number, y: number, wants: "" | "slide" | "scroll", raw: number | null} | null} */ (null));
+  /** @param {any} event */
+  const decide = (event) => {
+    const one = finger.current, across = one && Math.abs(event.clientX - one.x), down = one && Math.abs(event.clientY - one.y);
+    if (one && !one.wants && Math.max(Number(across), Number(down)) > SLOP) one.wants = Number(across) > Number(down) ? "slide" : "scroll";
+  };
+  return {
+    onPointerDown: (/** @type {any} */ e) => { finger.current = e.pointerType === "touch" ? { x: e.clientX, y: e.clientY, wants: "", raw: null } : null; },
+    onPointerMove: decide,
+    // The browser scrolls.
+    onPointerCancel: () => { if (finger.current) finger.current.wants = "scroll"; },
+    // A tap: the handle goes there.
+    onPointerUp: () => {
+      const one = finger.current;
+      if (one && !one.wants && one.raw !== null) slide(one.raw);
+    },
+    onTouchEnd: () => { finger.current = null; },
+    onTouchCancel: () => { finger.current = null; },
+    onInput: (/** @type {any} */ e) => {
+      const one = finger.current, raw = Number(e.target.value);
+      if (!one || one.wants === "slide") return slide(raw);
+      one.raw = raw;
+      e.target.value = value();
+    },
+  };
+}
+
 /** @param {{row: Row, tab: number, held: Held}} props */
 function Handle({ row, tab, held }) {
   const { factor, step, unit } = shownUnit(row);
@@ -135,6 +169,7 @@ function Handle({ row, tab, held }) {
   // The ends are exact, whatever the step.
   /** @param {number} raw */
   const slide = (raw) => held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
+  const finger = useFinger(() => held.value, slide);
   /** @param {any} event */
   const key = (event) => {
     const count = /** @type {Record<string, number>} */ ({
@@ -155,8 +190,8 @@ function Handle({ row, tab, held }) {
   return html`<input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
     aria-label=${row.name || ""} disabled=${row.fixed || row.off}
     aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
-    onInput=${(/** @type {any} */ e) => slide(Number(e.target.value))}
-    onChange=${held.release} onPointerUp=${held.release} onPointerCancel=${held.release}
+    ...${finger} onChange=${held.release} onPointerUp=${() => { finger.onPointerUp(); held.release(); }}
+    onPointerCancel=${() => { finger.onPointerCancel(); held.release(); }}
     onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />`;
 }
 

@@ -1,0 +1,54 @@
+"""Fingers on the panels: what scrolls, what slides, and what is large enough to hit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+import robots
+from ax_tree import Thing
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+FIRST, SECOND = "torso_pitch_joint", "left_shoulder_roll_joint"
+SCROLLED = "document.querySelector('[role=treegrid][aria-label=Joints]').scrollTop"
+
+
+@pytest.fixture
+def viz(tmp_path: Path) -> Iterator[Visualizer]:
+    """A humanoid of 32 joints."""
+    model = tmp_path / "humanoid.urdf"
+    model.write_text(robots.humanoid(), "utf-8")
+    with Visualizer(model, port=0) as viz:
+        yield viz
+
+
+def test_a_finger_scrolls_the_joints_from_a_slider_and_slides_sideways(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url, width=390, height=844, touch=True)
+    user = viewer.user
+
+    def slider(name: str) -> Thing:
+        return user.row("Joints", name).one("slider")
+
+    # On the handle, then on the track.
+    for beside in (0.0, 20.0):
+        x, y = user.go_to(slider(FIRST))
+        before = viewer.page.evaluate(SCROLLED)
+        user.swipe((x + beside, y), (x + beside + 3, y - 120))
+        viewer.wait_for(f"{SCROLLED} > {before} + 40")
+    user.drag_slider(slider(SECOND), 1.45)
+    user.until(lambda: viz.joint_positions[SECOND] > 1.2)
+    x, y = user.go_to(slider(SECOND))
+    viewer.page.touch.tap(x, y)
+    user.until(lambda: abs(viz.joint_positions[SECOND]) < 0.1)
+    user.drag_slider(slider(SECOND), -1.45)
+    user.until(lambda: viz.joint_positions[SECOND] < -1.2)
+    moved = {name for name, value in viz.joint_positions.items() if value}
+    assert moved == {SECOND}
+    assert float(slider(FIRST).value) == 0.0
