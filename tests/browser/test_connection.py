@@ -11,6 +11,7 @@ from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
+LEFT_LINK = "drivewhl_l_link"
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
 
@@ -51,7 +52,7 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
         other.user.reads("The connection is back.", 20.0)
         for page in (viewer, other):
             page.user.until(lambda page=page: number(page) == "1")
-        user.row("Displays", "TF", "Frames", "drivewhl_l_link")
+        user.row("Displays", "TF", "Frames", LEFT_LINK)
         user.unfold("Displays", "TF", "Frames", fold=True)
         user.until(lambda: user.rows("Displays") == rows)
         assert viewer.page.evaluate(position) == pytest.approx(camera)
@@ -81,3 +82,25 @@ def test_a_page_that_was_left_is_not_counted_and_works_after_coming_back(
         viewer.user.until(lambda: viewer.user.rows("Displays") == rows)
         viewer.user.enter(viewer.user.row("Joints", LEFT).one("textbox"), "0.5")
         viewer.user.until(lambda: viz.joint_positions[LEFT] == 0.5)
+
+
+def test_a_page_that_is_loaded_again_keeps_its_view_and_what_is_unfolded(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    with Visualizer(port=0) as viz:
+        viewer = open_viewer(viz.url)
+        user = viewer.user
+        user.unfold("Displays", "Grid")
+        user.unfold("Displays", "TF", "Frames")
+        user.row("Displays", "TF", "Frames", LEFT_LINK)
+        user.choose(user.find("combobox", "Type", ("region", "Views")), "XYOrbit")
+        user.until(lambda: "XYOrbit" in user.row("Views", "Current View").text)
+        user.enter(user.row("Views", "Yaw").one("textbox"), "2")
+        user.until(lambda: "2" in user.row("Views", "Yaw").text)
+        rows, views = user.rows("Displays"), user.rows("Views")
+        viewer.page.evaluate("location.reload()")
+        user.until(lambda: user.rows("Displays") == rows)
+        user.until(lambda: user.rows("Views") == views)
+        user.until(lambda: user.row("Views", "Yaw").one("textbox").value == "2")
+        assert user.find("button", "Undo").state("disabled")
+        assert "connection" not in user.see().text

@@ -4,10 +4,15 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
 // What the page's scripts want of a browser when they are read.
-Object.assign(globalThis, { localStorage: { getItem: () => null, setItem: () => {} } });
+Object.assign(globalThis, {
+  localStorage: { getItem: () => null, setItem: () => {} },
+  window: { __viserMutable: { sendMessage: (/** @type {any} */ message) => received.push(message.updates.value) } },
+});
+/** @type {any[]} */
+const received = [];
 const { rows } = await import("../../src/sambot_viz/page/channel.js");
 const { folds } = await import("../../src/sambot_viz/page/state.js");
-const { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost, otherConfig, remember } =
+const { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost, otherConfig, remember, showView } =
   await import("../../src/sambot_viz/page/comeback.js");
 
 /** @param {string} id @param {string} name @param {string} [above] */
@@ -72,6 +77,21 @@ test("what was lost is said, and only that", () => {
   // A connection that was interrupted, to the same program.
   start("1", { frames: ["x", "y", "z"].map(static_), poses: [names("poses", ["up", "down"])] }, { modified: true });
   assert.deepEqual(lost(before), ["the selection"]);
+});
+
+test("the view comes back with all its numbers, or with what the camera does not say", () => {
+  const view = (/** @type {string} */ type, /** @type {any[]} */ ...more) => ({ views: [
+    { id: "view/type", in: "", kind: "enum", value: type }, ...more.map(([id, kind, value]) => ({ id, in: "view", kind, value })),
+    { id: "view/:follow", in: "view", kind: "bool", value: true }, { id: "views/again", in: "", kind: "action" }] });
+  start("1", view("Orbit", ["view/Yaw", "float", 2], ["view/Target Frame", "frame", "base"], ["view/Invert", "bool", true]));
+  const before = remember();
+  start("2", view("FPS", ["view/Target Frame", "frame", "odom"]));
+  received.length = 0;
+  showView(before);
+  showView(before, false);
+  const known = { "view/Target Frame": "base", "view/Invert": true };
+  assert.deepEqual(received.map(([id, [type, values]]) => [id, type, JSON.parse(values)]), [
+    ["views/again", "Orbit", { "view/Yaw": 2, ...known }], ["views/again", "Orbit", known]]);
 });
 
 test("another config than before is named", () => {

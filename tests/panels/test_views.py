@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -55,6 +56,37 @@ def test_zero_goes_back_to_where_rviz_begins(
     edit(panel, "view/Distance", 2.5)
     browser.view.zero()
     assert rows_of(panel)["view/Distance"].value == 10.0
+
+
+def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
+    panel: ViewsPanel, session: Session, browser: Browser
+) -> None:
+    wanted = {
+        "view/Target Frame": "base_link",
+        "view/Scale": 120.0,
+        "view/X": 0.25,
+        "view/Angle": 0.5,
+    }
+    with session.edits.acting(browser.client_id):
+        edit(panel, "views/again", [ABOVE, json.dumps(wanted)])
+    rows = rows_of(panel)
+    assert rows["view/type"].value == ABOVE
+    assert {row_id: rows[row_id].value for row_id in wanted} == wanted
+    assert session.edits.undo_label(browser.client_id) is None
+
+
+@pytest.mark.parametrize("values", ["", "[1]", '{"view/nothing": 1}'])
+def test_a_view_that_cannot_be_read_changes_nothing(
+    panel: ViewsPanel, values: str
+) -> None:
+    before = rows_of(panel)
+    edit(panel, "views/again", ["no type", values])
+    assert rows_of(panel) == before
+
+
+def test_a_number_of_a_page_is_checked_as_if_it_were_typed(panel: ViewsPanel) -> None:
+    with pytest.raises(UsageError, match="its limits are"):
+        edit(panel, "views/again", [ORBIT, '{"view/Pitch": 2}'])
 
 
 def test_a_view_is_saved_renamed_used_and_removed(panel: ViewsPanel) -> None:

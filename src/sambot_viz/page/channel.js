@@ -24,7 +24,7 @@ export const NOT_DONE = "not done";
 /** The action that reports where the mouse is. */
 export const HOVER = "tools/hover";
 /** What a page sends without a user who means it. @param {string} id */
-const byItself = (id) => id === HOVER || id.endsWith("/unfold") || id.endsWith("/shown");
+const byItself = (id) => id === HOVER || ["/unfold", "/shown", "/again"].some((end) => id.endsWith(end));
 /** What was sent so shortly before the connection was lost may be lost with it [ms]. */
 const DOUBTFUL = 1000;
 

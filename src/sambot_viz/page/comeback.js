@@ -2,11 +2,11 @@
 /* What a page remembers while it has no connection, and what a program that was started
  * again has lost of it. */
 
-import { rows } from "./channel.js";
+import { act, rows } from "./channel.js";
 import { folds } from "./state.js";
 
 /**
- * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string, string>,
+ * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string, string>, view: Record<string, any>,
  *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[], turning: boolean,
  *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}} Memory
  *   places: where each display is, by its id
@@ -17,7 +17,7 @@ import { folds } from "./state.js";
 export function remember() {
   const { name, own, folder, modified } = rows.value("file/state") || {};
   return {
-    session: rows.value("names/session")?.id, folds: folds.value, places: places(), joints: moved(), frames: frames(),
+    session: rows.value("names/session")?.id, folds: folds.value, places: places(), view: view(), joints: moved(), frames: frames(),
     poses: rows.value("poses") || [], turning: Boolean(rows.value("joints/turning")?.length),
     selected: ids("selection").some((id) => id.startsWith("selected/")), modified: Boolean(modified), file: { name, own, folder },
   };
@@ -69,6 +69,21 @@ export function foldsNow(before, of) {
     const there = now(id);
     return there === null ? [] : [[there, open]];
   }));
+}
+
+/** The values of this page's view. @returns {Record<string, any>} */
+function view() {
+  const set = ids("views").map((id) => rows.get(id)).filter((row) => row?.id.startsWith("view/") && !row.fixed
+    && row.part === undefined && row.id !== "view/:follow");
+  return Object.fromEntries(set.map((row) => [row?.id, row?.value]));
+}
+
+/** Show the view that this page had.
+ * @param {Memory} before @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since */
+export function showView({ view: { "view/type": type, ...values } }, camera = true) {
+  if (type === undefined) return;
+  const kept = Object.entries(values).filter(([id, value]) => camera || typeof value === "boolean" || rows.get(id)?.kind === "frame");
+  act("views/again", [type, JSON.stringify(Object.fromEntries(kept))]);
 }
 
 /** Whether the robot is there, and its joints with it. */

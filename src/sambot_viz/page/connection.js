@@ -6,13 +6,13 @@
  * was shown: it would stay connected, and count as one that is looked at. */
 
 import { html } from "./vendor/preact.js";
-import { act, CUT, disconnect, goOffline, goOnline, heldBack, holdBack, isConnected, rows, send, sendHeldBack, WAITING } from "./channel.js";
-import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember } from "./comeback.js";
+import { act, CUT, disconnect, goOffline, goOnline, heldBack, holdBack, isConnected, rows, sendHeldBack, WAITING } from "./channel.js";
+import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember, showView } from "./comeback.js";
 import { hasDisk } from "./files.js";
 import { Cell, folds, useRow } from "./state.js";
 
 /** @typedef {import("./comeback.js").Memory} Memory */
-/** @typedef {Memory & {view: [string, any][], waiting: any[][], stuck: boolean}} Kept what a page that is loaded again has kept */
+/** @typedef {Memory & {waiting: any[][], stuck: boolean}} Kept what a page that is loaded again has kept */
 
 /** How often the page looks [ms]. */
 const PERIOD = 250;
@@ -53,10 +53,11 @@ export function followConnection() {
   rows.listen("whole:browser", () => {
     if (!before || !(lost || kept)) return;
     const then = before, silent = kept && !kept.stuck, again = rows.value("names/session");
-    if (kept) bringBack(kept.view);
+    const loaded = Boolean(kept);
     lost = false;
     kept = null;
     goOnline();
+    showView(then, loaded);
     if (then.session === again?.id) {
       sendHeldBack();
       if (!silent) say("", then, 0);
@@ -82,7 +83,7 @@ export function followConnection() {
   rows.listen("panel:joints_again", () => whenJoints());
   addEventListener("pagehide", (event) => {
     const now = lost && before ? before : remember();
-    if (kept || now.session) keep(kept || { ...now, folds: folds.value, view: viewValues(), waiting: heldBack(), stuck });
+    if (kept || now.session) keep(kept || { ...now, folds: folds.value, waiting: heldBack(), stuck });
     if (event.persisted) disconnect();
   });
   addEventListener("pageshow", (event) => { if (event.persisted) location.reload(); });
@@ -102,12 +103,6 @@ function say(again, before, dropped, quiet = false) {
 /** Keep what a page that is loaded again has to know. @param {Kept} kept */
 function keep(kept) {
   try { sessionStorage.setItem(KEPT, JSON.stringify(kept)); } catch { /* private windows have none */ }
-}
-
-/** The rows of this page's view that can be set, and their values. @returns {[string, any][]} */
-function viewValues() {
-  return (rows.panels.get("views") || []).map((id) => rows.get(id)).filter((row) => row?.id.startsWith("view/") && !row.fixed)
-    .map((row) => /** @type {[string, any]} */ ([row?.id, row?.value]));
 }
 
 /** @param {() => boolean} lost @param {() => void} startAgain loads the page again */
@@ -135,24 +130,12 @@ function takeKept() {
   } catch { return null; }
 }
 
-/** Set the view as it was; another type first gets its rows. @param {[string, any][]} values */
-function bringBack(values) {
-  const set = () => {
-    for (const [id, value] of values) {
-      if (id !== "view/type" && JSON.stringify(rows.value(id)) !== JSON.stringify(value)) send(id, value);
-    }
-  };
-  const type = values.find(([id]) => id === "view/type")?.[1];
-  if (type === undefined || type === rows.value("view/type")) return set();
-  send("view/type", type);
-  setTimeout(set, 1000);
-}
-
 /** Open the config that was open before, with the rows that were unfolded. @param {Memory} before */
 function openAgain(before) {
   const stop = rows.listen("names/document", () => {
     stop();
     folds.set(foldsNow(before, before.folds));
+    showView(before);
     said.set(null);
   });
   act("file/open", [before.file.name]);

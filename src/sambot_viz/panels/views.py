@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import json
 import weakref
 from collections.abc import Iterator, Sequence
+from typing import Any, cast
 
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.gate import checked
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Json, Row
@@ -51,7 +54,6 @@ class ViewsPanel(Panel):
         ]
 
     def _type(self) -> Row:
-        kinds = {row_text(kind): kind for kind in VIEWS}
         view = self._browser.view.view
         return Row(
             "view/type",
@@ -59,10 +61,10 @@ class ViewsPanel(Panel):
             "enum",
             "Type",
             value=row_text(view.kind),
-            options=tuple(kinds),
+            options=tuple(_KINDS),
             help=view.help,
             extra={"apart": True},
-            set=lambda label: self._browser.view.set_kind(kinds[label]),
+            set=lambda label: self._browser.view.set_kind(_KINDS[label]),
         )
 
     def _current(self) -> Iterator[Row]:
@@ -111,6 +113,23 @@ class ViewsPanel(Panel):
         with self._session.change("view"):
             self._session.follow_presenter = on
 
+    def _bring_back(self, arguments: tuple[str, str]) -> None:
+        """Show what the page showed before it lost the connection, or was loaded again.
+
+        That is not an edit to undo: the user sees what was there before.
+        """
+        label, sent = arguments
+        view = self._browser.view
+        with self._session.edits.unrecorded():
+            if label in _KINDS and _KINDS[label] != view.view.kind:
+                view.set_kind(_KINDS[label])
+            values = _read(sent)
+            rows = property_rows(view.view.config, CURRENT, view.set)
+            # Another target turns the numbers that come after it.
+            for row in sorted(rows, key=lambda row: row.kind != "frame"):
+                if row.set is not None and row.id in values:
+                    row.set(checked(row, values[row.id]))
+
     # The saved views
 
     def _saved(self, saved: ViewConfig) -> Row:
@@ -143,6 +162,7 @@ class ViewsPanel(Panel):
                 raise UsageError("a saved view needs a name")
             view.rename(self._saved_view(row_id), name.strip())
 
+        yield Row("views/again", "", "action", takes=(str, str), set=self._bring_back)
         yield Row("views/save", "", "action", set=lambda _: view.save())
         yield Row(
             "views/use",
@@ -161,6 +181,17 @@ class ViewsPanel(Panel):
         )
 
 
+def _read(sent: str) -> dict[str, Any]:
+    """The values of rows by their ids; nothing when it is not that."""
+    try:
+        values = json.loads(sent)
+    except ValueError:
+        return {}
+    return cast("dict[str, Any]", values) if isinstance(values, dict) else {}
+
+
+_KINDS = {row_text(kind): kind for kind in VIEWS}
+"""Type of view as it is shown → its name in a file."""
 _UNKNOWN = (
     "The config asks for a type of view that is not known here: shown as Orbit, and "
     "kept as it is in the file."

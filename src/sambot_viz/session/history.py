@@ -170,6 +170,16 @@ class EditHistory:
                 self._session.notify("edits")
 
     @contextmanager
+    def unrecorded(self) -> Generator[None]:
+        """Keep nothing of what is changed inside: no user has asked for it."""
+        with self._session.lock:
+            before, self._undoing = self._undoing, True
+            try:
+                yield
+            finally:
+                self._undoing = before
+
+    @contextmanager
     def setting(
         self, label: str, apply: Apply, merge: object = None
     ) -> Generator[None]:
