@@ -13,7 +13,6 @@ import viser
 
 from sambot_viz.errors import RobotError, ServerError
 from sambot_viz.frames import Transform
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
 from sambot_viz.open_config import declarations
@@ -26,6 +25,7 @@ from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.server.sources import Sources
 from sambot_viz.session import Session
+from sambot_viz.session.config_file import take_root
 from sambot_viz.session.frame_view import FrameView
 
 _P = ParamSpec("_P")
@@ -150,9 +150,8 @@ class Visualizer:
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
-        frame = document.global_options.get("Fixed Frame")
-        if frame == self._stand_in_frame and frame not in robot.links:
-            document.global_options.set("Fixed Frame", plain_name(robot.root))
+        if document.global_options.get("Fixed Frame") == self._stand_in_frame:
+            take_root(document, robot)
 
     def _follow(self, inputs: Inputs, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""

@@ -138,7 +138,8 @@ def test_a_file_is_replaced_after_a_question_and_a_bad_name_is_kept(
     user.keys("Enter")
     user.reads("other.rviz exists already. Replace it?")
     assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 30
-    user.keys("Enter")
+    assert user.find("button", "Cancel", ("dialog", "Save Config As")).state("focused")
+    user.click("button", "Replace")
     user.gone("dialog")
     assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 12
 

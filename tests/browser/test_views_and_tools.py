@@ -25,6 +25,12 @@ pytestmark = pytest.mark.browser
 Open = Callable[..., ViewerPage]
 SKY = (640.0, 80.0)
 """A place of the page with nothing but background."""
+RECTANGLE = """(() => {
+  const { canvas2d: { width, height }, canvas2d } = __viserMutable;
+  return width > 0 && height > 0
+    && canvas2d.getContext("2d").getImageData(0, 0, width, height).data.some(Boolean);
+})()"""
+"""Whether a rectangle is being drawn."""
 
 
 @pytest.fixture
@@ -173,8 +179,16 @@ def test_keys_choose_tools_and_clicks_select_and_measure(
     mouse.drag((x - 200, y - 150), (x + 200, y + 150))
     until(viewer, lambda: len(tools.selection) > 1)
     assert value(session, "Yaw") == yaw, "a rectangle turns nothing"
+    selected = dict(tools.selection)
+    mouse.move(x - 50, y - 50)
+    mouse.press()
+    mouse.move(x + 50, y + 50)
+    viewer.wait_for(RECTANGLE)
     keyboard.press("Escape")
+    viewer.wait_for(f"!({RECTANGLE})")
+    mouse.release()
     chosen(session, viewer, "Move Camera")
+    assert tools.selection == selected
     keyboard.press("n")
     chosen(session, viewer, "Measure")
     mouse.click(*place(viewer, (0.6, 0.0, 0.0)))

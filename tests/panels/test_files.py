@@ -171,13 +171,34 @@ def test_opening_offers_the_files_of_the_folder_and_takes_no_other(
     page: Page, viz: Visualizer
 ) -> None:
     page.act("file/list")
-    assert page.value("file/names") == ["mine.rviz", "other.rviz"]
+    of_program = "urdf_config.rviz (comes with the program)"
+    assert page.value("file/names") == ["mine.rviz", "other.rviz", of_program]
     with pytest.raises(UsageError, match="no file"):
         page.act("file/open", "notes.txt")
     page.act("file/open", "other.rviz")
     assert [d.name for d in session_of(viz).config.displays] == ["Ground"]
     assert page.value("file/state")["name"] == "other.rviz"
     assert not page.value("file/state").get("modified")
+
+
+def test_the_config_of_the_program_is_opened_again_and_fits_the_robot(
+    tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    model, config = tmp_path / "r.urdf", tmp_path / "mine.rviz"
+    model.write_text('<robot name="r"><link name="trunk"/></robot>', "utf-8")
+    config.write_text(CONFIG, "utf-8")
+    with Visualizer(model, config, port=0) as viz:
+        protocol(viz.viser.get_port()).settle(viz.viser)
+        page = Page(viz, session_of(viz))
+        page.act("file/list")
+        page.act("file/open", page.value("file/names")[-1])
+        assert names_in(bundled.config_path()) == [
+            display.name for display in session_of(viz).config.displays
+        ]
+        assert session_of(viz).config.global_options.get("Fixed Frame") == "trunk"
+        assert page.sentences[-1] == "ok: Opened urdf_config.rviz of the program"
+        with pytest.raises(UsageError, match="save it as"):
+            page.act("file/save", [])
 
 
 def test_a_broken_file_is_not_opened_and_the_reason_has_its_line(

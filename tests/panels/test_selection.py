@@ -59,7 +59,7 @@ def test_a_motion_changes_the_values_only(
     viz.set_joint_positions({"drivewhl_l_joint": 1.0})
     values = panel.values()
     joint = row_named(panel, "Joint position").id
-    assert values[joint].startswith("1 rad")
+    assert values[joint] == "1 rad, turns without limits"
     assert values[joint] != before[joint].value
     assert set(values) <= set(before)
 
@@ -81,6 +81,15 @@ def test_two_items_are_so_far_apart(panel: SelectionPanel, browser: Browser) -> 
     assert "along the axes of" in found["Offset"]
     browser.tools.select({Selectable("link", "base_link")}, "shift")
     assert "Distance" not in facts(panel)
+
+
+def test_three_items_come_folded(panel: SelectionPanel, browser: Browser) -> None:
+    browser.tools.select({LEFT, RIGHT}, None)
+    heads = [row for row in panel.rows() if row.kind == "group"]
+    assert [row.expanded for row in heads] == [True, True]
+    browser.tools.select({Selectable("link", "base_link")}, "shift")
+    heads = [row for row in panel.rows() if row.kind == "group"]
+    assert [row.expanded for row in heads] == [False, False, False]
 
 
 def test_a_long_selection_says_how_many_more_there_are(

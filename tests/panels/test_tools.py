@@ -9,6 +9,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
+from sambot_viz.tools.picking.hit import Selectable
 
 TOOLS = ("Interact", "Move Camera", "Select", "Focus Camera", "Measure")
 
@@ -66,6 +67,12 @@ def test_fingers_have_a_hint_of_their_own(panel: ToolsPanel) -> None:
     rows = rows_of(panel)
     assert "Left" in rows["tools/hint"].value
     assert (rows["tools/hint"].extra or {})["touch"].startswith("One finger")
+
+
+def test_what_is_selected_is_named(panel: ToolsPanel, browser: Browser) -> None:
+    assert rows_of(panel)["tools/selected"].value == []
+    browser.tools.select({Selectable("link", "base_link")}, None)
+    assert rows_of(panel)["tools/selected"].value == ["base_link"]
 
 
 def test_there_is_no_such_tool(panel: ToolsPanel) -> None:

@@ -7,7 +7,7 @@ import { show } from "./dialogs/dialog.js";
 import { OpenConfig } from "./dialogs/open.js";
 import { SaveAs } from "./dialogs/save_as.js";
 import { SaveImage } from "./dialogs/save_image.js";
-import { folds, unfolded, useRow } from "./state.js";
+import { folds, selected, unfolded, useRow } from "./state.js";
 
 /** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
 
@@ -69,13 +69,17 @@ export function followFile() {
   addEventListener("beforeunload", (event) => {
     if (state().private && state().modified) event.preventDefault();
   });
-  // A document that was opened or read again is unfolded as its file says.
+  // A document that was opened or read again is unfolded as its file says, and none of
+  // its rows is selected.
   const current = () => ({ session: rows.value("names/session")?.id, document: rows.value("names/document") });
   let shown = current();
   const look = () => {
     const now = current();
     // A program that was started again counts from 0.
-    if (shown.document !== undefined && now.session === shown.session && now.document !== shown.document) folds.set({});
+    if (shown.document !== undefined && now.session === shown.session && now.document !== shown.document) {
+      folds.set({});
+      selected.set({ ...selected.value, displays: "", views: "" });
+    }
     shown = now;
   };
   for (const id of ["names/session", "names/document"]) rows.listen(id, look);

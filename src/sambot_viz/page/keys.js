@@ -54,13 +54,14 @@ const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
 /**
  * Follow the keyboard.
  * @param {{tools: () => {name: string, key: string}[], mouse: () => [number | null, number | null],
- *   act: (id: string, args?: any[]) => void, hide: () => void}} window
+ *   act: (id: string, args?: any[]) => void, hide: () => void, cancelPress: () => void}} window
  */
-export function listenToKeys({ tools, mouse, act, hide }) {
+export function listenToKeys({ tools, mouse, act, hide, cancelPress }) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
     const does = meaning(event, tools(), mouse());
     if (!does) return;
+    if (event.key === "Escape") cancelPress();
     if (does === "hide") hide(); else act(does.act, does.with);
     event.preventDefault();
   });

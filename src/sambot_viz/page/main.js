@@ -8,7 +8,7 @@ import { followConnection } from "./connection.js";
 import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
 import { tellView } from "./panels/views.js";
-import { followMouse, mousePlace } from "./pointer.js";
+import { cancelPress, followMouse, mousePlace } from "./pointer.js";
 import { followScript } from "./script_panel.js";
 import { toolKeys } from "./toolbar.js";
 import { togglePanels, Window } from "./window.js";
@@ -19,7 +19,7 @@ const start = () => {
   document.body.append(host);
   document.body.classList.add("sambot-window");
   render(html`<${Window} />`, host);
-  listenToKeys({ tools: toolKeys, mouse: mousePlace, act, hide: togglePanels });
+  listenToKeys({ tools: toolKeys, mouse: mousePlace, act, hide: togglePanels, cancelPress });
   const hovering = newGesture();
   followMouse({
     wantsHover: () => rows.children("panel:tools").some((id) => rows.get(id)?.hover),

@@ -27,6 +27,14 @@ function placeOf(event) {
   return x >= 0 && x <= 1 && y >= 0 && y <= 1 ? [x, y] : OUTSIDE;
 }
 
+/** The pointer that was pressed in the view last. */
+let pressed = -1;
+
+/** End what a held button does in the view, such as drawing a rectangle, without its effect. */
+export function cancelPress() {
+  canvas()?.dispatchEvent(new PointerEvent("pointercancel", { pointerId: pressed, bubbles: true }));
+}
+
 /** A press that moves less than this is a click [px]. */
 const CLICK = 4;
 
@@ -60,6 +68,7 @@ export function followMouse({ wantsHover, hover, rightClick }) {
   addEventListener("pointerdown", (event) => {
     right = null;
     if (!inView(event.target)) return;
+    pressed = event.pointerId;
     if (event.button === 2) right = { x: event.clientX, y: event.clientY };
     focusView();
   }, true);

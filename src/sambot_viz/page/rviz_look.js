@@ -48,23 +48,25 @@ vec3 sambotEncode(vec3 c) {
     material.needsUpdate = true;
   };
 
+  const ON_SCREEN = "varying float vOnScreen;\n";
   const boxes = new WeakSet();
-  /** Make names white and hide their boxes. @param {any} material */
+  /** Make names white and hide their boxes. What has a size on the screen instead of in
+   * the scene is no name of RViz: it keeps its box. @param {any} material */
   const adoptLabels = (material) => {
     const source = material.fragmentShader;
     if (source.includes("0.85 * vAlpha")) {
-      material.fragmentShader = source.replace("0.85 * vAlpha", "0.0");
+      material.fragmentShader = ON_SCREEN + source.replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen");
       boxes.add(material);
       look.boxes += 1;
     } else if (source.includes("gl_FragColor = vec4(0.0, 0.0, 0.0, a)")) {
-      material.fragmentShader = source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(1.0, 1.0, 1.0, a)");
+      material.fragmentShader = ON_SCREEN + source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(vec3(1.0 - vOnScreen), a)");
       look.names += 1;
     } else return;
     // RViz puts the baseline 0.75 em below the frame; viser's top anchor puts it
     // 1.02 em below (measured in tests/golden).
     const corner = "vec2 local = (aRect.xy + corner * aRect.zw) * scale;";
-    material.vertexShader = material.vertexShader.replace(
-      corner, corner + "\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;");
+    material.vertexShader = ON_SCREEN + material.vertexShader.replace(
+      corner, corner + "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;");
     material.needsUpdate = true;
   };
 

@@ -20,6 +20,7 @@ export function StatusBar({ problems }) {
     <button title="Reset (R): draw everything again, with meshes as they are in their files"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <${ProblemCount} ...${problems} />
+    <${Selected} />
     <span class="hint" role="status" title=${hint}>${hint}</span>
     <${Said} />
     <${Driving} />
@@ -27,6 +28,14 @@ export function StatusBar({ problems }) {
     <${Browsers} />
     <${FramesPerSecond} />
   </footer>`;
+}
+
+/** What is selected in the view. */
+function Selected() {
+  const names = useRow("tools/selected")?.value || [];
+  if (!names.length) return null;
+  const words = `Selected: ${names.length === 1 ? names[0] : `${names.length} things`}`;
+  return html`<span class="selected" role="status" title=${words}>${words}</span>`;
 }
 
 /** What was said last. */

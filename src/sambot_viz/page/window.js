@@ -11,7 +11,7 @@ import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
 import { DrivePanel, Driving } from "./panels/drive.js";
 import { JointsPanel } from "./panels/joints.js";
-import { ProblemsPanel } from "./panels/problems.js";
+import { ProblemCorner, ProblemsPanel } from "./panels/problems.js";
 import { ViewsPanel } from "./panels/views.js";
 import { StatusBar } from "./status_bar.js";
 import { Toolbar } from "./toolbar.js";
@@ -107,7 +107,7 @@ export function Window() {
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
-    ${away.all && html`<${Driving} />`}
+    ${away.all && html`<${Driving} /><${ProblemCorner} show=${() => { togglePanels(); showProblems(true); }} />`}
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
     ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems", show: showProblems, byItself: form === "wide" }} />`}

@@ -173,7 +173,7 @@ class FilesPanel(Panel):
                 f"{path.name} cannot be opened: {place}{problem.message}"
             ) from error
         self._reply("open", done=path.name)
-        self._say(f"Opened {path.name} of {path.parent}", "ok")
+        self._say(f"Opened {path.name} of {self._file.origin}", "ok")
 
     # To the user's own computer
 

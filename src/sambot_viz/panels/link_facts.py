@@ -86,7 +86,10 @@ def _joint(session: Session, joint: Joint) -> Iterator[Fact]:
     unit = "m" if joint.type == "prismatic" else "rad"
     position = session.joints.all_positions().get(joint.name, joint.start)
     lower, upper = joint.range
-    yield "Joint position", f"{position:.5g} {unit}, {lower:.5g} … {upper:.5g}"
+    limits = f"{lower:.5g} … {upper:.5g}"
+    if joint.type == "continuous":
+        limits = "turns without limits"
+    yield "Joint position", f"{position:.5g} {unit}, {limits}"
     yield "Joint axis", shown_numbers(joint.axis)
 
 

@@ -17,6 +17,8 @@ from sambot_viz.tools.picking.hit import Selectable
 
 SHOWN = 30
 """At most this many selected items are listed."""
+SHORT = 3
+"""The rows of so many items, or more, come folded."""
 _FRAME = TfFrameProperty(
     "Poses in", default=FIXED_FRAME, help="The frame in which poses are shown."
 )
@@ -58,7 +60,7 @@ class SelectionPanel(Panel):
                     "group",
                     f"{item.kind.capitalize()} {item.name}",
                     icon=item.kind,
-                    expanded=True,
+                    expanded=len(items) < SHORT,
                 )
             )
             made.extend(_fact_rows(head, head, self._facts(item)))

@@ -59,6 +59,8 @@ class ToolsPanel(Panel):
         hint = tools.status or tools.current.help
         touch = hint.replace(tools.current.help, tools.current.touch)
         yield Row("tools/hint", "", "note", value=hint, extra={"touch": touch})
+        names = [item.name for item in tools.selection]
+        yield Row("tools/selected", "", "names", value=names)
         yield _action("tools/escape", lambda _: tools.escape())
         yield Row("tools/press", "", "action", takes=(str,), set=self._press)
         yield Row("tools/hover", "", "action", takes=_NUMBERS, set=tools.hover)

@@ -12,6 +12,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.session import Session
+from sambot_viz.session.config_file import fit_own_config
 
 _MANAGER = "Visualization Manager"
 
@@ -82,6 +83,7 @@ class Documents:
             ConfigError: it cannot be read, or is not a .rviz document.
         """
         document = self.read(path)
+        fit_own_config(document, session.robot)
         self._prepare(document)
         with self._lock:
             self.file, self.view = path, _view_of(document)

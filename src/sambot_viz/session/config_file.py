@@ -13,6 +13,9 @@ from pathlib import Path
 from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.files import is_below
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.session import Session
 from sambot_viz.text import text
 
@@ -51,6 +54,11 @@ class ConfigFile:
         return None if file is None or _is_bundled(Path(file)) else Path(file)
 
     @property
+    def origin(self) -> str:
+        """Where the document comes from, in words: a folder, or the program."""
+        return "the program" if self.target is None else str(self.target.parent)
+
+    @property
     def folder(self) -> Path:
         """Where files are saved and opened: beside the config, else the model."""
         target, robot = self.target, self._session.robot
@@ -63,7 +71,7 @@ class ConfigFile:
         return Path.cwd()
 
     def names(self) -> list[str]:
-        """The .rviz files in the folder, by name.
+        """The .rviz files in the folder, by name, and the one of the program.
 
         Raises:
             UsageError: the folder cannot be read.
@@ -78,14 +86,16 @@ class ConfigFile:
             raise UsageError(
                 f"the folder {self.folder} cannot be read: {error.strerror}"
             ) from error
-        return sorted(found, key=str.casefold)[:MOST_NAMES]
+        return [*sorted(found, key=str.casefold)[:MOST_NAMES], *_of_the_program()]
 
     def listed(self, name: str) -> Path:
-        """The file in the folder that is shown under a name.
+        """The file that is shown under a name.
 
         Raises:
             UsageError: there is no such file any more.
         """
+        if name in _of_the_program():
+            return bundled.config_path()
         for found in self.names():
             if text(found) == name:
                 return self.folder / found
@@ -139,6 +149,25 @@ class ConfigFile:
                 ) from error
             self._session.edits.saved()
         return target
+
+
+def take_root(document: RvizConfig, robot: Robot) -> None:
+    """Take the root of a robot as the fixed frame, if it has none of that name."""
+    if document.global_options.get("Fixed Frame") not in robot.links:
+        document.global_options.set("Fixed Frame", plain_name(robot.root))
+
+
+def fit_own_config(document: RvizConfig, robot: Robot | None) -> None:
+    """Let the config that comes with the program, which is sam_bot's, fit a robot."""
+    if robot is not None and bundled.is_bundled(document.file):
+        take_root(document, robot)
+
+
+def _of_the_program() -> list[str]:
+    try:
+        return [f"{bundled.config_path().name} (comes with the program)"]
+    except UsageError:
+        return []
 
 
 def _refusal(name: str) -> str | None:

@@ -108,7 +108,14 @@ class MeasureTool(Tool):
             thickness=2.0,
             thickness_units="screen",
         )
-        self._text = scene.add_label("/~measure.length", length, position=middle)
+        # A label of a size on the screen has a box behind it, other than RViz's names.
+        self._text = scene.add_label(
+            "/~measure.length",
+            length,
+            position=middle,
+            font_screen_scale=1.5,
+            anchor="bottom-center",
+        )
 
     def _add_dot(self, start: Array) -> viser.PointCloudHandle:
         return self.context.scene.add_point_cloud(

@@ -34,15 +34,17 @@ export function SaveAs({ close, then }) {
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     ${exists && wanted && html`<p class="question" role="alert">${`${exists} exists already. Replace it?`}</p>`}
     <div class="buttons end">
-      ${exists && wanted ? html`<${Replace} replace=${() => save(true)} />` : html`<button type="submit" class="main">Save</button>`}
-      <button type="button" onClick=${close}>Cancel</button>
+      ${exists && wanted ? html`<${Question} replace=${() => save(true)} cancel=${close} />`
+        : html`<button type="submit" class="main">Save</button><button type="button" onClick=${close}>Cancel</button>`}
     </div>
   </${Dialog}>`;
 }
 
-/** The answer to the question; it has the focus, so that Enter answers too. @param {{replace: () => void}} props */
-function Replace({ replace }) {
+/** The answers to the question; an Enter too many replaces nothing.
+ * @param {{replace: () => void, cancel: () => void}} props */
+function Question({ replace, cancel }) {
   const button = useRef(/** @type {any} */ (null));
   useLayoutEffect(() => button.current.focus(), []);
-  return html`<button type="button" class="main" ref=${button} onClick=${replace}>Replace</button>`;
+  return html`<button type="button" onClick=${replace}>Replace</button>
+    <button type="button" class="main" ref=${button} onClick=${cancel}>Cancel</button>`;
 }

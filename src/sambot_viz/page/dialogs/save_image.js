@@ -19,7 +19,7 @@ export function SaveImage({ close }) {
     close();
   };
   /** @param {any} ref @param {string} name @param {number} value */
-  const side = (ref, name, value) => html`<label class="line">${name}
+  const side = (ref, name, value) => html`<label class="line"><span class="of">${name}</span>
     <input type="number" aria-label=${name} ref=${ref} min="16" max=${LONGEST} step="1" required value=${value}
       data-first=${name === "Width" ? "" : undefined} onFocus=${(/** @type {any} */ e) => e.target.select()} /> <span class="unit">pixels</span></label>`;
   return html`<${Dialog} title="Save Image" close=${close} submit=${save}>

@@ -1,7 +1,7 @@
 // @ts-check
 /* What is wrong: the list, and the count that opens it. */
 
-import { html, useEffect, useRef } from "../vendor/preact.js";
+import { html, useEffect } from "../vendor/preact.js";
 import { Icon } from "../icons.js";
 import { useRow } from "../state.js";
 import { Tree } from "../tree.js";
@@ -24,34 +24,49 @@ export function ProblemsPanel() {
 export function ProblemCount({ shown, show, byItself }) {
   const count = useRow("problems/count")?.value;
   useOpening(count, { shown, show, byItself });
-  const all = KINDS.map(([name, level]) => ({ name, level, number: count?.[name] || 0 })).filter(({ number }) => number);
-  const words = all.map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`).join(", ");
   return html`<button class="problem-count" aria-expanded=${String(shown)} title=${`${shown ? "Hide" : "Show"} the problems`}
-      onClick=${() => show(!shown)}>
-    ${all.length ? all.map(({ name, level, number }) => html`<span key=${name} class=${`l-${level}`} aria-hidden="true"><${Icon} name=${level} /> ${number}</span>`)
-      : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`}
-    <span class="spoken">${words ? `Problems: ${words}` : "No problems"}</span>
-  </button>`;
+      onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} /></button>`;
 }
+
+/** The number of problems in a corner of the view, while the panels are hidden. @param {{show: () => void}} props */
+export function ProblemCorner({ show }) {
+  const all = counted(useRow("problems/count")?.value);
+  if (!all.length) return null;
+  return html`<button class="problem-count corner" title="Show the panels and the problems" onClick=${show}><${Numbers} of=${all} /></button>`;
+}
+
+/** The kinds of problems that there are. @param {any} count */
+function counted(count) {
+  return KINDS.map(([name, level]) => ({ name, level, number: count?.[name] || 0 })).filter(({ number }) => number);
+}
+
+/** @param {{of: ReturnType<typeof counted>}} props */
+function Numbers({ of }) {
+  const words = of.map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`).join(", ");
+  return html`${of.length ? of.map(({ name, level, number }) => html`<span key=${name} class=${`l-${level}`} aria-hidden="true"><${Icon} name=${level} /> ${number}</span>`)
+      : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`}
+    <span class="spoken">${words ? `Problems: ${words}` : "No problems"}</span>`;
+}
+
+/** What the list was opened for, also while the panels are hidden. */
+const known = { errors: -1, old: false, opened: false };
 
 /** Open the list for new errors; what was opened so is closed when there are none.
  * @param {any} count @param {Shown} list */
 function useOpening(count, { shown, show, byItself }) {
-  const last = useRef({ errors: -1, old: false });
-  const opened = useRef(false);
   useEffect(() => {
     if (!count) return;
-    const before = last.current;
-    last.current = { errors: count.error, old: count.old };
+    const before = { ...known };
+    Object.assign(known, { errors: count.error, old: count.old });
     if ((byItself && count.error > Math.max(0, before.errors)) || (count.old && !before.old)) {
-      opened.current = opened.current || !shown;
+      known.opened = known.opened || !shown;
       show(true);
-    } else if (!count.error && (opened.current || before.errors < 0)) {
+    } else if (!count.error && (known.opened || before.errors < 0)) {
       // What was open when the page was left is not opened for mere warnings.
-      opened.current = false;
+      known.opened = false;
       if (shown) show(false);
     }
   }, [count?.error, count?.old]);
   // A hand that has closed or opened it decides.
-  useEffect(() => { if (!shown) opened.current = false; }, [shown]);
+  useEffect(() => { if (!shown) known.opened = false; }, [shown]);
 }

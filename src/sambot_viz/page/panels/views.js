@@ -4,8 +4,8 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
 import { ValueCell } from "../cells.js";
-import { fold, isOpen, select, selected, useRow } from "../state.js";
-import { Tree } from "../tree.js";
+import { fold, isOpen, selected, useRow } from "../state.js";
+import { reveal, Tree } from "../tree.js";
 
 /** @typedef {import("../rows.js").Row} Row */
 
@@ -53,7 +53,7 @@ export function ViewsPanel() {
   </section>`;
 }
 
-/** Saves the view, and selects the new row. */
+/** Saves the view, and shows the new row as the selected one. */
 function Save() {
   useRow("panel:views");
   const before = useRef(/** @type {Set<string> | null} */ (null));
@@ -62,7 +62,7 @@ function Save() {
     const made = before.current && saved.find((id) => !before.current?.has(id));
     if (!made) return;
     before.current = null;
-    select("views", made);
+    reveal("views", made, false);
   });
   return html`<button title="Keep this view in the list below" onClick=${() => { before.current = new Set(saved); act("views/save"); }}>Save</button>`;
 }
