@@ -10,7 +10,7 @@ const fails = () => { /* Tried to send, but the websocket is not connected! */ }
 const page = { sendMessage: works };
 Object.assign(globalThis, { window: { __viserMutable: page } });
 
-const { act, CUT, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } = await import("../../src/sambot_viz/page/channel.js");
+const { act, connect, CUT, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } = await import("../../src/sambot_viz/page/channel.js");
 
 rows.take("session", "rows", { base: 0, panels: { p: [
   { id: "a", in: "", kind: "float", value: 0 }, { id: "b", in: "", kind: "float", value: 0 },
@@ -77,4 +77,30 @@ test("what waits goes to the row that it is now, waits on, or is dropped", () =>
   assert.deepEqual(received, [["x", 7]]);
   assert.equal(sendHeldBack(), 0);
   assert.deepEqual(received, [["x", 7], ["later", 7]]);
+});
+
+test("rows of another connection than before show that it was interrupted, however short", () => {
+  /** @param {string} from @param {number} base */
+  const whole = (from, base) => ({ dataset: { sambot: "rows", of: "browser" },
+    textContent: JSON.stringify({ from, base, panels: { q: [{ id: "q", in: "", kind: "fact", value: from }] } }) });
+  /** @type {any[]} */
+  let elements = [];
+  Object.assign(globalThis, {
+    MutationObserver: class { observe() {} },
+    document: { body: null, querySelectorAll: () => elements },
+  });
+  const shown = rows.listen(CUT, () => heard.push(rows.value("q")));
+  heard.length = 0;
+  for (const element of [whole("one", 0), whole("one", 1)]) {
+    elements = [element];
+    connect();
+  }
+  assert.deepEqual(heard, []);
+  elements = [whole("two", 0)];
+  connect();
+  shown();
+  // What was there before can still be noted then.
+  assert.deepEqual(heard, [CUT, "one"]);
+  assert.equal(rows.value("q"), "two");
+  back();
 });

@@ -159,7 +159,11 @@ function take() {
       const text = element.textContent || "";
       if (sambot !== what || taken.get(element) === text) continue;
       taken.set(element, text);
-      rows.take(scope, what, JSON.parse(text));
+      const part = JSON.parse(text);
+      const before = rows.whole.get(scope);
+      // A short interruption, or one while the tab was in the background, was not seen.
+      if (what === "rows" && before && before.from !== part.from) rows.notify(CUT);
+      rows.take(scope, what, part);
     }
   }
 }

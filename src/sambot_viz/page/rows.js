@@ -12,7 +12,8 @@
  *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean,
  *   open?: boolean, bold?: boolean, lazy?: boolean, part?: number, [key: string]: any,
  * }} Row
- * @typedef {{base: number, panels: Record<string, Row[]>, rows?: Record<string, any>}} Part
+ * @typedef {{base: number, from?: string, panels: Record<string, Row[]>, rows?: Record<string, any>}} Part
+ *   from: another one is of another connection or program
  */
 
 export class Rows {

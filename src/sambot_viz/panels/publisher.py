@@ -8,6 +8,7 @@ since, written again with every change. A browser that joins applies both.
 from __future__ import annotations
 
 import json
+import secrets
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -59,6 +60,8 @@ class Publisher:
         self._worker = worker
         self._panels = tuple(panels)
         self._scope = scope
+        # A page whose connection was interrupted finds another one here.
+        self._from = secrets.token_hex(4)
         self._base = 0
         self._tidied_at = time.monotonic()
         self._rows: dict[str, dict[str, Row]] = {panel.name: {} for panel in panels}
@@ -181,7 +184,8 @@ class Publisher:
             for name, rows in self._rows.items()
         }
         self._replaced.clear()
-        return self._element("rows", {"base": self._base, "panels": panels})
+        whole = {"from": self._from, "base": self._base, "panels": panels}
+        return self._element("rows", whole)
 
     def _difference(self) -> Json:
         return {
