@@ -276,6 +276,8 @@ def test_a_visitor_downloads_and_is_asked_before_leaving_with_changes(
     entries = [entry.name for entry in user.find("menu", "File").all("menuitem")]
     assert entries == ["Download Config", "Save Image…"]
     user.keys("Escape")
+    user.keys("Control+s")
+    user.reads("Download Config saves it on your computer")
     assert not user.page.evaluate(leaving)
     field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
     user.enter(field, "12")

@@ -52,3 +52,16 @@ def test_a_finger_scrolls_the_joints_from_a_slider_and_slides_sideways(
     moved = {name for name, value in viz.joint_positions.items() if value}
     assert moved == {SECOND}
     assert float(slider(FIRST).value) == 0.0
+
+
+def test_the_chosen_tab_of_a_phone_is_in_sight_and_hints_are_for_fingers(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url, width=390, height=844, touch=True)
+    user = viewer.user
+    user.reads("One finger: turn")
+    assert not user.can_see(user.find("tab", "Problems"))
+    user.menu("Menu", "Problems")
+    user.until(lambda: user.can_see(user.find("tab", "Problems")))
+    user.menu("Menu", "Joints")
+    user.until(lambda: user.can_see(user.find("tab", "Joints")))

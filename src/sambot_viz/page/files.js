@@ -7,6 +7,7 @@ import { show } from "./dialogs/dialog.js";
 import { OpenConfig } from "./dialogs/open.js";
 import { SaveAs } from "./dialogs/save_as.js";
 import { SaveImage } from "./dialogs/save_image.js";
+import { tell } from "./notices.js";
 import { folds, selected, unfolded, useRow } from "./state.js";
 
 /** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
@@ -25,12 +26,18 @@ function takeTyped() {
   field.focus();
 }
 
+const sayNoDisk = () => tell("This config is yours alone: File > Download Config saves it on your computer", "info");
+
 export function save() {
-  if (!hasDisk()) return;
+  if (!hasDisk()) return sayNoDisk();
   takeTyped();
-  if (state().own) act("file/save", [unfolded()]); else saveAs();
+  return state().own ? act("file/save", [unfolded()]) : show(SaveAs);
 }
-export function saveAs() { if (hasDisk()) { takeTyped(); show(SaveAs); } }
+export function saveAs() {
+  if (!hasDisk()) return sayNoDisk();
+  takeTyped();
+  return show(SaveAs);
+}
 export function open() { if (hasDisk()) { takeTyped(); show(OpenConfig); } }
 export function download() { takeTyped(); act("file/download"); }
 export function saveImage() { show(SaveImage); }
