@@ -15,7 +15,6 @@ from sambot_viz import Visualizer
 pytestmark = pytest.mark.browser
 
 FIRST, SECOND = "torso_pitch_joint", "left_shoulder_roll_joint"
-SCROLLED = "document.querySelector('[role=treegrid][aria-label=Joints]').scrollTop"
 
 
 @pytest.fixture
@@ -39,9 +38,8 @@ def test_a_finger_scrolls_the_joints_from_a_slider_and_slides_sideways(
     # On the handle, then on the track.
     for beside in (0.0, 20.0):
         x, y = user.go_to(slider(FIRST))
-        before = viewer.page.evaluate(SCROLLED)
         user.swipe((x + beside, y), (x + beside + 3, y - 120))
-        viewer.wait_for(f"{SCROLLED} > {before} + 40")
+        user.until(lambda y=y: user.box(slider(FIRST))[1] < y - 60)
     user.drag_slider(slider(SECOND), 1.45)
     user.until(lambda: viz.joint_positions[SECOND] > 1.2)
     x, y = user.go_to(slider(SECOND))

@@ -5,8 +5,7 @@ import { html, useEffect, useLayoutEffect, useRef } from "./vendor/preact.js";
 import { rows } from "./channel.js";
 import { Connection } from "./connection.js";
 import { Dialogs } from "./dialogs/dialog.js";
-import { FileName } from "./files.js";
-import { MenuBar } from "./menus.js";
+import { hidden, shape, Splitter, useSizes } from "./edges.js";
 import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
 import { DrivePanel, Driving } from "./panels/drive.js";
@@ -14,53 +13,46 @@ import { JointsPanel } from "./panels/joints.js";
 import { ProblemCorner, ProblemsPanel } from "./panels/problems.js";
 import { ViewsPanel } from "./panels/views.js";
 import { StatusBar } from "./status_bar.js";
-import { Toolbar } from "./toolbar.js";
+import { Top } from "./top.js";
 import { Tree } from "./tree.js";
 import { Cell, useRow } from "./state.js";
 import { Icon } from "./icons.js";
 
-/** On a tablet the view has half of the window. */
-const small = innerWidth < 1150;
-/** Sizes of the panels [px]. @type {Cell<Record<string, number>>} */
-const sizes = new Cell({ left: small ? 236 : 300, right: small ? 268 : 320, bottom: 210, views: 240 }, "sizes");
-/** Which panels are folded away. @type {Cell<Record<string, boolean>>} */
-export const hidden = new Cell(/** @type {Record<string, boolean>} */ ({}), "hidden");
 /** The chosen tab at the right, or in the sheet of a phone. */
 export const tab = new Cell("joints", "tab");
-/** "wide" beside the view, "tall" (a phone) below it. */
-export const shape = new Cell(measure());
-
-function measure() {
-  return matchMedia("(max-width: 640px) and (orientation: portrait)").matches ? "tall"
-    : matchMedia("(max-height: 480px), (max-width: 640px)").matches ? "flat" : "wide";
-}
-addEventListener("resize", () => shape.set(measure()));
 
 /**
  * The panels that are chosen by tabs; a new one is a file and a line here.
- * @type {Record<string, {title: string, content: any}>}
+ * @type {Record<string, {title: string, short?: string, content: any}>} short: where there are many tabs
  */
 const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   frames: { title: "Frames", content: FramesPanel },
   selection: { title: "Selection", content: () => html`<${Tree} panel="selection" label="Selection" />` },
   drive: { title: "Drive", content: DrivePanel },
-  tool_properties: { title: "Tool Properties", content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />` },
+  tool_properties: { title: "Tool Properties", short: "Tool", content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />` },
 };
 const SHEET = {
-  ...TABS,
+  joints: TABS.joints,
   displays: { title: "Displays", content: DisplaysPanel },
   views: { title: "Views", content: ViewsPanel },
+  ...TABS,
   problems: { title: "Problems", content: ProblemsPanel },
 };
 
 /** Hide all panels, or bring them back. */
 export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
 
+/** Show a panel that has a tab. @param {string} name */
+function choose(name) {
+  tab.set(name);
+  if (shape.value !== "wide") hidden.set({ ...hidden.value, side: false });
+}
+
 /** Show the list of problems, or hide it. @param {boolean} on */
 function showProblems(on) {
   if (shape.value === "wide") hidden.set({ ...hidden.value, problems: !on });
-  else tab.set(on ? "problems" : "joints");
+  else choose(on ? "problems" : "joints");
 }
 
 /** What the menu Panels lists: a tab is shown when it is the chosen one.
@@ -73,11 +65,12 @@ function panelList() {
     const side = name in TABS ? "right" : name === "problems" ? "" : "left";
     const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
     const byTab = side === "right" || shape.value !== "wide";
-    const shown = byTab ? current === name && !(shape.value === "wide" && away.right)
+    const folded = shape.value === "wide" ? away.right : shape.value === "flat" && away.side;
+    const shown = byTab ? current === name && !folded
       : side ? !away.left && !away[name] : away[name] === false;
     const toggle = () => {
-      if (byTab && !shown) tab.set(name);
-      if (shape.value === "wide") hidden.set({ ...away, [name]: shown, ...(side && !shown ? { [side]: false } : {}) });
+      if (byTab && !shown) choose(name);
+      if (shape.value === "wide") hidden.set({ ...hidden.value, [name]: shown, ...(side && !shown ? { [side]: false } : {}) });
     };
     return { name, title, shown, toggle };
   });
@@ -96,21 +89,19 @@ function shownTab(of) {
 
 export function Window() {
   tab.use();
-  const form = shape.use(), away = hidden.use(), size = sizes.use();
+  const form = shape.use(), away = hidden.use(), size = useSizes();
   const view = useRef(/** @type {any} */ (null));
   useEffect(() => placeView(view.current), []);
-  const style = `--left:${size.left}px;--right:${size.right}px;--bottom:${size.bottom}px`;
+  const style = `--left:${size.left}px;--right:${size.right}px;--side:${size.side}px;--bottom:${size.bottom}px`;
   return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
-    ${!away.all && html`<div class="top">
-      <${MenuBar} panels=${panelList} hideAll=${togglePanels} small=${form !== "wide"} /><${Toolbar} /><${FileName} />
-    </div>`}
+    ${!away.all && html`<${Top} panels=${panelList} hideAll=${togglePanels} />`}
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
     ${away.all && html`<${Driving} /><${ProblemCorner} show=${() => { togglePanels(); showProblems(true); }} />`}
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
-    ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems", show: showProblems, byItself: form === "wide" }} />`}
+    ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems" && !away.side, show: showProblems, byItself: form === "wide" }} />`}
     <${Connection} />
     <${Dialogs} />
   </div>`;
@@ -130,16 +121,6 @@ function placeView(view) {
   place();
 }
 
-/** @param {{title: string, name: string, children?: any}} props */
-export function Section({ title, name, children }) {
-  const away = hidden.use();
-  return html`<section class=${`panel ${name}`} aria-label=${title}>
-    <header class="title">${title}
-      <button class="flat" title=${`Fold ${title}`} aria-label=${`Fold ${title}`}
-        onClick=${() => hidden.set({ ...away, [name]: true })}><${Icon} name="close" /></button>
-    </header>${children}</section>`;
-}
-
 function Left() {
   const away = hidden.use();
   useRow("panel:views");
@@ -147,7 +128,7 @@ function Left() {
   if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
   return html`<aside class="left">
     ${!away.displays && html`<${DisplaysPanel} />`}
-    ${views && html`<div class="lower" style=${`height:${sizes.value.views}px`}>
+    ${views && html`<div class="lower" style=${`height:${useSizes().views}px`}>
       <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`}
     <${Splitter} side="left" label="Width of the left panels" />
   </aside>`;
@@ -167,14 +148,17 @@ function Right() {
 }
 
 function Sheet() {
+  const beside = shape.use() === "flat", away = hidden.use();
   tab.use();
   /** @type {Record<string, {title: string, content: any}>} */
   const of = SHEET;
   for (const name of Object.keys(of)) useRow(`panel:${name}`);
   const names = tabNames(of), current = shownTab(of) || "joints";
+  if (beside && away.side) return html`<${Tab} side="side" />`;
   return html`<aside class="sheet">
     <${Tabs} names=${names} of=${of} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}><${of[current].content} /></div>
+    ${beside && html`<${Splitter} side="side" label="Width of the panels" />`}
   </aside>`;
 }
 
@@ -188,7 +172,7 @@ function fadeEdges(strip) {
   strip.style.setProperty("--after", `${Math.max(0, Math.min(EDGE, rest))}px`);
 }
 
-/** @param {{names: string[], of: Record<string, {title: string}>, current: string}} props */
+/** @param {{names: string[], of: Record<string, {title: string, short?: string}>, current: string}} props */
 function Tabs({ names, of, current }) {
   /** @param {any} event */
   const key = (event) => {
@@ -218,7 +202,7 @@ function Tabs({ names, of, current }) {
   return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key} onScroll=${fade}>
     ${names.map((name) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
       aria-controls=${name === current ? "panel-right" : undefined} tabindex=${name === current ? 0 : -1}
-      onClick=${() => tab.set(name)}>${of[name].title}</button>`)}
+      aria-label=${of[name].title} onClick=${() => tab.set(name)}>${(of !== TABS && of[name].short) || of[name].title}</button>`)}
   </div>`;
 }
 
@@ -237,44 +221,15 @@ function Bottom() {
 
 /** @param {{side: string}} props */
 function Tab({ side }) {
-  return html`<button class=${`unfold ${side}`} title=${`Show the ${side} panels`} aria-label=${`Show the ${side} panels`}
+  const words = side === "side" ? "Show the panels" : `Show the ${side} panels`;
+  return html`<button class=${`unfold ${side}`} title=${words} aria-label=${words}
     onClick=${() => unfoldSide(side)}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
 }
 
 /** Show the panels of a side again; when each was hidden by itself, all of them. @param {string} side */
 function unfoldSide(side) {
-  const names = side === "left" ? ["displays", "views"] : Object.keys(TABS);
+  const names = side === "left" ? ["displays", "views"] : side === "right" ? Object.keys(TABS) : [];
   const next = { ...hidden.value, [side]: false };
   if (names.every((name) => next[name] || !rows.panels.get(name)?.length)) for (const name of names) delete next[name];
   hidden.set(next);
-}
-
-/** An edge that a hand can move; arrow keys move it too. @param {{side: string, label: string}} props */
-function Splitter({ side, label }) {
-  const sign = side === "left" ? 1 : -1;
-  const across = side === "left" || side === "right";
-  const most = () => (across ? innerWidth : innerHeight) * 0.6;
-  /** @param {number} size */
-  const set = (size) => sizes.set({ ...sizes.value, [side]: Math.round(Math.min(most(), Math.max(90, size))) });
-  /** @param {any} event */
-  const drag = (event) => {
-    const from = across ? event.clientX : event.clientY, size = sizes.value[side];
-    event.target.setPointerCapture(event.pointerId);
-    event.target.onpointermove = (/** @type {any} */ e) => set(size + sign * ((across ? e.clientX : e.clientY) - from));
-    event.target.onpointerup = () => { event.target.onpointermove = null; };
-    event.preventDefault();
-  };
-  /** @param {any} event */
-  const key = (event) => {
-    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 16, ArrowUp: across ? 0 : -16, ArrowLeft: -16, ArrowDown: across ? 0 : 16 })[event.key];
-    if (!by) return;
-    set(sizes.value[side] + sign * by);
-    event.preventDefault();
-    event.stopPropagation();
-  };
-  const icon = across && html`<button class="tuck" tabindex="-1" aria-label=${`Hide the ${side} panels`} title=${`Hide the ${side} panels`}
-    onClick=${() => hidden.set({ ...hidden.value, [side]: true })}><${Icon} name=${side === "left" ? "fold" : "unfold"} /></button>`;
-  return html`<div class=${`splitter ${across ? "across" : "down"} ${side}`}><div class="grip" role="separator" tabindex="0" aria-label=${label}
-    aria-orientation=${across ? "vertical" : "horizontal"} aria-valuenow=${sizes.value[side]} aria-valuemin="90" aria-valuemax=${Math.round(most())}
-    onPointerDown=${drag} onKeyDown=${key}></div>${icon}</div>`;
 }

@@ -1,7 +1,7 @@
 // @ts-check
 /* The Joints panel: a slider for each joint, and what can be done with all of them. */
 
-import { html, useMemo, useRef, useState } from "../vendor/preact.js";
+import { html, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../channel.js";
 import { focusWhole } from "../field.js";
 import { Icon } from "../icons.js";
@@ -17,8 +17,10 @@ import { Poses } from "./poses.js";
 /** @typedef {import("../rows.js").Row} Row */
 
 const SEARCH_FROM = 12;
-/** Besides the name: fold, gaps and a scroll bar [px]. */
-const AROUND_NAME = 26, INDENT = 14;
+/** Left and right of a name, and what is more when there are groups [px]. */
+const AROUND_NAME = 10, INDENT = 14;
+/** What a finger needs beside a name: a slider that is long enough, and the number [px]. */
+const FOR_A_FINGER = 240;
 
 /** How the values of the joints can be copied. @type {Record<string, string>} */
 const FORMS = {
@@ -37,7 +39,9 @@ export function JointsPanel() {
   const [search, setSearch] = useState("");
   const box = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
   const ids = rows.panels.get("joints") || [];
-  const width = useMemo(() => longestName(ids), [ids]);
+  const grouped = ids.some((id) => rows.get(id)?.kind === "group");
+  const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
+  const width = useWidth(panel);
   if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   /** @param {Row} row */
@@ -53,7 +57,9 @@ export function JointsPanel() {
     event.stopPropagation();
   };
   const wheels = Boolean(rows.get("joints/rate"));
-  return html`<div class=${`joints${wheels ? " wheels" : ""}`} ref=${panel} style=${`--names: ${width}px`}>
+  const stacked = matchMedia("(pointer: coarse)").matches && names + FOR_A_FINGER > width;
+  const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
+  return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
       <button onClick=${() => act("joints/center")} title="All joints to their start values">Center</button>
       <button onClick=${() => act("joints/randomize")} title="All joints to random values of their ranges">Randomize</button>
@@ -84,8 +90,20 @@ function longestName(ids) {
   if (!brush) return 130;
   brush.font = getComputedStyle(document.getElementById("sambot") || document.body).font;
   const widths = ids.map((id) => rows.get(id)).filter((row) => row?.kind === "slider")
-    .map((row) => brush.measureText(row?.name || "").width + (row?.in ? INDENT : 0));
+    .map((row) => brush.measureText(row?.name || "").width);
   return Math.ceil(Math.max(60, ...widths)) + AROUND_NAME;
+}
+
+/** The width of an element, in a component [px]. @param {{current: any}} element */
+function useWidth(element) {
+  const [width, setWidth] = useState(Infinity);
+  useLayoutEffect(() => {
+    if (!element.current) return undefined;
+    const observer = new ResizeObserver(() => setWidth(element.current?.clientWidth ?? Infinity));
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, [element.current]);
+  return width;
 }
 
 /** One click copies, as the last time; the list offers the other forms. */
