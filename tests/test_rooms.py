@@ -120,7 +120,7 @@ ROOMS: Mapping[str, Row] = {
     "commands": Row(
         "_version bundled checks export frames inputs joints open_config options "
         "problem_text robot rviz server session visualizer",
-        "PIL",
+        "PIL segno",
         "signal webbrowser",
     ),
     # The hall.
@@ -138,10 +138,11 @@ ROOMS: Mapping[str, Row] = {
         "concurrent threading",
     ),
     "open_config": Row("displays rviz tools views"),
-    "options": Row("frames joints robot rviz", "yourdfpy"),
+    "options": Row("frames joints robot rviz tokens", "yourdfpy"),
     "problem_groups": Row(),
     "problem_text": Row("problem_groups"),
     "text": Row(),
+    "tokens": Row(),
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "visualizer": Row(
         "displays frames inputs joints open_config options robot rviz server session",

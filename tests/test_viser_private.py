@@ -8,12 +8,13 @@ import pytest
 import viser
 
 from sambot_viz import viser_private
+from sambot_viz.options import Options
 from sambot_viz.server.bind import close, listen
 
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
-    server = listen("127.0.0.1", 0)
+    server = listen(Options())
     yield server
     close(server)
 
@@ -34,7 +35,7 @@ def test_nodes_are_counted(server: viser.ViserServer) -> None:
 def test_starting_and_stopping_prints_nothing(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    server = listen("127.0.0.1", 0)
+    server = listen(Options())
     close(server)
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")

@@ -52,6 +52,7 @@ class Flag:
         type: makes the value from one word; None keeps the text.
         read: makes the value from all words of an option that may be repeated, and
             the flag's name.
+        optional_value: whether the flag may stand without a value, which is "" then.
         switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
             one that makes it False.
     """
@@ -65,6 +66,7 @@ class Flag:
     choices: tuple[str, ...] = ()
     type: Callable[[str], object] | None = None
     read: Callable[[Sequence[str], str], object] | None = None
+    optional_value: bool = False
     switch: Literal["", "yes-no", "off"] = ""
 
 
@@ -222,6 +224,14 @@ class Options:
         metavar="ORIGIN",
         read=_words,
     )
+    token: str | None = _option(
+        None,
+        "a secret without which nobody sees the page, in the link that is printed; "
+        "made when no VALUE is given",
+        "--token",
+        metavar="VALUE",
+        optional_value=True,
+    )
     session: SessionMode = _option(
         "shared",
         "one robot for all browsers, or one for each",
@@ -289,8 +299,15 @@ class Options:
                 "the fixed frame has an empty name; give a frame of the robot, such "
                 "as base_link"
             )
+        if self.token is not None:
+            object.__setattr__(self, "token", self._checked_token())
         object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
+
+    def _checked_token(self) -> str:
+        from sambot_viz.tokens import check_token, new_token
+
+        return check_token(self.token) if self.token else new_token()
 
     @property
     def start_pose(self) -> StartPose:

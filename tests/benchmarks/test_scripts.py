@@ -18,6 +18,7 @@ from viewer_page import viewer_url
 
 from sambot_viz.export.browser_page import BrowserPage
 from sambot_viz.export.chromium import Chromium
+from sambot_viz.options import Options
 from sambot_viz.server.bind import close, listen
 
 RunServer = Callable[[list[str]], AbstractContextManager[Any]]
@@ -57,7 +58,7 @@ DRAW_FORTY = """new Promise(resolve => {
 @contextmanager
 def thousand_boxes() -> Iterator[viser.ViserServer]:
     """As many parts as a large robot has, half of them translucent."""
-    server = listen("127.0.0.1", 0, panels=False)
+    server = listen(Options(panels=False))
     for i in range(PARTS):
         server.scene.add_box(
             f"/{i}",

@@ -13,7 +13,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
-from sambot_viz.server.access import framing_policy, is_welcome, only_this_machine
+from sambot_viz.options import Options
+from sambot_viz.server.access import content_policy, is_welcome, only_this_machine
 from sambot_viz.server.bind import close, listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
@@ -81,7 +82,7 @@ def test_an_allowed_origin_is_welcome_through_a_proxy() -> None:
 
 @pytest.fixture
 def port() -> Iterator[int]:
-    server = listen("127.0.0.1", 0)
+    server = listen(Options())
     yield server.get_port()
     close(server)
 
@@ -136,12 +137,19 @@ def test_a_path_that_no_file_can_have_is_not_found(port: int) -> None:
 def test_a_page_of_another_machine_cannot_show_this_one_in_a_frame(port: int) -> None:
     with urlopen(f"http://127.0.0.1:{port}/") as answer:
         policy = answer.headers["Content-Security-Policy"]
-    assert policy == "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
+    frames = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
+    assert policy.partition("; ")[2] == frames
 
 
 def test_an_allowed_origin_may_show_the_page_in_a_frame() -> None:
-    policy = framing_policy("0.0.0.0", ["https://lab.example.org"])
-    assert policy == "frame-ancestors 'self' https://lab.example.org"
+    policy = content_policy("lab:80", "0.0.0.0", ["https://lab.example.org"])
+    assert policy.endswith("frame-ancestors 'self' https://lab.example.org")
+
+
+def test_a_page_may_only_ask_its_own_server() -> None:
+    policy = content_policy("lab:80", "0.0.0.0")
+    asks = "connect-src 'self' ws://lab:80 wss://lab:80 data: blob:"
+    assert policy.partition("; ")[0] == asks
 
 
 def test_a_page_of_another_version_is_disconnected_and_nothing_is_printed(

@@ -60,6 +60,8 @@ def _rows(parser: argparse.ArgumentParser) -> Iterator[str]:
 
 def _argument(action: argparse.Action) -> str:
     value = "" if action.nargs == 0 else action.metavar or action.dest.upper()
+    if action.nargs == "?":
+        value = f"[{value}]"
     if not action.option_strings:
         return f"`{value}`"
     return ", ".join(

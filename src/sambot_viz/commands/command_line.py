@@ -130,6 +130,8 @@ def _add(parser: Parser, option: Field[Any]) -> None:
         given |= {"action": "store_false"}
     else:
         given |= {"metavar": flag.metavar, "type": flag.type, "default": default}
+        if flag.optional_value:
+            given |= {"nargs": "?", "const": ""}
         if flag.choices:
             given |= {"choices": flag.choices}
         if flag.read is not None:

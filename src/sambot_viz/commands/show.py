@@ -34,8 +34,8 @@ the line; model:=, rvizconfig:= and gui:= mean the same as for display.launch.py
 """
 
 _OPEN_TO_ALL = """\
-sambot-viz: note: anyone who can reach port {} of this machine can see the robot and
-move its joints; without --host only this machine can
+sambot-viz: warning: anyone who can reach port {} of this machine can see the robot and
+move its joints; --token asks for a link that you give to those who may
 """
 
 
@@ -57,16 +57,18 @@ def run(words: list[str]) -> int:
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
     from sambot_viz.server.access import only_this_machine
-    from sambot_viz.server.bind import close, listen, url_of
+    from sambot_viz.server.bind import close, listen, reachable_at, url_of
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)
-    server = listen(options.host, options.port, options.allowed_origins, options.panels)
+    server = listen(options)
     try:
         _refuse_early(inputs)
-        _announce(url_of(server), given.open)
+        _announce(url_of(server, options.token), given.open)
         if not only_this_machine(options.host):
-            sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
+            _invite(url_of(server, options.token, reachable_at(options.host)))
+            if options.token is None:
+                sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         inputs.begin()
         from sambot_viz.visualizer import Visualizer
 
@@ -151,6 +153,15 @@ def _announce(url: str, open_it: bool) -> None:
         import webbrowser
 
         webbrowser.open(url)
+
+
+def _invite(url: str) -> None:
+    """Write the link for other machines, and draw it for the camera of a phone."""
+    sys.stderr.write(f"sambot-viz: from other machines: {url}\n")
+    if sys.stderr.isatty():
+        import segno
+
+        segno.make(url, error="l").terminal(sys.stderr, compact=True, border=2)
 
 
 def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> None:

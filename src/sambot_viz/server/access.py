@@ -5,12 +5,12 @@ viser accepts every connection, so any page that a user visits could open
 the page that this server itself sent, or from an origin that was allowed by name: a
 page of another origin is refused, and so is one that reached the server under a foreign
 name (DNS rebinding). Other pages cannot show this one in a frame. Programs send no
-Origin and are let in.
+Origin and are let in. With a token (`server.token_check`), nobody is let in without it.
 
 What stays weak: a server that listens on a network, and has no allowed origins, cannot
 know its own names, so it takes any name that a browser reached it by, also a foreign
-one. Whoever can reach the port can use the page; passwords and TLS are the job of a
-proxy.
+one. Without a token, whoever can reach the port can use the page. Passwords of users
+and TLS are the job of a proxy.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import contextlib
 import http
 import ipaddress
 import socket
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Awaitable, Callable, Generator, Sequence
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -29,7 +29,9 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from sambot_viz.options import Options
 from sambot_viz.server import page_files
+from sambot_viz.server.token_check import TokenCheck
 
 _PROTOCOL = f"viser-v{viser.__version__}"
 _VERSION_MISMATCH = 1002
@@ -64,14 +66,23 @@ def is_welcome(
     return origin is None or _netloc(origin) == host
 
 
-def framing_policy(listening_on: str, allowed: Sequence[str] = ()) -> str:
-    """The Content-Security-Policy: which pages may show this one in a frame.
+def content_policy(host: str, listening_on: str, allowed: Sequence[str] = ()) -> str:
+    """The Content-Security-Policy: what the page may ask for, and who may frame it.
 
-    Notebooks on this machine may, when the server is for this machine.
+    viser's page would take a robot, and with it scripts, from any server that its
+    address names (``?websocket=``, ``?playbackPath=``); it may only ask its own.
+    Notebooks on this machine may show it, when the server is for this machine.
+
+    Args:
+        host: the Host header of the request for the page.
+        listening_on: as for `is_welcome`.
+        allowed: as for `is_welcome`.
     """
     local = ("http://localhost:*", "http://127.0.0.1:*")
     pages = ("'self'", *(local if only_this_machine(listening_on) else ()), *allowed)
-    return f"frame-ancestors {' '.join(pages)}"
+    # Not all browsers take 'self' for websockets too.
+    own = f"'self' ws://{host} wss://{host} data: blob:"
+    return f"connect-src {own}; frame-ancestors {' '.join(pages)}"
 
 
 def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
@@ -102,40 +113,41 @@ def _hostname(netloc: str) -> str:
 
 
 @contextlib.contextmanager
-def checked(
-    listening_on: str, allowed: Sequence[str] = (), panels: bool = True
-) -> Generator[None]:
+def checked(options: Options) -> Generator[None]:
     """Servers that are started in here check every request before viser answers it.
 
     viser gives no way to look at a request, so the function with which it starts its
     server is replaced for the moment of the start.
+
+    Args:
+        options: where the server listens, and for whom.
     """
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
-    policy = framing_policy(listening_on, allowed)
-    page_files.prepare(panels)
+    token = TokenCheck(options.token) if options.token is not None else None
+    page_files.prepare(options.panels)
 
-    def serve(handler: Any, *arguments: Any, **options: Any) -> Any:
-        answer = options.get("process_request")
+    def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
+        answer = settings.get("process_request")
 
-        def check(connection: ServerConnection, request: Request) -> Any:
-            hosts = request.headers.get_all("Host")
-            origins = request.headers.get_all("Origin")
-            if len(hosts) != 1 or len(origins) > 1:
-                return _refusal(http.HTTPStatus.BAD_REQUEST, "One Host, one Origin.")
-            origin = origins[0] if origins else None
-            if not is_welcome(hosts[0], origin, listening_on, allowed):
-                sentence = "This page may not use this server; see --allow-origin."
-                return _refusal(http.HTTPStatus.FORBIDDEN, sentence)
+        def check(
+            connection: ServerConnection, request: Request
+        ) -> Response | Awaitable[Response] | None:
+            refused = _refusal(request, options) or (token and token.refusal(request))
+            if refused:
+                return refused
             try:
-                response = page_files.answer(request, panels)
+                response = page_files.answer(request, options.panels)
                 if response is None and answer:
                     response = answer(connection, request)
             except (OSError, ValueError):
                 # The file name is too long for the system, or contains a NUL.
-                return _refusal(http.HTTPStatus.NOT_FOUND, "No such page.")
+                return _plain(http.HTTPStatus.NOT_FOUND, "No such page.")
             if response is not None:
-                response.headers["Content-Security-Policy"] = policy
+                response.headers["Content-Security-Policy"] = content_policy(
+                    request.headers["Host"], options.host, options.allowed_origins
+                )
+                response.headers["Referrer-Policy"] = "no-referrer"
             return response
 
         async def handle(connection: ServerConnection) -> None:
@@ -145,8 +157,8 @@ def checked(
                 # viser would write a line on the terminal for every attempt.
                 await connection.close(_VERSION_MISMATCH, "Version mismatch.")
 
-        options["process_request"] = check
-        return original(handle, *arguments, **options)
+        settings["process_request"] = check
+        return original(handle, *arguments, **settings)
 
     module.serve = serve  # type: ignore[assignment, misc]
     try:
@@ -155,7 +167,19 @@ def checked(
         module.serve = original  # type: ignore[assignment, misc]
 
 
-def _refusal(status: http.HTTPStatus, sentence: str) -> Response:
+def _refusal(request: Request, options: Options) -> Response | None:
+    """The answer to a request from where none may come."""
+    hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
+    if len(hosts) != 1 or len(origins) > 1:
+        return _plain(http.HTTPStatus.BAD_REQUEST, "One Host, one Origin.")
+    origin = origins[0] if origins else None
+    if is_welcome(hosts[0], origin, options.host, options.allowed_origins):
+        return None
+    sentence = "This page may not use this server; see --allow-origin."
+    return _plain(http.HTTPStatus.FORBIDDEN, sentence)
+
+
+def _plain(status: http.HTTPStatus, sentence: str) -> Response:
     content = f"{sentence}\n".encode()
     headers = Headers({"Content-Length": str(len(content))})
     return Response(status, status.phrase, headers, content)

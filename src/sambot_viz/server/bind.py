@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import errno
 import socket
-from collections.abc import Sequence
 
 import viser
 
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
+from sambot_viz.options import Options
 from sambot_viz.server import access
 from sambot_viz.server.door import guard
 
@@ -21,35 +21,57 @@ _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
 
 
-def url_of(server: viser.ViserServer) -> str:
-    """The address to open in a browser: "http://127.0.0.1:8080"."""
-    host = server.get_host()
-    host = _ANYWHERE.get(host, host)
-    return f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
+def url_of(server: viser.ViserServer, token: str | None = None, host: str = "") -> str:
+    """The address to open in a browser: "http://127.0.0.1:8080".
+
+    Args:
+        server: the server.
+        token: the secret that the page asks for, if any.
+        host: the name to reach it by, instead of the address it listens on.
+    """
+    host = host or _ANYWHERE.get(server.get_host(), server.get_host())
+    address = f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
+    return address if token is None else f"{address}/?token={token}"
 
 
-def listen(
-    host: str, port: int, allowed_origins: Sequence[str] = (), panels: bool = True
-) -> viser.ViserServer:
-    """A viser server on exactly this address.
+def reachable_at(host: str) -> str:
+    """The address by which other machines reach a server that listens on `host`.
+
+    For a server on all networks that is the address of the one through which this
+    machine reaches others; nothing is sent to find it out.
+    """
+    if host not in _ANYWHERE:
+        return host
+    family, far = (
+        (socket.AF_INET6, "2001:db8::1")
+        if ":" in host
+        else (socket.AF_INET, "192.0.2.1")
+    )
+    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect((far, 9))
+        except OSError:
+            return socket.gethostname()
+        return str(probe.getsockname()[0])
+
+
+def listen(options: Options) -> viser.ViserServer:
+    """A viser server on exactly the address that the options name.
 
     viser itself takes the next free port without a message, and tries forever on an
     address that this machine does not have.
 
     Args:
-        host: address to listen on.
-        port: 0 takes a free one.
-        allowed_origins: web pages of other origins that may use the server, such as
-            "https://lab.example.org" for one behind a proxy.
-        panels: whether the page has panels round its view.
+        options: the address, and who may use the server.
 
     Raises:
         ServerError: the address cannot be listened on, with what to do about it.
     """
+    host, port = options.host, options.port
     _try_to_bind(host, port)
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
-    with viser_private.without_banner(), access.checked(host, allowed_origins, panels):
+    with viser_private.without_banner(), access.checked(options):
         server = viser.ViserServer(host=host, port=port, verbose=False)
     if port not in (0, server.get_port()):
         close(server)

@@ -79,9 +79,7 @@ class Server:
         self._checks: dict[Session, CheckResults] = {}
         self._private: dict[int, Session] = {}
         self._workers: dict[int | None, Worker] = {}
-        self._viser = listening or listen(
-            options.host, options.port, options.allowed_origins, options.panels
-        )
+        self._viser = listening or listen(options)
         self._stopped = threading.Event()
         guard(self._viser)
         give_edits(self._viser, self._take_edit)
@@ -100,7 +98,7 @@ class Server:
     @property
     def url(self) -> str:
         """The address to open: "http://127.0.0.1:8080"."""
-        return url_of(self._viser)
+        return url_of(self._viser, self.options.token)
 
     @property
     def robot(self) -> Robot | None:

@@ -6,6 +6,7 @@ import pytest
 import viser
 
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, linear
+from sambot_viz.options import Options
 from sambot_viz.server.bind import close, listen
 
 
@@ -22,7 +23,7 @@ def test_linear_undoes_the_encoding_of_the_page() -> None:
 
 
 def test_arrows_are_shown_in_their_colours_to_four_steps() -> None:
-    server: viser.ViserServer = listen("127.0.0.1", 0)
+    server: viser.ViserServer = listen(Options())
     try:
         arrow = Arrow((0, 0, 0), (1, 0, 0), (0.4, 0.01), (0.1, 0.04))
         shafts, heads = add_arrows(

@@ -1,0 +1,156 @@
+"""The secret in a link that lets a browser in, and the cookie that remembers it.
+
+The first page that is opened with ``?token=…`` is answered with a cookie and the same
+address without the token, which so is neither in the history nor on a screen that is
+shared. Programs may send it with every request, as ``Authorization: Bearer …`` or in
+the address.
+
+What stays weak: without TLS, whoever reads along on the network reads the token too; a
+browser that has it can pass it on.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import hmac
+import http
+from collections.abc import Awaitable
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qsl, urlencode, urlsplit
+
+from websockets.datastructures import Headers
+from websockets.http11 import Request, Response
+
+WRONG_ANSWER = 1.0
+"""The answer to a wrong token takes so long [s]."""
+MOST_WAITING = 20
+"""So many wrong tokens are answered at the same time; more are not looked at."""
+_REMEMBERED = 30 * 24 * 3600
+"""How long a browser keeps the cookie [s]."""
+_PAGE = """\
+<!doctype html><meta charset="utf-8">
+<meta name="viewport" content="width=device-width"><title>sambot-viz</title>
+<style>body {{ font: 16px/1.5 sans-serif; max-width: 34em; margin: 4em auto }}</style>
+<h1>{title}</h1><p>{text}</p>
+"""
+
+
+class TokenCheck:
+    """Lets in who has the token.
+
+    Guesses are slowed down for all together: so many seconds for an answer, so many
+    answers at a time. Who comes while that many guesses wait may try again later.
+
+    Args:
+        token: the secret.
+    """
+
+    def __init__(self, token: str) -> None:
+        self._token = token.encode()
+        # Cookies are shared by all ports of a host, where other servers may be.
+        name = hashlib.sha256(b"cookie " + self._token).hexdigest()[:12]
+        self._cookie = f"sambot-viz-{name}"
+        self._waiting = 0
+
+    def refusal(self, request: Request) -> Response | Awaitable[Response] | None:
+        """The answer to a request that may not come in, or is to come in by itself.
+
+        Returns:
+            None for a request with the token.
+        """
+        if self._waiting >= MOST_WAITING:
+            return _answer(
+                http.HTTPStatus.TOO_MANY_REQUESTS,
+                "Too many wrong links at the moment",
+                "Load the page again in a few seconds.",
+                {"Retry-After": "2"},
+            )
+        address, given = _split(request.path)
+        right = [hmac.compare_digest(one, self._token) for one in given]
+        if any(right):
+            if request.headers.get("Upgrade") == "websocket":
+                return None
+            return self._remember(address, request.headers)
+        sent = self._sent(request.headers)
+        if any(hmac.compare_digest(one, self._token) for one in sent):
+            return None
+        return self._wrong() if [*given, *sent] else _no_token()
+
+    def _sent(self, headers: Headers) -> list[bytes]:
+        """The tokens in the headers of a request."""
+        found: list[bytes] = []
+        for text in headers.get_all("Authorization"):
+            kind, _, value = text.partition(" ")
+            if kind.lower() == "bearer":
+                found.append(value.strip().encode())
+        for text in headers.get_all("Cookie"):
+            try:
+                morsel = SimpleCookie(text).get(self._cookie)
+            except CookieError:
+                continue
+            if morsel is not None:
+                found.append(morsel.value.encode())
+        return found
+
+    def _remember(self, address: str, headers: Headers) -> Response:
+        """The same page without the token in its address, and with a cookie."""
+        secure = "https" in headers.get_all("X-Forwarded-Proto")
+        cookie = (
+            f"{self._cookie}={self._token.decode()}; Path=/; Max-Age={_REMEMBERED}; "
+            f"HttpOnly; SameSite=Lax{'; Secure' if secure else ''}"
+        )
+        more = {"Location": address, "Set-Cookie": cookie}
+        return _answer(http.HTTPStatus.SEE_OTHER, "Come in", address, more)
+
+    async def _wrong(self) -> Response:
+        self._waiting += 1
+        try:
+            await asyncio.sleep(WRONG_ANSWER)
+        finally:
+            self._waiting -= 1
+        return _answer(
+            http.HTTPStatus.UNAUTHORIZED,
+            "This link is not valid (any more)",
+            "Its token is wrong. Ask for the link that the program has printed at its "
+            "last start.",
+        )
+
+
+def _no_token() -> Response:
+    return _answer(
+        http.HTTPStatus.UNAUTHORIZED,
+        "This robot is only shown to those who have the link",
+        "Open the whole address that sambot-viz has printed, "
+        "with the token at its end.",
+    )
+
+
+def _split(path: str) -> tuple[str, list[bytes]]:
+    """A path without the tokens in it, and these."""
+    parts = urlsplit(path)
+    query = parse_qsl(parts.query, keep_blank_values=True)
+    given = [value.encode() for name, value in query if name == "token"]
+    rest = urlencode([pair for pair in query if pair[0] != "token"])
+    # A path of two slashes would be another host.
+    where = "/" + parts.path.lstrip("/")
+    return f"{where}?{rest}" if rest else where, given
+
+
+def _answer(
+    status: http.HTTPStatus,
+    title: str,
+    text: str,
+    more: dict[str, str] | None = None,
+) -> Response:
+    content = _PAGE.format(title=title, text=text).encode()
+    headers = Headers(
+        {
+            "Content-Type": "text/html; charset=utf-8",
+            "Content-Length": str(len(content)),
+            "Cache-Control": "no-store",
+            "Referrer-Policy": "no-referrer",
+            **(more or {}),
+        }
+    )
+    return Response(status, status.phrase, headers, content)

@@ -1,0 +1,43 @@
+"""What a real browser does with the link, the cookie and the policy of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from recorded_page import open_page
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.export.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+
+def test_the_link_opens_the_page_and_a_reload_does_without(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    with Visualizer(port=0, token="") as viz:
+        address, token = viz.url.split("?token=")
+        viewer = open_viewer(viz.url)
+        viewer.user.row("Joints", "drivewhl_l_joint")
+        assert viewer.page.evaluate("location.href").partition("?")[0] == address
+        assert token not in viewer.page.evaluate("document.cookie + location.href")
+        viewer.page.goto(address)
+        viewer.user.row("Joints", "drivewhl_l_joint")
+        assert viewer.errors() == []
+
+
+@pytest.mark.parametrize("query", ["websocket=ws:", "playbackPath=http:"])
+def test_an_address_brings_nothing_from_another_server(
+    chromium: Chromium, query: str
+) -> None:
+    with Visualizer(port=0) as viz, Visualizer(port=0) as other:
+        page = open_page(chromium, 640, 480)
+        foreign = other.url.removeprefix("http:")
+        page.goto(f"{viz.url}/?{query}{foreign}/robot.viser")
+        refused = "violates the following Content Security Policy"
+        User(page).until(lambda: any(refused in m.text for m in page.console), 20.0)
+        assert other.viser.get_clients() == {}
+        page.close()

@@ -1,0 +1,159 @@
+"""The secret in a link: who is let in with it, and what others get."""
+
+from __future__ import annotations
+
+import contextlib
+import http.client
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import pytest
+import viser
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
+
+from sambot_viz.options import Options
+from sambot_viz.server import token_check
+from sambot_viz.server.bind import close, listen, url_of
+
+TOKEN = "s3cret-of.the_lab"
+PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = listen(Options(token=TOKEN))
+    yield server
+    close(server)
+
+
+@pytest.fixture
+def port(server: viser.ViserServer) -> int:
+    return server.get_port()
+
+
+@dataclass(frozen=True)
+class Answered:
+    """What the server has answered to a request."""
+
+    status: int
+    headers: Mapping[str, str]
+    text: str
+
+
+def ask(port: int, path: str, headers: Mapping[str, str] | None = None) -> Answered:
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10.0)
+    with contextlib.closing(connection):
+        connection.request("GET", path, headers=dict(headers or {}))
+        answer = connection.getresponse()
+        return Answered(answer.status, answer.headers, answer.read().decode())
+
+
+def cookie_of(answer: Answered) -> str:
+    return answer.headers["Set-Cookie"].partition(";")[0]
+
+
+def test_the_printed_link_lets_in_and_leaves_the_address_bar(
+    server: viser.ViserServer, port: int
+) -> None:
+    assert url_of(server, TOKEN) == f"http://127.0.0.1:{port}/?token={TOKEN}"
+    first = ask(port, f"/?fixedDpr=1&token={TOKEN}")
+    assert (first.status, first.headers["Location"]) == (303, "/?fixedDpr=1")
+    cookie = first.headers["Set-Cookie"]
+    assert "; HttpOnly" in cookie and "; SameSite=Lax" in cookie
+    assert "Secure" not in cookie
+    page = ask(port, "/?fixedDpr=1", {"Cookie": f"other=1; {cookie_of(first)}"})
+    assert page.status == 200
+    assert "</html>" in page.text
+
+
+def test_a_cookie_that_came_through_tls_stays_on_tls(port: int) -> None:
+    answer = ask(port, f"/?token={TOKEN}", {"X-Forwarded-Proto": "https"})
+    assert "; Secure" in answer.headers["Set-Cookie"]
+
+
+@pytest.mark.parametrize("path", ["/", "/index.html", "/sambot/licenses.txt", "/no"])
+def test_nothing_is_seen_without_the_link(port: int, path: str) -> None:
+    answer = ask(port, path)
+    assert answer.status == 401
+    assert "with the token at its end" in answer.text
+    assert TOKEN not in answer.text
+
+
+@pytest.mark.parametrize("path", [f"//evil.example/?token={TOKEN}", "///x?token="])
+def test_the_link_leads_to_no_other_host(port: int, path: str) -> None:
+    where = ask(port, path.replace("token=", f"token={TOKEN}", 1)).headers.get(
+        "Location"
+    )
+    assert where is None or not where.startswith("//")
+
+
+@pytest.mark.parametrize(
+    ("query", "headers"),
+    [
+        ("", {}),
+        ("", {"Cookie": "sambot-viz=1"}),
+        ("?token=wrong", {}),
+        ("", {"Authorization": "Bearer wrong"}),
+    ],
+)
+def test_a_websocket_needs_it_too(
+    port: int,
+    query: str,
+    headers: Mapping[str, str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(token_check, "WRONG_ANSWER", 0.0)
+    with pytest.raises(InvalidStatus) as refused:
+        connect(
+            f"ws://127.0.0.1:{port}/{query}",
+            subprotocols=[PROTOCOL],
+            additional_headers=headers,
+        )
+    assert refused.value.response.status_code == 401
+
+
+def test_a_program_may_send_it_in_three_ways(port: int) -> None:
+    cookie = cookie_of(ask(port, f"/?token={TOKEN}"))
+    ways: list[tuple[str, Mapping[str, str]]] = [
+        (f"?token={TOKEN}", {}),
+        ("", {"Authorization": f"Bearer {TOKEN}"}),
+        ("", {"Cookie": cookie}),
+    ]
+    for query, headers in ways:
+        url = f"ws://127.0.0.1:{port}/{query}"
+        with connect(url, subprotocols=[PROTOCOL], additional_headers=headers):
+            pass
+
+
+def test_guesses_are_slowed_down_and_who_is_in_stays(
+    port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(token_check, "WRONG_ANSWER", 1.0)
+    monkeypatch.setattr(token_check, "MOST_WAITING", 2)
+    with connect(
+        f"ws://127.0.0.1:{port}/?token={TOKEN}", subprotocols=[PROTOCOL]
+    ) as in_:
+        statuses: list[int] = []
+
+        def guess(number: int) -> None:
+            statuses.append(ask(port, f"/?token=guess{number}").status)
+
+        begun = time.monotonic()
+        guesses = [threading.Thread(target=guess, args=(n,)) for n in range(6)]
+        for thread in guesses:
+            thread.start()
+        for thread in guesses:
+            thread.join()
+        assert time.monotonic() - begun >= 1.0
+        assert sorted(statuses) == [401, 401, 429, 429, 429, 429]
+        in_.ping().wait(5.0)
+    assert ask(port, f"/?token={TOKEN}").status == 303
+
+
+def test_what_is_in_the_headers_can_be_any_text(port: int) -> None:
+    for cookie in ("=", "a=b=c;;;", '"', "sambot-viz-0=" + "x" * 3000):
+        assert ask(port, "/", {"Cookie": cookie}).status in (400, 401)
