@@ -250,14 +250,17 @@ class ProtocolClient:
     # Waiting.
 
     def wait_until(self, condition: Callable[[], bool], timeout: float = 10.0) -> None:
-        """Return when `condition()` is true; it is asked after every frame.
+        """Return when `condition()` is true; it is asked after every frame, and between
+        them for what no frame reports, such as a file.
 
         Raises:
             AssertionError: it did not become true within `timeout` seconds.
         """
+        last = time.monotonic() + timeout
         with self._changed:
-            met = self._changed.wait_for(lambda: condition() or self.closed, timeout)
-            if not (met and condition()):
+            while not (condition() or self.closed) and time.monotonic() < last:
+                self._changed.wait(0.05)
+            if not condition():
                 end = "the connection ended" if self.closed else f"{timeout} s passed"
                 counts = dict(Counter(m.type for m in self._messages))
                 raise AssertionError(f"{end} while waiting; received {counts}")
