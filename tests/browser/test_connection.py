@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, bundled
 
 pytestmark = pytest.mark.browser
 
@@ -65,6 +67,36 @@ def number(viewer: ViewerPage) -> str:
     return str(viewer.user.row("Joints", LEFT).one("textbox").value)
 
 
+def test_the_config_that_was_open_is_opened_again_when_a_user_asks_for_it(
+    open_viewer: Callable[..., ViewerPage], tmp_path: Path
+) -> None:
+    text = bundled.config_path().read_text("utf-8")
+    first, second = tmp_path / "first.rviz", tmp_path / "second.rviz"
+    first.write_text(text, "utf-8")
+    second.write_text(text.replace("Name: Grid", "Name: Floor"), "utf-8")
+    with Visualizer(config=first, port=0) as viz:
+        port = viz.viser.get_port()
+        viewer = open_viewer(viz.url)
+        viewer.expects_errors = True
+        user = viewer.user
+        user.menu("File", re.compile("^Open"))
+        user.choose(user.find("listbox", "Configs"), "second")
+        user.click("button", "Open", ("dialog", "Open Config"))
+        user.unfold("Displays", "Floor")
+        user.enter(user.row("Views", "Yaw").one("textbox"), "2")
+        user.until(lambda: "2" in user.row("Views", "Yaw").text)
+        rows = user.rows("Displays")
+    with Visualizer(config=first, port=port) as viz:
+        user.reads(
+            "The config first.rviz is open now; before, it was second.rviz.", 20.0
+        )
+        user.row("Displays", "Grid")
+        user.click("button", "Open second.rviz")
+        user.until(lambda: user.rows("Displays") == rows)
+        user.until(lambda: user.row("Views", "Yaw").one("textbox").value == "2")
+        user.until(lambda: "connection is back" not in user.see().text)
+
+
 def test_a_page_that_was_left_is_not_counted_and_works_after_coming_back(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
@@ -89,6 +121,8 @@ def test_a_page_that_is_loaded_again_keeps_its_view_and_what_is_unfolded(
 ) -> None:
     with Visualizer(port=0) as viz:
         viewer = open_viewer(viz.url)
+        # The server is closed before the page is.
+        viewer.expects_errors = True
         user = viewer.user
         user.unfold("Displays", "Grid")
         user.unfold("Displays", "TF", "Frames")
