@@ -26,9 +26,10 @@ export function ValueCell({ row, tab }) {
 
 /** @param {{row: Row, tab: number}} props */
 export function Box({ row, tab }) {
-  return html`<input type="checkbox" class="box" aria-label=${row.name || ""} tabindex=${tab}
+  // The label is what a finger hits.
+  return html`<label class="tick"><input type="checkbox" class="box" aria-label=${row.name || ""} tabindex=${tab}
     checked=${Boolean(row.value)} disabled=${row.fixed || row.off}
-    onChange=${(/** @type {any} */ e) => send(row.id, e.target.checked)} />`;
+    onChange=${(/** @type {any} */ e) => send(row.id, e.target.checked)} /></label>`;
 }
 
 /** @param {{row: Row, tab: number}} props */

@@ -21,7 +21,7 @@ export const shape = new Cell(measure());
 /** Touch screens need more room for the panels, and so get one side for longer. */
 function measure() {
   return matchMedia("(max-width: 640px) and (orientation: portrait)").matches ? "tall"
-    : matchMedia("(max-height: 480px), (max-width: 1099px), (pointer: coarse) and (max-width: 1200px)").matches ? "flat" : "wide";
+    : matchMedia("(max-height: 480px), (max-width: 1099px), (pointer: coarse) and (max-width: 1400px)").matches ? "flat" : "wide";
 }
 addEventListener("resize", () => {
   room.set({ width: innerWidth, height: innerHeight });

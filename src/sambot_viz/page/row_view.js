@@ -43,7 +43,7 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
   /** @param {any} event */
   const press = (event) => {
     pressed.current = event.button === 0 && !chosen && event.pointerType !== "touch" && row.kind !== "slider";
-    if (event.button !== 0 || event.target.closest("input, select, button, .twist")) return;
+    if (event.button !== 0 || event.target.closest("input, select, button, label, .twist")) return;
     select(api.current.panel, id);
     api.current.drag(event, row);
   };

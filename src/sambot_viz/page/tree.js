@@ -19,7 +19,7 @@ const MANY = 150;
 
 const HIDDEN = new Set(["action", "names"]);
 /** The width of the names before a hand has moved the line, as a part of the panel. */
-const SPLIT = 0.58;
+const SPLIT = 0.6;
 /** The row that is scrolled to, and gets the focus, as soon as it is there.
  * @type {Cell<{panel: string, id: string, focus: boolean} | null>} */
 const wantedFocus = new Cell(/** @type {{panel: string, id: string, focus: boolean} | null} */ (null));

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from typing import cast
 
 import pytest
 from ax_tree import Thing
 from desk import Desk
 from judge import changed, on_page
+from user import User
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
@@ -124,6 +126,78 @@ def font(viewer: ViewerPage) -> float:
     )
 
 
+def test_task_57_a_tablet_by_touch_alone(
+    s: Desk, open_more: Callable[..., ViewerPage]
+) -> None:
+    tablet = open_more(1024, 768, touch=True)
+    user, touch = tablet.user, tablet.page.touch
+    left, top, width, height = view(tablet)
+    assert width * height > 0.5 * 1024 * 768
+    for strip, part in (("toolbar", "button"), ("tablist", "tab")):
+        name = "Tools" if strip == "toolbar" else None
+        buttons = user.find(strip, name).all(part)
+        assert len({user.box(button)[1] for button in buttons}) == 1, "one line"
+    assert too_small(tablet) == []
+
+    # Turn, pinch, move.
+    user.tab("Views")
+
+    def number(name: str) -> str:
+        return str(user.row("Views", name).one("textbox").value)
+
+    assert seen_rows(user, "Views") >= 8
+    x, y = left + 0.5 * width, top + 0.15 * height
+    yaw = number("Yaw")
+    user.swipe((x, y), (x + 60, y))
+    user.until(lambda: number("Yaw") != yaw)
+    distance = number("Distance")
+    touch.start((x - 40, y), (x + 40, y))
+    touch.move((x - 60, y), (x + 60, y))
+    touch.move((x - 80, y), (x + 80, y))
+    touch.end()
+    user.until(lambda: 0 < float(number("Distance")) < 0.7 * float(distance))
+    distance, point = number("Distance"), number("Focal Point")
+    touch.start((x - 40, y), (x + 40, y))
+    touch.move((x - 40, y + 20), (x + 40, y + 20))
+    touch.move((x - 40, y + 40), (x + 40, y + 40))
+    touch.end()
+    user.until(lambda: number("Focal Point") != point)
+    assert number("Distance") == distance
+    assert too_small(tablet) == []
+
+    # Tick a display, and see it on another page.
+    user.tab("Displays")
+    assert seen_rows(user, "Displays") >= 8
+    assert too_small(tablet) == []
+    for on in (False, True):
+        user.click_on(user.row("Displays", "Grid").one("checkbox"))
+        s.user.until(
+            lambda on=on: s.user.row("Displays", "Grid").one("checkbox").is_on == on
+        )
+
+    user.tab("Joints")
+    user.drag_slider(user.row("Joints", LEFT).one("slider"), 1.5)
+    user.until(lambda: s.viz.joint_positions[LEFT] > 0.5)
+    assert user.box(user.row("Joints", LEFT).one("slider"))[3] >= 44
+
+
+def seen_rows(user: User, panel: str) -> int:
+    """How many rows of a panel are on the screen."""
+    return sum(user.can_see(r) for r in user.see().one("treegrid", panel).all("row"))
+
+
+def too_small(viewer: ViewerPage) -> list[str]:
+    """What a finger can touch and is lower than 36 px."""
+    found = viewer.page.evaluate(
+        "[...document.querySelectorAll('[role=row], button, input, select')]"
+        ".map(e => e.closest('label.tick') || e)"
+        ".filter(e => e.offsetHeight && (e.offsetHeight < 36 || e.offsetWidth < 30))"
+        ".map(e => `${e.ariaLabel || e.textContent} ${e.offsetWidth}"
+        " x ${e.offsetHeight}`)"
+    )
+    return cast("list[str]", found)
+
+
 def test_task_58_the_keyboard_alone(s: Desk) -> None:
     user = s.user
 
@@ -208,6 +282,34 @@ def test_task_59_other_windows(
         s.page.set_viewport(1280, 720)
         s.page.set_dark(False)
         user.find("button", "Interact", ("toolbar", "Tools"))
+
+
+def test_task_59_one_panel_folded_one_widened(
+    s: Desk, open_more: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_more()
+    user, page = viewer.user, viewer.page
+
+    def share() -> float:
+        """The part of the window's width that is view."""
+        return view(viewer)[2] / page.evaluate("innerWidth")
+
+    before = view(viewer)
+    user.click("button", "Hide the left panels")
+    user.until(lambda: view(viewer)[2] > before[2] + 0.9 * before[0])
+    user.click("button", "Show the left panels")
+    x, y = user.go_to(user.find("separator", "Width of the right panels"))
+    page.mouse.drag((x, y), (640.0, y))
+    user.until(lambda: share() < 0.35)
+    for size in ((1150, 720), (950, 700), (900, 600), (853, 480)):
+        page.set_viewport(*size)
+        user.until(lambda: share() > 0.47, why=f"{size}: {share():.2f} is view")
+    page.set_viewport(1150, 720)
+    page.goto(viewer.url)
+    user.row("Joints", LEFT)
+    user.until(lambda: share() > 0.47)
+    page.set_viewport(1280, 720)
+    user.until(lambda: share() < 0.35)
 
 
 def cut_off(desk: Desk) -> list[str]:

@@ -20,7 +20,7 @@ const SEARCH_FROM = 12;
 /** Left and right of a name, and what is more when there are groups [px]. */
 const AROUND_NAME = 10, INDENT = 14;
 /** What a finger needs beside a name: a slider that is long enough, and the number [px]. */
-const FOR_A_FINGER = 240;
+const FOR_A_FINGER = 230, TURN_BUTTON = 38;
 
 /** How the values of the joints can be copied. @type {Record<string, string>} */
 const FORMS = {
@@ -57,7 +57,7 @@ export function JointsPanel() {
     event.stopPropagation();
   };
   const wheels = Boolean(rows.get("joints/rate"));
-  const stacked = matchMedia("(pointer: coarse)").matches && names + FOR_A_FINGER > width;
+  const stacked = matchMedia("(pointer: coarse)").matches && names + FOR_A_FINGER + (wheels ? TURN_BUTTON : 0) > width;
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
