@@ -55,7 +55,7 @@ def test_a_finger_scrolls_the_joints_from_a_slider_and_slides_sideways(
 def test_the_chosen_tab_of_a_phone_is_in_sight_and_hints_are_for_fingers(
     viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:
-    viewer = open_viewer(viz.url, width=390, height=844, touch=True)
+    viewer = open_viewer(viz.url, width=320, height=640, touch=True)
     user = viewer.user
     user.reads("One finger: turn")
     assert not user.can_see(user.find("tab", "Problems"))
