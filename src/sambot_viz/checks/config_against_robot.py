@@ -113,25 +113,21 @@ def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
 def _volatile(
     display: DisplayConfig, topic: Node, file: str | None
 ) -> Iterator[Problem]:
-    """RViz shows Volatile, but asks for old descriptions until a value differs."""
+    """Volatile by hand; RViz itself writes it, and means another, with all defaults."""
     durability = topic.get("Durability Policy") if isinstance(topic, Map) else None
     if not isinstance(topic, Map) or _text(durability) != "Volatile":
         return
-    for known in QOS_PROPERTIES:
-        written = _text(topic.get(known.name))
-        if not written or written == str(known.default):
-            continue
-        yield Problem.at(
-            _place(file, durability),
-            "warning",
-            "setup-description-volatile",
-            f"the display {display.name} reads the robot with the Durability Policy "
-            f"Volatile, which counts in RViz because {known.name} is not "
-            f"{known.default}: it misses the description, which is published only "
-            "once, and shows nothing and no error",
-            "write Durability Policy: Transient Local",
-        )
+    if all(_text(topic.get(k.name)) == str(k.default) for k in QOS_PROPERTIES):
         return
+    yield Problem.at(
+        _place(file, durability),
+        "warning",
+        "setup-description-volatile",
+        f"the display {display.name} reads the robot with the Durability Policy "
+        "Volatile: RViz then misses the description, which is published only once, "
+        "and shows nothing and no error",
+        "write Durability Policy: Transient Local",
+    )
 
 
 def _text(node: Node | None) -> str:
