@@ -36,7 +36,8 @@ def config(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def viz(config: Path) -> Iterator[Visualizer]:
-    with Visualizer(config=config, port=0, watch=False) as viz:
+    poses = config.parent / "poses.yaml"
+    with Visualizer(config=config, port=0, watch=False, poses=poses) as viz:
         yield viz
 
 
