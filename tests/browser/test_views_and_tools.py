@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -100,8 +99,9 @@ def chosen(session: Session, viewer: ViewerPage, label: str) -> None:
     before the page has heard what to do with clicks is lost."""
     tools = tools_of(session)
     until(viewer, lambda: tools.current.label == label)
-    said = json.dumps((tools.status or tools.current.help)[:30])
-    viewer.wait_for(f"document.body.innerText.includes({said})")
+    viewer.user.until(
+        lambda: viewer.user.find("button", label, ("toolbar", "Tools")).is_on
+    )
     viewer.wait_until_drawn()
 
 
