@@ -9,6 +9,7 @@ used.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, MISSING, Field, dataclass, field, fields
 from pathlib import Path
@@ -32,6 +33,7 @@ Group = Literal["model", "pose", "view", "server"]
 those that draw it, and the one that serves a page."""
 
 _KEY = "option"
+_BASE_PATH = re.compile(r"/|(/[A-Za-z0-9._~-]+)+")
 _AGAIN = "; may be given several times"
 
 
@@ -115,6 +117,7 @@ class Options:
     """What to show, to whom, and how the robot starts.
 
     Attributes:
+        base_path: with a slash at its begin and none at its end.
         recorded: the positions of `joint_state`.
         transforms: `static_transforms`, read.
 
@@ -224,6 +227,12 @@ class Options:
         metavar="ORIGIN",
         read=_words,
     )
+    base_path: str = _option(
+        "/",
+        "where a proxy shows the page, such as /robot for https://lab.example.org/robot/",
+        "--base-path",
+        metavar="PATH",
+    )
     token: str | None = _option(
         None,
         "a secret without which nobody sees the page, in the link that is printed; "
@@ -299,6 +308,13 @@ class Options:
                 "the fixed frame has an empty name; give a frame of the robot, such "
                 "as base_link"
             )
+        path = f"/{self.base_path.strip('/')}"
+        if not _BASE_PATH.fullmatch(path):
+            raise UsageError(
+                f"the base path '{self.base_path}' cannot be part of an address; give "
+                "one such as /robot"
+            )
+        object.__setattr__(self, "base_path", path)
         if self.token is not None:
             object.__setattr__(self, "token", self._checked_token())
         object.__setattr__(self, "recorded", self._read_recorded())

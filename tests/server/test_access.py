@@ -13,8 +13,14 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
+from sambot_viz.errors import UsageError
 from sambot_viz.options import Options
-from sambot_viz.server.access import content_policy, is_welcome, only_this_machine
+from sambot_viz.server.access import (
+    content_policy,
+    is_welcome,
+    only_this_machine,
+    without_base,
+)
 from sambot_viz.server.bind import close, listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
@@ -162,3 +168,25 @@ def test_a_page_of_another_version_is_disconnected_and_nothing_is_printed(
             old.recv(timeout=10.0)
         assert old.close_code == 1002
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("path", "below"),
+    [
+        ("/robot/", "/"),
+        ("/robot", "/"),
+        ("/robot?dark", "/?dark"),
+        ("/robot/sambot/licenses.txt", "/sambot/licenses.txt"),
+        ("/", "/"),
+        ("/robots", "/robots"),
+    ],
+)
+def test_a_proxy_may_take_the_base_path_away_or_not(path: str, below: str) -> None:
+    assert without_base(path, "/robot") == below
+    assert without_base(path, "/") == path
+
+
+@pytest.mark.parametrize("path", ["/a b", "/../x?", "/%2e", "//a//b", "/a?b"])
+def test_a_base_path_that_cannot_be_in_an_address_is_refused(path: str) -> None:
+    with pytest.raises(UsageError, match="base path"):
+        Options(base_path=path)

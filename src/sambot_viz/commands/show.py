@@ -64,9 +64,9 @@ def run(words: list[str]) -> int:
     server = listen(options)
     try:
         _refuse_early(inputs)
-        _announce(url_of(server, options.token), given.open)
+        _announce(url_of(server, options), given.open)
         if not only_this_machine(options.host):
-            _invite(url_of(server, options.token, reachable_at(options.host)))
+            _invite(url_of(server, options, reachable_at(options.host)))
             if options.token is None:
                 sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         inputs.begin()

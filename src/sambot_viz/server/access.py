@@ -85,6 +85,21 @@ def content_policy(host: str, listening_on: str, allowed: Sequence[str] = ()) ->
     return f"connect-src {own}; frame-ancestors {' '.join(pages)}"
 
 
+def without_base(path: str, base: str) -> str:
+    """The path of a request below the base path.
+
+    Some proxies take the base path away, and some do not.
+
+    Args:
+        path: with its query: "/robot/?dark".
+        base: "/robot", or "/".
+    """
+    rest = path.removeprefix(base)
+    if base == "/" or rest == path or rest[:1] not in ("", "/", "?"):
+        return path
+    return rest if rest.startswith("/") else f"/{rest}"
+
+
 def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
     try:
         return ipaddress.ip_address(host)
@@ -124,7 +139,9 @@ def checked(options: Options) -> Generator[None]:
     """
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
-    token = TokenCheck(options.token) if options.token is not None else None
+    token = (
+        None if options.token is None else TokenCheck(options.token, options.base_path)
+    )
     page_files.prepare(options.panels)
 
     def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
@@ -136,6 +153,14 @@ def checked(options: Options) -> Generator[None]:
             refused = _refusal(request, options) or (token and token.refusal(request))
             if refused:
                 return refused
+            path, _, query = request.path.partition("?")
+            if path == options.base_path != "/" and not page_files.is_websocket(
+                request
+            ):
+                # The page names its files relative to the folder it is in.
+                where = f"./{path.rpartition('/')[2]}/{'?' if query else ''}{query}"
+                return _plain(http.HTTPStatus.SEE_OTHER, "See there.", where)
+            request.path = without_base(request.path, options.base_path)
             try:
                 response = page_files.answer(request, options.panels)
                 if response is None and answer:
@@ -179,7 +204,9 @@ def _refusal(request: Request, options: Options) -> Response | None:
     return _plain(http.HTTPStatus.FORBIDDEN, sentence)
 
 
-def _plain(status: http.HTTPStatus, sentence: str) -> Response:
+def _plain(status: http.HTTPStatus, sentence: str, location: str = "") -> Response:
     content = f"{sentence}\n".encode()
     headers = Headers({"Content-Length": str(len(content))})
+    if location:
+        headers["Location"] = location
     return Response(status, status.phrase, headers, content)

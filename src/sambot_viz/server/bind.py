@@ -21,17 +21,19 @@ _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
 
 
-def url_of(server: viser.ViserServer, token: str | None = None, host: str = "") -> str:
+def url_of(server: viser.ViserServer, options: Options, host: str = "") -> str:
     """The address to open in a browser: "http://127.0.0.1:8080".
 
     Args:
         server: the server.
-        token: the secret that the page asks for, if any.
+        options: the base path, and the secret that the page asks for.
         host: the name to reach it by, instead of the address it listens on.
     """
     host = host or _ANYWHERE.get(server.get_host(), server.get_host())
     address = f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
-    return address if token is None else f"{address}/?token={token}"
+    path = "" if options.base_path == "/" else options.base_path
+    query = "" if options.token is None else f"/?token={options.token}"
+    return f"{address}{path}{query}"
 
 
 def reachable_at(host: str) -> str:

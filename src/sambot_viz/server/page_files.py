@@ -34,7 +34,7 @@ def answer(request: Request, panels: bool = True) -> Response | None:
         request: the request.
         panels: whether the page has panels round its view.
     """
-    if request.headers.get("Upgrade") == "websocket":
+    if is_websocket(request):
         return None
     path = request.path.partition("?")[0]
     if path == LICENSES:
@@ -54,6 +54,11 @@ def answer(request: Request, panels: bool = True) -> Response | None:
         content = _packed(panels)
     headers["Content-Length"] = str(len(content))
     return Response(http.HTTPStatus.OK, "OK", headers, content)
+
+
+def is_websocket(request: Request) -> bool:
+    """Whether a request asks for the connection of a page, not for a file."""
+    return request.headers.get("Upgrade", "").lower() == "websocket"
 
 
 def _text(content: bytes) -> Response:

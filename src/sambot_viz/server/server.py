@@ -98,7 +98,7 @@ class Server:
     @property
     def url(self) -> str:
         """The address to open: "http://127.0.0.1:8080"."""
-        return url_of(self._viser, self.options.token)
+        return url_of(self._viser, self.options)
 
     @property
     def robot(self) -> Robot | None:

@@ -22,6 +22,8 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from sambot_viz.server.page_files import is_websocket
+
 WRONG_ANSWER = 1.0
 """The answer to a wrong token takes so long [s]."""
 MOST_WAITING = 20
@@ -44,10 +46,12 @@ class TokenCheck:
 
     Args:
         token: the secret.
+        base_path: where the page is; the cookie is sent to nowhere else.
     """
 
-    def __init__(self, token: str) -> None:
+    def __init__(self, token: str, base_path: str = "/") -> None:
         self._token = token.encode()
+        self._path = base_path
         # Cookies are shared by all ports of a host, where other servers may be.
         name = hashlib.sha256(b"cookie " + self._token).hexdigest()[:12]
         self._cookie = f"sambot-viz-{name}"
@@ -69,7 +73,7 @@ class TokenCheck:
         address, given = _split(request.path)
         right = [hmac.compare_digest(one, self._token) for one in given]
         if any(right):
-            if request.headers.get("Upgrade") == "websocket":
+            if is_websocket(request):
                 return None
             return self._remember(address, request.headers)
         sent = self._sent(request.headers)
@@ -95,10 +99,10 @@ class TokenCheck:
 
     def _remember(self, address: str, headers: Headers) -> Response:
         """The same page without the token in its address, and with a cookie."""
-        secure = "https" in headers.get_all("X-Forwarded-Proto")
+        tls = "https" in headers.get_all("X-Forwarded-Proto")
         cookie = (
-            f"{self._cookie}={self._token.decode()}; Path=/; Max-Age={_REMEMBERED}; "
-            f"HttpOnly; SameSite=Lax{'; Secure' if secure else ''}"
+            f"{self._cookie}={self._token.decode()}; Path={self._path}; "
+            f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}
         return _answer(http.HTTPStatus.SEE_OTHER, "Come in", address, more)
@@ -127,13 +131,13 @@ def _no_token() -> Response:
 
 
 def _split(path: str) -> tuple[str, list[bytes]]:
-    """A path without the tokens in it, and these."""
+    """Where a path leads without the tokens in it, relative to it, and these."""
     parts = urlsplit(path)
     query = parse_qsl(parts.query, keep_blank_values=True)
     given = [value.encode() for name, value in query if name == "token"]
     rest = urlencode([pair for pair in query if pair[0] != "token"])
-    # A path of two slashes would be another host.
-    where = "/" + parts.path.lstrip("/")
+    # Relative: a proxy may show the page below another path, and on another host.
+    where = f"./{parts.path.rpartition('/')[2]}"
     return f"{where}?{rest}" if rest else where, given
 
 

@@ -1,0 +1,200 @@
+"""The page behind real proxies, with the files of deploy/: TLS, a sub-path, a login."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import http.client
+import shutil
+import socket
+import ssl
+import subprocess
+import time
+from collections.abc import Generator, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import viser
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+from websockets.typing import Origin, Subprotocol
+
+from sambot_viz import Visualizer
+
+PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
+NAME, PASSWORD = "student", "tortoise"
+LOGIN = {
+    "Authorization": f"Basic {base64.b64encode(f'{NAME}:{PASSWORD}'.encode()).decode()}"
+}
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def needs(*programs: str) -> None:
+    for program in programs:
+        if shutil.which(program, path="/usr/sbin:/usr/bin:/usr/local/bin") is None:
+            pytest.skip(f"needs {program} (Debian: apt-get install {program})")
+
+
+def run(*command: str) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+@dataclass(frozen=True)
+class Proxy:
+    """What a proxy shows at https://127.0.0.1:PORT/robot/."""
+
+    port: int
+    viz: Visualizer
+    trust: ssl.SSLContext
+
+    def get(self, path: str, headers: Mapping[str, str]) -> tuple[int, str]:
+        connection = http.client.HTTPSConnection(
+            "localhost", self.port, timeout=10.0, context=self.trust
+        )
+        with contextlib.closing(connection):
+            connection.request("GET", path, headers=dict(headers))
+            answer = connection.getresponse()
+            return answer.status, answer.read().decode()
+
+    def connect(self, headers: Mapping[str, str], origin: str = "") -> int:
+        """How many messages of the scene come through the proxy."""
+        own = f"https://localhost:{self.port}"
+        with connect(
+            # As viser's page does: without the slash at the end.
+            f"wss://localhost:{self.port}/robot",
+            origin=Origin(origin or own),
+            subprotocols=[PROTOCOL],
+            additional_headers=headers,
+            ssl=self.trust,
+        ) as socket_:
+            return len(socket_.recv(timeout=10.0))
+
+
+@pytest.fixture(scope="module")
+def certificate(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    needs("openssl")
+    folder = tmp_path_factory.mktemp("tls")
+    public, private = folder / "lab.pem", folder / "lab.key"
+    subject = ("-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost")
+    kind = ("-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2")
+    files = ("-keyout", str(private), "-out", str(public))
+    run("openssl", "req", *kind, *files, *subject)
+    return public, private
+
+
+@contextlib.contextmanager
+def behind(
+    command: list[str], port: int, certificate: Path, upstream: int
+) -> Generator[Proxy]:
+    """A robot at `upstream`, and a proxy on `port` that runs as long as this."""
+    origin = f"https://localhost:{port}"
+    trust = ssl.create_default_context(cafile=certificate)
+    with Visualizer(port=upstream, base_path="/robot", allowed_origins=[origin]) as viz:
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        try:
+            for _ in range(200):
+                with contextlib.suppress(OSError):
+                    socket.create_connection(("127.0.0.1", port), 0.2).close()
+                    break
+                assert process.poll() is None, process.communicate()[1]
+                time.sleep(0.05)
+            yield Proxy(port, viz, trust)
+        finally:
+            process.terminate()
+            process.communicate(timeout=10.0)
+
+
+@pytest.fixture
+def nginx(
+    repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
+) -> Iterator[Proxy]:
+    needs("nginx", "openssl")
+    port, upstream = free_port(), free_port()
+    public, private = certificate
+    passwords = tmp_path / "robot.htpasswd"
+    hashed = run("openssl", "passwd", "-apr1", PASSWORD).strip()
+    passwords.write_text(f"{NAME}:{hashed}\n", "utf-8")
+    site = (repository / "deploy" / "nginx.conf").read_text("utf-8")
+    for before, after in (
+        ("443", f"127.0.0.1:{port}"),
+        ("lab.example.org", "localhost"),
+        ("/etc/ssl/certs/lab.pem", str(public)),
+        ("/etc/ssl/private/lab.key", str(private)),
+        ("/etc/nginx/robot.htpasswd", str(passwords)),
+        ("8080", str(upstream)),
+    ):
+        assert before in site
+        site = site.replace(before, after)
+    folders = "".join(
+        f"{kind}_temp_path {tmp_path}/{kind};"
+        for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
+    )
+    config = tmp_path / "nginx.conf"
+    config.write_text(
+        f"daemon off; pid {tmp_path}/pid; user root; events {{}}\n"
+        f"http {{ access_log off; {folders}\n{site} }}\n",
+        "utf-8",
+    )
+    command = ["nginx", "-p", str(tmp_path), "-e", "stderr", "-c", str(config)]
+    with behind(command, port, public, upstream) as proxy:
+        yield proxy
+
+
+@pytest.fixture
+def caddy(
+    repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
+) -> Iterator[Proxy]:
+    needs("caddy")
+    port, upstream = free_port(), free_port()
+    public, private = certificate
+    hashed = run("caddy", "hash-password", "--plaintext", PASSWORD).strip()
+    site = (repository / "deploy" / "Caddyfile").read_text("utf-8")
+    for before, after in (
+        (
+            "\nlab.example.org {",
+            f"\nlocalhost:{port} {{\n\tbind 127.0.0.1\n\ttls {public} {private}",
+        ),
+        ("HASH", hashed),
+        ("127.0.0.1:8080", f"127.0.0.1:{upstream}"),
+    ):
+        assert before in site
+        site = site.replace(before, after)
+    config = tmp_path / "Caddyfile"
+    options = "{\n\tadmin off\n\tauto_https disable_redirects\n}\n"
+    config.write_text(options + site, "utf-8")
+    command = ["caddy", "run", "--adapter", "caddyfile", "--config", str(config)]
+    with behind(command, port, public, upstream) as proxy:
+        yield proxy
+
+
+@pytest.fixture(params=["nginx", "caddy"])
+def proxy(request: pytest.FixtureRequest) -> Proxy:
+    return request.getfixturevalue(request.param)
+
+
+def test_a_login_shows_the_page_and_the_robot(proxy: Proxy) -> None:
+    assert proxy.viz.url.endswith("/robot")
+    status, page = proxy.get("/robot/", LOGIN)
+    assert (status, "</html>" in page) == (200, True)
+    assert proxy.get("/robot", LOGIN)[0] == 303
+    assert proxy.get("/robot/sambot/licenses.txt", LOGIN)[0] == 200
+    assert proxy.connect(LOGIN) > 0
+
+
+def test_nothing_comes_through_without_the_login(proxy: Proxy) -> None:
+    assert proxy.get("/robot/", {})[0] == 401
+    with pytest.raises(InvalidStatus) as refused:
+        proxy.connect({})
+    assert refused.value.response.status_code == 401
+
+
+def test_a_foreign_page_is_refused_behind_a_proxy_too(proxy: Proxy) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        proxy.connect(LOGIN, origin="https://evil.example")
+    assert refused.value.response.status_code == 403
