@@ -176,6 +176,11 @@ vec3 sambotEncode(vec3 c) {
     for (const note of notes) {
       if (/^(Software WebGL|Receiv)/.test(note.textContent || "")) note.style.display = "none";
     }
+    // Below a path of a proxy, viser writes the address of its own server behind the page's.
+    const query = new URLSearchParams(location.search);
+    if (!query.has("websocket")) return;
+    query.delete("websocket");
+    history.replaceState(null, "", query.size ? `?${query}` : location.pathname);
   };
 
   // The page keeps its scene for its whole life, but it is made some frames after
