@@ -13,6 +13,8 @@ from PIL import Image
 pytestmark = pytest.mark.browser
 
 AT_ONCE = 12.0
+GROUND = (350.0, 600.0)
+"""A place of the page with nothing but the ground, between lines of the grid."""
 SKY = (420.0, 120.0)
 """A place of the page with nothing but background."""
 
@@ -94,6 +96,12 @@ def test_task_41_bring_a_lost_robot_back(s: Desk) -> None:
     set_number(s, "Focal Point", "80; 0; 0")
     s.user.until(lambda: drawn(s) < 0.2 * near, AT_ONCE)
     s.page.mouse.click(*SKY)
+    s.user.keys("f")
+    s.user.until(lambda: drawn(s) == pytest.approx(near, rel=0.2), AT_ONCE)
+    # Neither does the ground between the lines of the grid take the view away.
+    set_number(s, "Distance", "2.5")
+    s.user.until(lambda: drawn(s) < 0.5 * near, AT_ONCE)
+    s.page.mouse.click(*GROUND)
     s.user.keys("f")
     s.user.until(lambda: drawn(s) == pytest.approx(near, rel=0.2), AT_ONCE)
 
