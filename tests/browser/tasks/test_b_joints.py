@@ -208,6 +208,9 @@ def test_task_17_two_joints_of_a_humanoid(t: Desk) -> None:
     rows = user.see().one("treegrid", "Joints").all("row")
     seen = [row_label(r) for r in rows if r.all("slider") and user.can_see(r)]
     assert len(seen) >= 12
+    longest = row(t, "left_shoulder_pitch_joint")
+    assert not user.is_cut_off(longest.all("gridcell")[0].all("StaticText")[0])
+    assert user.box(longest.one("slider"))[2] >= 90
     start = time.monotonic()
     for joint, value in (("left_elbow_joint", 0.7), ("right_knee_joint", -0.4)):
         enter(t, joint, str(value))
