@@ -44,7 +44,8 @@ def test_task_52_hang_a_laser_on_the_body(s: Desk) -> None:
 
     user.tab("Frames")
     user.click("button", "Add static transform …")
-    fill(Parent="base_link", x="0.1", z="0.2 km h", Child="base_laser")
+    user.enter(user.find("combobox", "Parent", form), "base_link", end="")
+    fill(x="0.1", z="0.2 km h", Child="base_laser")
     user.click("button", "Add", form)
     user.reads("is not a number")
     assert "base_laser" not in s.viz.frames.frames
