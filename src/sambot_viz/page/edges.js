@@ -13,6 +13,9 @@ import { Cell } from "./state.js";
 const chosen = new Cell(/** @type {Chosen} */ ({}), "sizes");
 /** Which panels are folded away. @type {Cell<Record<string, boolean>>} */
 export const hidden = new Cell(/** @type {Record<string, boolean>} */ ({}), "hidden");
+
+/** Hide all panels, or bring them back. */
+export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
 /** Width and height of the window [px]. */
 export const room = new Cell({ width: innerWidth, height: innerHeight });
 /** "wide": panels at both sides of the view; "flat": all at one side; "tall" (a phone): below it. */

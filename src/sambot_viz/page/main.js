@@ -5,13 +5,14 @@ import "./bare.js";
 import { html, render } from "./vendor/preact.js";
 import { act, connect, HOVER, newGesture, rows, send } from "./channel.js";
 import { followConnection } from "./connection.js";
+import { togglePanels } from "./edges.js";
 import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./pointer.js";
 import { followScript } from "./script_panel.js";
 import { toolKeys } from "./toolbar.js";
-import { togglePanels, Window } from "./window.js";
+import { Window } from "./window.js";
 
 const start = () => {
   const host = document.createElement("div");

@@ -5,7 +5,7 @@ import { html, useEffect, useState } from "./vendor/preact.js";
 import { act, rows } from "./channel.js";
 import { Icon } from "./icons.js";
 import { useRow } from "./state.js";
-import { togglePanels } from "./window.js";
+import { togglePanels } from "./edges.js";
 
 /** The keys of the tools. @returns {{name: string, key: string}[]} */
 export function toolKeys() {

@@ -5,7 +5,7 @@ import { html, useEffect, useLayoutEffect, useRef } from "./vendor/preact.js";
 import { rows } from "./channel.js";
 import { Connection } from "./connection.js";
 import { Dialogs } from "./dialogs/dialog.js";
-import { hidden, shape, Splitter, useSizes } from "./edges.js";
+import { hidden, shape, Splitter, togglePanels, useSizes } from "./edges.js";
 import { DisplaysPanel } from "./panels/displays.js";
 import { FramesPanel } from "./panels/frames.js";
 import { DrivePanel, Driving } from "./panels/drive.js";
@@ -39,9 +39,6 @@ const SHEET = {
   ...TABS,
   problems: { title: "Problems", content: ProblemsPanel },
 };
-
-/** Hide all panels, or bring them back. */
-export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
 
 /** Show a panel that has a tab. @param {string} name */
 function choose(name) {
