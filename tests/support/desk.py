@@ -109,6 +109,7 @@ class Desk:
         distance = ("Views", "Current View", "Distance")
         self.user.until(lambda: self.user.row(*distance).one("textbox").value != "10")
         self._view = dict(self._browser.view.values)
+        self._joints = self.viz.joint_positions
 
     def tidy(self) -> None:
         """Put everything back as it was, by what the page offers for that.
@@ -133,6 +134,9 @@ class Desk:
             times, _ = edits.touched(browser.client_id)
             user.click_on(undo)
             user.until(lambda n=times: edits.touched(browser.client_id)[0] > n)
+        # What another page has done cannot be undone on this one.
+        if self.viz.joint_positions != self._joints:
+            self.viz.set_joint_positions(self._joints)
         if browser.view.values != self._view:
             for button in ("Zero", "Focus"):
                 user.click("button", button, _TOOLS)

@@ -2,7 +2,7 @@
 /* Numbers: typed, stepped with the arrow keys, dragged sideways, or moved by a slider. */
 
 import { html, useRef, useState } from "./vendor/preact.js";
-import { act, newGesture, send } from "./channel.js";
+import { act, newGesture, rows, send } from "./channel.js";
 import { Field } from "./field.js";
 import { Icon } from "./icons.js";
 import { refusals } from "./notices.js";
@@ -20,10 +20,12 @@ export const NARROW = 7;
 /** The value of a row, or the one that a hand has set until the server has it too.
  * @param {Row} row */
 function useHeld(row) {
-  const held = useRef(/** @type {{value: number, gesture: number, over: boolean} | null} */ (null));
+  // again: the row had this value already when it was set, after another; the answer to that may still come.
+  const held = useRef(/** @type {{value: number, gesture: number, over: boolean, again: boolean} | null} */ (null));
   const [, again] = useState(0);
   const draw = () => again((n) => n + 1);
-  if (held.current?.over && (row.value === held.current.value || refusals.has(row.id))) held.current = null;
+  if (held.current && row.value !== held.current.value) held.current.again = false;
+  if (held.current?.over && ((row.value === held.current.value && !held.current.again) || refusals.has(row.id))) held.current = null;
   const release = () => {
     const mine = held.current;
     if (!mine || mine.over) return;
@@ -39,14 +41,15 @@ function useHeld(row) {
       const value = clamped(row.kind === "int" ? Math.round(wanted) : wanted, row);
       const gesture = held.current && !held.current.over ? held.current.gesture : newGesture();
       const same = value === (held.current ? held.current.value : row.value);
-      held.current = { value, gesture, over: false };
+      const again = same ? Boolean(held.current?.again) : rows.value(row.id) === value;
+      held.current = { value, gesture, over: false, again };
       if (!same) send(row.id, value, gesture);
       draw();
     },
     release,
     /** A value that was typed. @param {number} value */
     put(value) {
-      held.current = { value, gesture: 0, over: false };
+      held.current = { value, gesture: 0, over: false, again: Boolean(held.current) && rows.value(row.id) === value };
       send(row.id, value);
       release();
     },

@@ -45,6 +45,14 @@ def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
         item.stash[_FAILED] = True
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """End the desks after the last task: open pages make the tests after it slower."""
+    if nextitem is None or _HERE not in nextitem.path.parents:
+        if desks := item.config.stash.get(_DESKS, None):
+            desks.close()
+
+
 class Desks:
     """The desks that are open, by the letter of their robot."""
 
@@ -74,12 +82,17 @@ class Desks:
             self.drop(letter)
 
 
+_DESKS = pytest.StashKey[Desks]()
+
+
 @pytest.fixture(scope="session")
 def desks(
-    chromium: Chromium, tmp_path_factory: pytest.TempPathFactory
+    chromium: Chromium,
+    tmp_path_factory: pytest.TempPathFactory,
+    request: pytest.FixtureRequest,
 ) -> Iterator[Desks]:
     """The desks; a robot's server and page start with its first task."""
-    desks = Desks(chromium, tmp_path_factory)
+    desks = request.config.stash[_DESKS] = Desks(chromium, tmp_path_factory)
     yield desks
     desks.close()
 
