@@ -56,7 +56,7 @@ class UndoPanel(Panel):
         ]
 
     def _touched(self) -> Json:
-        """The row that the page goes to; the number tells two of one row apart."""
+        """The row that the page goes to; two of one row have different numbers."""
         number, item = self._edits.touched(self._id)
         if isinstance(item, DisplayConfig) and self._session.config.holds(item):
             return {"number": number, "row": self._displays.id_of(item)}
