@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import http.client
+import socket
 import threading
 import time
 from collections.abc import Iterator, Mapping
@@ -50,6 +51,14 @@ def ask(port: int, path: str, headers: Mapping[str, str] | None = None) -> Answe
         connection.request("GET", path, headers=dict(headers or {}))
         answer = connection.getresponse()
         return Answered(answer.status, answer.headers, answer.read().decode())
+
+
+def raw_status(port: int, line: bytes, header: bytes) -> int:
+    """The status for a request with bytes that a well-behaved client does not send."""
+    with socket.create_connection(("127.0.0.1", port), timeout=10.0) as connection:
+        host = f"Host: 127.0.0.1:{port}".encode()
+        connection.sendall(b"\r\n".join((line + b" HTTP/1.1", host, header, b"", b"")))
+        return int(connection.makefile("rb").readline().split()[1])
 
 
 def cookie_of(answer: Answered) -> str:
@@ -158,5 +167,7 @@ def test_guesses_are_slowed_down_and_who_is_in_stays(
 
 
 def test_what_is_in_the_headers_can_be_any_text(port: int) -> None:
+    for line in (b"GET //[/?token=x", b"GET /?token=\xff", b"GET /\xff?a=\xff"):
+        assert raw_status(port, line, b"Cookie: a=\xff") in (400, 401)
     for cookie in ("=", "a=b=c;;;", '"', "sambot-viz-0=" + "x" * 3000):
         assert ask(port, "/", {"Cookie": cookie}).status in (400, 401)

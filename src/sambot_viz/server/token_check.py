@@ -17,7 +17,7 @@ import hmac
 import http
 from collections.abc import Awaitable
 from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qsl, urlencode, urlsplit
+from urllib.parse import parse_qsl, urlencode
 
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
@@ -87,14 +87,14 @@ class TokenCheck:
         for text in headers.get_all("Authorization"):
             kind, _, value = text.partition(" ")
             if kind.lower() == "bearer":
-                found.append(value.strip().encode())
+                found.append(_bytes(value.strip()))
         for text in headers.get_all("Cookie"):
             try:
                 morsel = SimpleCookie(text).get(self._cookie)
             except CookieError:
                 continue
             if morsel is not None:
-                found.append(morsel.value.encode())
+                found.append(_bytes(morsel.value))
         return found
 
     def _remember(self, address: str, headers: Headers) -> Response:
@@ -105,7 +105,7 @@ class TokenCheck:
             f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}
-        return _answer(http.HTTPStatus.SEE_OTHER, "Come in", address, more)
+        return _answer(http.HTTPStatus.SEE_OTHER, "Come in", "", more)
 
     async def _wrong(self) -> Response:
         self._waiting += 1
@@ -130,14 +130,20 @@ def _no_token() -> Response:
     )
 
 
+def _bytes(text: str) -> bytes:
+    """A text of a request, which may hold bytes that are no text."""
+    return text.encode(errors="replace")
+
+
 def _split(path: str) -> tuple[str, list[bytes]]:
     """Where a path leads without the tokens in it, relative to it, and these."""
-    parts = urlsplit(path)
-    query = parse_qsl(parts.query, keep_blank_values=True)
-    given = [value.encode() for name, value in query if name == "token"]
-    rest = urlencode([pair for pair in query if pair[0] != "token"])
+    # Not urlsplit, which raises for some paths that a client can send.
+    where, _, text = path.partition("?")
+    query = parse_qsl(text, keep_blank_values=True)
+    given = [_bytes(value) for name, value in query if name == "token"]
+    rest = urlencode([pair for pair in query if pair[0] != "token"], errors="replace")
     # Relative: a proxy may show the page below another path, and on another host.
-    where = f"./{parts.path.rpartition('/')[2]}"
+    where = f"./{where.rpartition('/')[2]}"
     return f"{where}?{rest}" if rest else where, given
 
 
