@@ -20,9 +20,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from a_chromium import a_chromium
 
 from sambot_viz.export.chromium import Chromium
-from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
 LONGEST = 120.0
 """How long any one run may take [s]."""
@@ -38,9 +38,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Chromium]:
     """A browser for all; it draws without a GPU, so a frame takes long."""
-    if find_browser() is None:
-        pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
-    with Chromium(timeout=120.0) as browser:
+    with a_chromium(timeout=120.0) as browser:
         yield browser
 
 

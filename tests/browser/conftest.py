@@ -16,12 +16,9 @@ if TYPE_CHECKING:
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Chromium]:
     """The browser, one for all tests; each page has storage of its own."""
-    from sambot_viz.export.chromium import Chromium
-    from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
+    from a_chromium import a_chromium
 
-    if find_browser() is None:
-        pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
-    with Chromium(timeout=60.0) as browser:
+    with a_chromium(timeout=60.0) as browser:
         yield browser
 
 
