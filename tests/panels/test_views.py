@@ -75,7 +75,7 @@ def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
     assert session.edits.undo_label(browser.client_id) is None
 
 
-@pytest.mark.parametrize("values", ["", "[1]", '{"view/nothing": 1}'])
+@pytest.mark.parametrize("values", ["", "[1]", "[" * 1000, '{"view/nothing": 1}'])
 def test_a_view_that_cannot_be_read_changes_nothing(
     panel: ViewsPanel, values: str
 ) -> None:

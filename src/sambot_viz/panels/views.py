@@ -185,7 +185,7 @@ def _read(sent: str) -> dict[str, Any]:
     """The values of rows by their ids; nothing when it is not that."""
     try:
         values = json.loads(sent)
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
     return cast("dict[str, Any]", values) if isinstance(values, dict) else {}
 
