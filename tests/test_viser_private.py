@@ -32,6 +32,19 @@ def test_nodes_are_counted(server: viser.ViserServer) -> None:
     assert viser_private.node_count(server.scene) == before + 1
 
 
+def test_what_goes_to_all_browsers_is_in_one_buffer_with_a_loop_of_its_own(
+    server: viser.ViserServer,
+) -> None:
+    buffer = viser_private.broadcast_buffer(server)
+    before = buffer.message_counter
+    server.scene.add_frame("/a")
+    assert buffer.message_counter > before
+    assert set(buffer.message_from_id) <= set(range(buffer.message_counter))
+    assert hasattr(type(buffer), "_window_loop")
+    for name in ("max_window_size", "window_duration_sec", "generator_cursors"):
+        assert hasattr(buffer, name)
+
+
 def test_starting_and_stopping_prints_nothing(
     capfd: pytest.CaptureFixture[str],
 ) -> None:

@@ -12,7 +12,7 @@ import functools
 import logging
 import secrets
 import weakref
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import AsyncGenerator, Callable, Generator, Mapping
 from typing import Any, cast
 
 import rich
@@ -53,6 +53,24 @@ def on_connection(
 def replace_methods(connection: ServerConnection, **methods: Any) -> None:
     """Have viser call other functions in place of methods of a connection."""
     vars(connection).update(methods)
+
+
+def broadcast_buffer(server: viser.ViserServer) -> Any:
+    """The messages for all browsers of a server."""
+    return cast(Any, server)._websock_server._broadcast_buffer
+
+
+def replace_window_loop(
+    buffer: Any, loop: Callable[[int, int, Any], AsyncGenerator[Any, None]]
+) -> None:
+    """Have viser take what goes out to a browser from another loop.
+
+    Args:
+        buffer: one of viser's buffers of messages.
+        loop: makes the windows of messages, from a browser's number, the number of the
+            last message there was when it came, and a message to send behind that one.
+    """
+    vars(buffer)["_window_loop"] = loop
 
 
 def _client(server: viser.ViserServer, client_id: int) -> Any:

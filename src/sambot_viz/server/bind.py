@@ -14,7 +14,7 @@ import viser
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
-from sambot_viz.server import access
+from sambot_viz.server import access, outbox
 from sambot_viz.server.door import guard
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
@@ -78,6 +78,7 @@ def listen(options: Options) -> viser.ViserServer:
     if port not in (0, server.get_port()):
         close(server)
         raise _taken(host, port)
+    outbox.prepare(server)
     guard(server)
     return server
 

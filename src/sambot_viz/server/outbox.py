@@ -1,0 +1,168 @@
+"""What goes out to a browser: the messages it has not had yet, in windows.
+
+viser numbers its messages and keeps the newest of each kind and node. Its own loop asks
+for every number since the server started, on the event loop and for every page that is
+opened: a second in which nobody gets anything, for each ten million messages. This one
+asks only for messages that are there.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import AsyncGenerator, Sequence
+from functools import partial
+from typing import Any, Protocol
+
+import viser
+
+from sambot_viz import viser_private
+
+
+class Message(Protocol):
+    """What is read from a message of viser.
+
+    Attributes:
+        excluded_self_client: the number of a browser that does not get it.
+    """
+
+    excluded_self_client: int | None
+
+
+class Buffer(Protocol):
+    """What is used of viser's buffer of messages.
+
+    Attributes:
+        event_loop: that of the server.
+        persistent_messages: whether messages stay for browsers that come later.
+        message_event: set when there is something new.
+        flush_event: set when what there is shall go out at once.
+        message_counter: the number of the next message.
+        message_from_id: the messages by number, in this order.
+        buffer_lock: for changes of `message_from_id`.
+        max_window_size: messages that go out together at most.
+        window_duration_sec: how long messages are collected [s].
+        done: whether the server or the browser has ended.
+        atomic_counter: above 0 nothing goes out.
+        generator_cursors: the number of the last message that each browser had.
+    """
+
+    event_loop: asyncio.AbstractEventLoop
+    persistent_messages: bool
+    message_event: asyncio.Event
+    flush_event: asyncio.Event
+    message_counter: int
+    message_from_id: dict[int, Any]
+    buffer_lock: threading.Lock
+    max_window_size: int
+    window_duration_sec: float
+    done: bool
+    atomic_counter: int
+    generator_cursors: dict[int, int]
+
+    def pop_message_locked(self, message_id: int) -> Any:
+        """Take a message out; the caller holds `buffer_lock`."""
+
+
+def prepare(server: viser.ViserServer) -> None:
+    """Have what goes out to all browsers of a server go out from here."""
+    buffer: Buffer = viser_private.broadcast_buffer(server)
+    viser_private.replace_window_loop(buffer, partial(windows, buffer))
+
+
+async def windows(
+    buffer: Buffer, client_id: int, backlog_end: int, marker: Message | None
+) -> AsyncGenerator[Sequence[Message], None]:
+    """The messages for one browser, several at a time, as they come.
+
+    Args:
+        buffer: where they are.
+        client_id: the number of the browser.
+        backlog_end: number of the last message that was there when it came.
+        marker: a message that goes out right behind that one.
+    """
+    walk = Walk(buffer, client_id)
+    flush = buffer.event_loop.create_task(buffer.flush_event.wait())
+    buffer.generator_cursors[client_id] = walk.last
+    try:
+        while not buffer.done:
+            newest = buffer.message_counter - 1
+            window = walk.next(newest if marker is None else min(newest, backlog_end))
+            # viser forgets a removal when every browser has had it.
+            buffer.generator_cursors[client_id] = walk.last
+            if marker is not None and walk.last >= backlog_end and not walk.held:
+                window.append(marker)
+                marker = None
+            if window:
+                yield window
+            else:
+                await buffer.message_event.wait()
+                buffer.message_event.clear()
+            if not window or buffer.message_counter - 1 == walk.last:
+                await asyncio.wait([flush], timeout=buffer.window_duration_sec)
+                if flush.done() and not buffer.done:
+                    buffer.flush_event.clear()
+                    flush = buffer.event_loop.create_task(buffer.flush_event.wait())
+    finally:
+        buffer.generator_cursors.pop(client_id, None)
+        flush.cancel()
+        await asyncio.gather(flush, return_exceptions=True)
+
+
+class Walk:
+    """The way of one browser through the messages.
+
+    Args:
+        buffer: where they are.
+        client_id: the number of the browser.
+
+    Attributes:
+        last: the number of the last message that it had, or that is not for it.
+    """
+
+    def __init__(self, buffer: Buffer, client_id: int) -> None:
+        self.last = -1
+        self._buffer = buffer
+        self._client_id = client_id
+        self._ahead: Sequence[int] = ()
+        self._place = 0
+
+    @property
+    def held(self) -> bool:
+        """Whether nothing may go out for now."""
+        return self._buffer.atomic_counter != 0
+
+    def next(self, end: int) -> list[Message]:
+        """The next messages; none when there are none, or when they are held.
+
+        Args:
+            end: number of the last message that may be among them; never a smaller
+                one than before.
+        """
+        window: list[Message] = []
+        most = self._buffer.max_window_size
+        while self.last < end and len(window) < most and not self.held:
+            if self._place == len(self._ahead):
+                self._ahead, self._place = self._numbers(end), 0
+            self.last = self._ahead[self._place]
+            self._place += 1
+            message = self._message(self.last)
+            if message is not None and message.excluded_self_client != self._client_id:
+                window.append(message)
+        return window
+
+    def _numbers(self, end: int) -> Sequence[int]:
+        """The numbers to ask for, up to `end`, which is the last of them."""
+        messages = self._buffer.message_from_id
+        if end - self.last <= len(messages):
+            return range(self.last + 1, end + 1)
+        # Another thread may add a message at any moment.
+        with self._buffer.buffer_lock:
+            there = [number for number in messages if self.last < number < end]
+        return [*there, end]
+
+    def _message(self, number: int) -> Message | None:
+        if self._buffer.persistent_messages:
+            return self._buffer.message_from_id.get(number)
+        with self._buffer.buffer_lock:
+            return self._buffer.pop_message_locked(number)

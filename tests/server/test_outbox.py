@@ -1,0 +1,91 @@
+"""What goes out to a browser, over real connections and in any order of events."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+import viser
+from protocol_client import ProtocolClient
+
+from sambot_viz import viser_private
+from sambot_viz.options import Options
+from sambot_viz.server.bind import close, listen
+
+Connect = Callable[..., ProtocolClient]
+A_LONG_TIME = 50_000_000
+"""So many messages are sent for 50 joints at 60 Hz within five hours."""
+
+
+class Asked(dict[int, Any]):
+    """Messages that count how often one is asked for."""
+
+    count = 0
+
+    def get(self, key: int, default: Any = None) -> Any:
+        self.count += 1
+        return super().get(key, default)
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = listen(Options(port=0))
+    yield server
+    close(server)
+
+
+def nodes(client: ProtocolClient) -> list[str]:
+    """The frames of the test that a browser was sent, in this order."""
+    messages = client.messages
+    names = [m.fields["name"] for m in messages if m.type == "FrameMessage"]
+    return [name for name in names if name != "/WorldAxes"]
+
+
+def test_a_browser_that_joins_late_asks_for_no_message_that_is_gone(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    buffer = viser_private.broadcast_buffer(server)
+    names = [f"/{number}" for number in range(300)]
+    for name in names[:200]:
+        server.scene.add_frame(name)
+    buffer.message_counter += A_LONG_TIME
+    for name in names[200:]:
+        server.scene.add_frame(name)
+    buffer.message_from_id = asked = Asked(buffer.message_from_id)
+    client = protocol(server.get_port())
+    assert nodes(client) == names
+    assert asked.count <= len(asked) + 1
+
+
+def test_messages_come_in_order_while_others_are_sent_and_replaced(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    first = protocol(server.get_port())
+    moved = server.scene.add_frame("/moved")
+    for number in range(500):
+        server.scene.add_frame(f"/{number}")
+        moved.position = (number, 0.0, 0.0)
+    first.settle(server)
+    late = protocol(server.get_port())
+    late.settle(server)
+    wanted = ["/moved", *(f"/{number}" for number in range(500))]
+    assert nodes(first) == nodes(late) == wanted
+    for client in (first, late):
+        poses = [m for m in client.messages if m.type == "SetPositionMessage"]
+        assert [m.fields["position"][0] for m in poses][-1] == 499.0
+
+
+def test_nothing_goes_out_while_changes_belong_together(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    client = protocol(server.get_port())
+    mark = client.mark()
+    with server.atomic():
+        for number in range(10):
+            server.scene.add_frame(f"/{number}")
+        assert client.quiet(0.1)
+    client.settle(server)
+    frames = [m.frame for m in client.since(mark) if m.type == "FrameMessage"]
+    assert len(frames) == 10
+    assert len(set(frames)) == 1
