@@ -64,10 +64,16 @@ def reason_of(error: OSError | ValueError) -> str:
     return text[:1].lower() + text[1:]
 
 
-def read_limited(path: Path, largest: int) -> bytes:
+def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
     """The bytes of a regular file, unless there are more than `largest`.
 
     No more than that is read, whatever the size that the system reports.
+
+    Args:
+        path: the file.
+        largest: refuse more than this [bytes].
+        pipe: take a pipe too, such as the shell's <(…), which has no size and can be
+            read only once.
 
     Raises:
         FileTooLargeError: it has more bytes.
@@ -75,7 +81,7 @@ def read_limited(path: Path, largest: int) -> bytes:
         ValueError: no file can have this name.
     """
     found = path.stat()
-    if not stat.S_ISREG(found.st_mode):
+    if not (stat.S_ISREG(found.st_mode) or (pipe and stat.S_ISFIFO(found.st_mode))):
         raise NotAFileError(errno.EINVAL, "it is not a regular file", str(path))
     if found.st_size <= largest:
         with path.open("rb") as stream:

@@ -221,8 +221,8 @@ class Options:
     )
     allowed_origins: Sequence[str] = _option(
         (),
-        "a web page of another origin that may use the server, such as "
-        f"https://lab.example.org for one behind a proxy{_AGAIN}",
+        "another name of this machine, or another web page that may use the server, "
+        f"such as https://lab.example.org for one behind a proxy{_AGAIN}",
         "--allow-origin",
         metavar="ORIGIN",
         read=_words,

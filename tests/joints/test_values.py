@@ -158,6 +158,16 @@ def test_a_file_that_cannot_be_read_says_why(tmp_path: Path) -> None:
         load_joint_state(tmp_path / "broken.yaml")
 
 
+def test_a_device_and_a_huge_file_are_not_read(tmp_path: Path) -> None:
+    with (tmp_path / "huge.yaml").open("wb") as file:
+        file.truncate(2**34)
+    for path in (Path("/dev/zero"), tmp_path / "huge.yaml"):
+        with pytest.raises(JointError, match="cannot read"):
+            load_joint_state(path)
+        with pytest.raises(JointError, match="cannot read"):
+            Presets(path)
+
+
 def test_poses_are_saved_and_found_again(tmp_path: Path) -> None:
     file = tmp_path / "poses.yaml"
     presets = Presets(file)

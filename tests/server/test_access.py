@@ -39,6 +39,8 @@ PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
         ("evil.example:8080", "http://evil.example:8080", "127.0.0.1", False),
         ("evil.example:8080", None, "127.0.0.1", False),
         ("[", None, "127.0.0.1", False),
+        ("a@127.0.0.1:8080", None, "127.0.0.1", False),
+        ("127.0.0.1/;script-src:8080", None, "127.0.0.1", False),
         ("lab-robot:8080", "http://lab-robot:8080", "0.0.0.0", True),
         ("lab-robot:8080", "https://evil.example", "0.0.0.0", False),
     ],
@@ -56,16 +58,33 @@ def test_only_pages_of_this_server_are_welcome(
         ("[2001:db8::1]:8080", True),
         ("localhost:8080", True),
         (f"{socket.gethostname()}:8080", True),
-        ("lab.example.org", True),
+        ("lab-robot", True),
+        ("lab-robot.local:8080", True),
+        ("Robot.LAN:8080", True),
+        ("lab.example.org", False),
         ("evil.example:8080", False),
+        ("192.0.2.7.evil.example:8080", False),
+        ("evil.example.:8080", False),
+        ("local:8080:1", False),
+        ("", False),
     ],
 )
-def test_a_server_on_all_networks_with_allowed_origins_takes_no_foreign_name(
+def test_a_server_on_a_network_takes_no_name_that_a_stranger_can_buy(
     host: str, welcome: bool
 ) -> None:
-    allowed = ["https://lab.example.org"]
-    assert is_welcome(host, f"http://{host}", "0.0.0.0", allowed) is welcome
-    assert is_welcome(host, None, "0.0.0.0", allowed) is welcome
+    assert is_welcome(host, f"http://{host}", "0.0.0.0") is welcome
+    assert is_welcome(host, None, "0.0.0.0") is welcome
+
+
+def test_a_name_is_known_when_it_is_allowed_or_listened_on() -> None:
+    for listening_on, allowed in (
+        ("0.0.0.0", ["http://lab.example.org:8080"]),
+        ("lab.example.org", []),
+    ):
+        for origin in ("http://lab.example.org:8080", None):
+            assert is_welcome("lab.example.org:8080", origin, listening_on, allowed)
+        for name in ("evil.example:8080", "x.lab.example.org:8080"):
+            assert not is_welcome(name, None, listening_on, allowed)
 
 
 def test_an_origin_that_is_not_an_address_is_refused() -> None:
@@ -110,7 +129,8 @@ def test_a_foreign_name_for_this_machine_gets_no_page(port: int) -> None:
         urlopen(request)
     with refused.value as answer:
         assert answer.code == 403
-        assert b"--allow-origin" in answer.read()
+        sentence = answer.read()
+        assert b"not known by this name" in sentence and b"--allow-origin" in sentence
 
 
 def raw_answer(port: int, *headers: str) -> bytes:
@@ -121,10 +141,10 @@ def raw_answer(port: int, *headers: str) -> bytes:
         return connection.makefile("rb").readline()
 
 
-@pytest.mark.parametrize("name", ["Host", "Origin"])
+@pytest.mark.parametrize("name", ["Host", "Origin", "Upgrade", "Accept-Encoding"])
 def test_a_header_that_is_there_twice_is_refused(port: int, name: str) -> None:
     host = f"127.0.0.1:{port}"
-    value = host if name == "Host" else f"http://{host}"
+    value = {"Host": host, "Origin": f"http://{host}"}.get(name, "websocket")
     headers = [f"{name}: {value}"] * 2 + ["Host: " + host] * (name != "Host")
     assert b" 400 " in raw_answer(port, *headers)
 

@@ -10,9 +10,11 @@ from typing import cast
 import yaml
 
 from sambot_viz.errors import JointError, did_you_mean
-from sambot_viz.files import write_atomically
+from sambot_viz.files import read_limited, write_atomically
 from sambot_viz.geometry import finite
 
+LARGEST = 1_000_000
+"""A larger file of poses is not read [bytes]."""
 Pose = dict[str, float]
 """Joint → position [rad or m]."""
 
@@ -86,7 +88,7 @@ class Presets:
 
 def _load(path: Path) -> dict[str, Pose]:
     try:
-        document: object = yaml.safe_load(path.read_text(encoding="utf-8"))
+        document: object = yaml.safe_load(read_limited(path, LARGEST).decode())
     except (OSError, UnicodeDecodeError) as error:
         raise JointError(f"cannot read the poses in {path}: {error}") from error
     except yaml.YAMLError as error:

@@ -11,7 +11,11 @@ from typing import cast
 import yaml
 
 from sambot_viz.errors import JointError, UsageError
+from sambot_viz.files import read_limited
 from sambot_viz.geometry import finite
+
+LARGEST = 50_000_000
+"""A larger recording is not read, of which only the first message counts [bytes]."""
 
 
 def parse_assignments(texts: Iterable[str], option: str) -> dict[str, float]:
@@ -62,7 +66,7 @@ def load_joint_state(path: Path) -> dict[str, float]:
         JointError: the file cannot be read or is neither of the two.
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_limited(path, LARGEST, pipe=True).decode()
         # ros2 topic echo ends each message with a document mark.
         document: object = next(iter(yaml.safe_load_all(text)), None)
     except (OSError, UnicodeDecodeError) as error:

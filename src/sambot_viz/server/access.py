@@ -7,10 +7,12 @@ page of another origin is refused, and so is one that reached the server under a
 name (DNS rebinding). Other pages cannot show this one in a frame. Programs send no
 Origin and are let in. With a token (`server.token_check`), nobody is let in without it.
 
-What stays weak: a server that listens on a network, and has no allowed origins, cannot
-know its own names, so it takes any name that a browser reached it by, also a foreign
-one. Without a token, whoever can reach the port can use the page. Passwords of users
-and TLS are the job of a proxy.
+A server that listens on a network takes its addresses, its host name, and names that
+cannot be bought: the attack needs a name in the DNS of all. Any other name has to be
+allowed as an origin.
+
+What stays weak: without a token, whoever can reach the port can use the page. Passwords
+of users and TLS are the job of a proxy.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from __future__ import annotations
 import contextlib
 import http
 import ipaddress
+import re
 import socket
 from collections.abc import Awaitable, Callable, Generator, Sequence
 from typing import Any
@@ -31,10 +34,17 @@ from websockets.http11 import Request, Response
 
 from sambot_viz.options import Options
 from sambot_viz.server import page_files
+from sambot_viz.server.crowd import Crowd
 from sambot_viz.server.token_check import TokenCheck
 
 _PROTOCOL = f"viser-v{viser.__version__}"
 _VERSION_MISMATCH = 1002
+_HOST = re.compile(r"([A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(:[0-9]+)?")
+"""A Host header; it goes into the policy of the page."""
+_NOT_FOR_SALE = (".local", ".lan", ".internal", ".home.arpa")
+"""Names with these ends are only known in one network."""
+_ONCE = ("Origin", "Upgrade", "If-None-Match", "Accept-Encoding")
+"""Headers that are read, and so may be there once at most."""
 
 
 def only_this_machine(host: str) -> bool:
@@ -56,13 +66,9 @@ def is_welcome(
     """
     if origin is not None and origin in allowed:
         return True
-    if host not in map(_netloc, allowed):
-        name = _hostname(host)
-        if only_this_machine(listening_on):
-            if not only_this_machine(name):
-                return False
-        elif allowed and not _is_own_name(name):
-            return False
+    named = host in map(_netloc, allowed)
+    if not named and not _is_own_name(_hostname(host), listening_on):
+        return False
     return origin is None or _netloc(origin) == host
 
 
@@ -107,10 +113,14 @@ def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
         return None
 
 
-def _is_own_name(name: str) -> bool:
-    """Whether no foreign page can have been reached under this name."""
-    own = socket.gethostname()
-    return _address(name) is not None or name in ("localhost", own, f"{own}.local")
+def _is_own_name(name: str, listening_on: str) -> bool:
+    """Whether no page of a stranger can have been reached under this name."""
+    if only_this_machine(listening_on):
+        return only_this_machine(name)
+    if name == "" or _address(name) is not None:
+        return name != ""
+    own = name in (listening_on, socket.gethostname())
+    return own or "." not in name or name.endswith(_NOT_FOR_SALE)
 
 
 def _netloc(origin: str) -> str:
@@ -120,11 +130,10 @@ def _netloc(origin: str) -> str:
         return ""
 
 
-def _hostname(netloc: str) -> str:
-    try:
-        return urlsplit(f"//{netloc}").hostname or ""
-    except ValueError:
-        return ""
+def _hostname(host: str) -> str:
+    """The name in a Host header, without its port; "" for what is not a name."""
+    match = _HOST.fullmatch(host)
+    return "" if match is None else match[1].strip("[]").lower()
 
 
 @contextlib.contextmanager
@@ -143,6 +152,7 @@ def checked(options: Options) -> Generator[None]:
         None if options.token is None else TokenCheck(options.token, options.base_path)
     )
     page_files.prepare(options.panels)
+    crowd = Crowd()
 
     def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
         answer = settings.get("process_request")
@@ -153,6 +163,8 @@ def checked(options: Options) -> Generator[None]:
             refused = _refusal(request, options) or (token and token.refusal(request))
             if refused:
                 return refused
+            if crowd.is_full(connection) and page_files.is_page(request):
+                return crowd.refusal()
             path, _, query = request.path.partition("?")
             if path == options.base_path != "/" and not page_files.is_websocket(
                 request
@@ -183,6 +195,7 @@ def checked(options: Options) -> Generator[None]:
                 await connection.close(_VERSION_MISMATCH, "Version mismatch.")
 
         settings["process_request"] = check
+        settings["create_connection"] = crowd.connection
         return original(handle, *arguments, **settings)
 
     module.serve = serve  # type: ignore[assignment, misc]
@@ -194,19 +207,37 @@ def checked(options: Options) -> Generator[None]:
 
 def _refusal(request: Request, options: Options) -> Response | None:
     """The answer to a request from where none may come."""
-    hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
-    if len(hosts) != 1 or len(origins) > 1:
-        return _plain(http.HTTPStatus.BAD_REQUEST, "One Host, one Origin.")
-    origin = origins[0] if origins else None
-    if is_welcome(hosts[0], origin, options.host, options.allowed_origins):
+    headers = request.headers
+    hosts, origins = headers.get_all("Host"), headers.get_all("Origin")
+    if len(hosts) != 1 or any(len(headers.get_all(name)) > 1 for name in _ONCE):
+        return _plain(
+            http.HTTPStatus.BAD_REQUEST, f"One Host; one {', '.join(_ONCE)} at most."
+        )
+    host, origin = hosts[0], origins[0] if origins else None
+    if is_welcome(host, origin, options.host, options.allowed_origins):
         return None
-    sentence = "This page may not use this server; see --allow-origin."
-    return _plain(http.HTTPStatus.FORBIDDEN, sentence)
+    if is_welcome(host, None, options.host, options.allowed_origins):
+        sentence = "A page of another address may not use this server"
+    else:
+        sentence = (
+            "This server is not known by this name: open it by the address of its "
+            "machine"
+        )
+    return _plain(
+        http.HTTPStatus.FORBIDDEN,
+        f"{sentence}, or start it with --allow-origin and the address that the browser "
+        "shows, such as http://lab.example.org:8080.",
+    )
 
 
 def _plain(status: http.HTTPStatus, sentence: str, location: str = "") -> Response:
     content = f"{sentence}\n".encode()
-    headers = Headers({"Content-Length": str(len(content))})
+    headers = Headers(
+        {
+            "Content-Type": "text/plain; charset=utf-8",
+            "Content-Length": str(len(content)),
+        }
+    )
     if location:
         headers["Location"] = location
     return Response(status, status.phrase, headers, content)

@@ -36,10 +36,9 @@ def answer(request: Request, panels: bool = True) -> Response | None:
     """
     if is_websocket(request):
         return None
-    path = request.path.partition("?")[0]
-    if path == LICENSES:
+    if request.path.partition("?")[0] == LICENSES:
         return _text(page.licenses())
-    if path not in ("/", "/index.html"):
+    if not is_page(request):
         return None
     headers = Headers(
         {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(panels)}
@@ -59,6 +58,12 @@ def answer(request: Request, panels: bool = True) -> Response | None:
 def is_websocket(request: Request) -> bool:
     """Whether a request asks for the connection of a page, not for a file."""
     return request.headers.get("Upgrade", "").lower() == "websocket"
+
+
+def is_page(request: Request) -> bool:
+    """Whether a request asks for the page, or for the connection of one."""
+    path = request.path.partition("?")[0]
+    return is_websocket(request) or path in ("/", "/index.html")
 
 
 def _text(content: bytes) -> Response:

@@ -23,6 +23,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from sambot_viz.server.page_files import is_websocket
+from sambot_viz.server.plain_page import plain_page
 
 WRONG_ANSWER = 1.0
 """The answer to a wrong token takes so long [s]."""
@@ -30,12 +31,6 @@ MOST_WAITING = 20
 """So many wrong tokens are answered at the same time; more are not looked at."""
 _REMEMBERED = 30 * 24 * 3600
 """How long a browser keeps the cookie [s]."""
-_PAGE = """\
-<!doctype html><meta charset="utf-8">
-<meta name="viewport" content="width=device-width"><title>sambot-viz</title>
-<style>body {{ font: 16px/1.5 sans-serif; max-width: 34em; margin: 4em auto }}</style>
-<h1>{title}</h1><p>{text}</p>
-"""
 
 
 class TokenCheck:
@@ -64,7 +59,7 @@ class TokenCheck:
             None for a request with the token.
         """
         if self._waiting >= MOST_WAITING:
-            return _answer(
+            return plain_page(
                 http.HTTPStatus.TOO_MANY_REQUESTS,
                 "Too many wrong links at the moment",
                 "Load the page again in a few seconds.",
@@ -105,7 +100,7 @@ class TokenCheck:
             f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}
-        return _answer(http.HTTPStatus.SEE_OTHER, "Come in", "", more)
+        return plain_page(http.HTTPStatus.SEE_OTHER, "Come in", "", more)
 
     async def _wrong(self) -> Response:
         self._waiting += 1
@@ -113,7 +108,7 @@ class TokenCheck:
             await asyncio.sleep(WRONG_ANSWER)
         finally:
             self._waiting -= 1
-        return _answer(
+        return plain_page(
             http.HTTPStatus.UNAUTHORIZED,
             "This link is not valid (any more)",
             "Its token is wrong. Ask for the link that the program has printed at its "
@@ -122,7 +117,7 @@ class TokenCheck:
 
 
 def _no_token() -> Response:
-    return _answer(
+    return plain_page(
         http.HTTPStatus.UNAUTHORIZED,
         "This robot is only shown to those who have the link",
         "Open the whole address that sambot-viz has printed, "
@@ -145,22 +140,3 @@ def _split(path: str) -> tuple[str, list[bytes]]:
     # Relative: a proxy may show the page below another path, and on another host.
     where = f"./{where.rpartition('/')[2]}"
     return f"{where}?{rest}" if rest else where, given
-
-
-def _answer(
-    status: http.HTTPStatus,
-    title: str,
-    text: str,
-    more: dict[str, str] | None = None,
-) -> Response:
-    content = _PAGE.format(title=title, text=text).encode()
-    headers = Headers(
-        {
-            "Content-Type": "text/html; charset=utf-8",
-            "Content-Length": str(len(content)),
-            "Cache-Control": "no-store",
-            "Referrer-Policy": "no-referrer",
-            **(more or {}),
-        }
-    )
-    return Response(status, status.phrase, headers, content)

@@ -364,8 +364,17 @@ def test_an_unreadable_file_is_an_error_with_its_name(tmp_path: Path):
         f"{missing}: error[config-unreadable]: cannot read it: "
         "No such file or directory; check the path"
     )
-    with pytest.raises(ConfigError, match="Is a directory"):
-        Document.load(tmp_path)
+    for other in (tmp_path, Path("/dev/zero")):
+        with pytest.raises(ConfigError, match="not a regular file"):
+            Document.load(other)
+
+
+def test_a_file_that_is_far_too_large_is_not_read(tmp_path: Path):
+    path = tmp_path / "large.rviz"
+    with path.open("wb") as file:
+        file.truncate(2**30)
+    with pytest.raises(ConfigError, match="more than 4 MB"):
+        Document.load(path)
 
 
 def test_a_file_that_is_no_utf_8_is_an_error_with_the_line(tmp_path: Path):

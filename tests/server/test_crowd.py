@@ -1,0 +1,71 @@
+"""Who comes when there is no place left."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+from contextlib import ExitStack
+from urllib.error import HTTPError
+from urllib.request import urlopen
+
+import pytest
+import viser
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+from sambot_viz.options import Options
+from sambot_viz.server import crowd
+from sambot_viz.server.bind import close, listen
+
+MOST = 3
+
+
+@pytest.fixture
+def port(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    monkeypatch.setattr(crowd, "MOST_BROWSERS", MOST)
+    monkeypatch.setattr(crowd, "MOST_CONNECTIONS", 10)
+    server = listen(Options())
+    yield server.get_port()
+    close(server)
+
+
+def page(port: int) -> ClientConnection:
+    protocol = Subprotocol(f"viser-v{viser.__version__}")
+    return connect(f"ws://127.0.0.1:{port}", subprotocols=[protocol])
+
+
+def test_a_page_too_many_reads_why_and_loads_when_one_has_left(port: int) -> None:
+    address = f"http://127.0.0.1:{port}/"
+    with ExitStack() as pages:
+        first, *_ = (pages.enter_context(page(port)) for _ in range(MOST))
+        with pytest.raises(InvalidStatus) as refused:
+            page(port)
+        assert refused.value.response.status_code == 503
+        with pytest.raises(HTTPError) as no_page:
+            urlopen(address)
+        with no_page.value as answer:
+            assert answer.code == 503
+            assert answer.headers["Refresh"] == "10"
+            assert f"shown in {MOST} pages already" in answer.read().decode()
+        first.close()
+        with urlopen(address) as answer, page(port):
+            assert answer.status == 200
+
+
+def test_connections_that_say_nothing_leave_file_numbers_for_the_program(
+    port: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    silent = [socket.create_connection(("127.0.0.1", port), 10.0) for _ in range(10)]
+    with socket.create_connection(("127.0.0.1", port), 10.0) as one_more:
+        try:
+            assert one_more.recv(1) == b""
+        except ConnectionResetError:
+            pass
+    for connection in silent:
+        connection.sendall(b"no request\r\n\r\n")
+        assert connection.recv(1) == b""
+        connection.close()
+    with urlopen(f"http://127.0.0.1:{port}/") as answer:
+        assert answer.status == 200
+    assert caplog.records == []
