@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import Visualizer
-from sambot_viz.server import door
+from sambot_viz.server import door, sending
 
 Connect = Callable[..., ProtocolClient]
 SLIDER = "joints", "drivewhl_l_joint"
@@ -298,7 +298,7 @@ def test_a_picture_that_was_not_asked_for_is_dropped(
 def test_a_browser_that_does_not_read_is_disconnected(
     viz: Visualizer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(door, "STALL_PERIOD", 0.1)
+    monkeypatch.setattr(sending, "STALL_PERIOD", 0.1)
     gone = threading.Event()
     viz.viser.on_client_disconnect(lambda _: gone.set())
     socket = connect(

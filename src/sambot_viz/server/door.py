@@ -13,8 +13,7 @@ A message is limited in size, and a browser in messages per second: one that sen
 is slowed down, by reading less from its connection. One that does not read what it is
 sent is disconnected.
 
-What stays weak: every connection costs the memory of one copy of the scene while it is
-sent, and the number of connections is not limited; that is the job of a proxy.
+What stays weak: the number of connections is not limited; that is the job of a proxy.
 """
 
 from __future__ import annotations
@@ -32,6 +31,7 @@ import viser
 from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
+from sambot_viz.server import outbox
 from sambot_viz.server.browser_messages import (
     BrowserMessage,
     CameraMoved,
@@ -39,6 +39,7 @@ from sambot_viz.server.browser_messages import (
     SetValue,
     decode,
 )
+from sambot_viz.server.sending import Sending
 
 TakeEdit = Callable[[int, object], None]
 
@@ -50,10 +51,6 @@ MESSAGES_PER_SECOND = 300.0
 """A user with a mouse sends about 110: 60 values and 50 cameras."""
 BURST = 600.0
 """How many messages may come at once."""
-STALL_PERIOD = 10.0
-"""A browser that hardly reads is disconnected after one to two of these [s]."""
-SLOWEST = 1000.0
-"""A slower browser hardly reads [bytes/s]."""
 CLOSE_TIME = 1.0
 """How long the end of the program waits for a browser to close its connection [s]."""
 LOG_PERIOD = 10.0
@@ -81,16 +78,24 @@ def give_edits(server: viser.ViserServer, take: TakeEdit) -> None:
 
 def guard(server: viser.ViserServer) -> None:
     """Check all that the browsers of a server send from now on; once per server."""
-    viser_private.on_connection(server, partial(Door, server))
+    viser_private.on_connection(server, partial(_meet, server))
+
+
+def _meet(
+    server: viser.ViserServer, client_id: int, connection: ServerConnection
+) -> None:
+    Sending(connection)
+    outbox.prepare_own(server, client_id)
+    Door(server, client_id, connection)
 
 
 class Door:
-    """Checks what one browser sends, and how it takes what it is sent.
+    """Checks what one browser sends.
 
     Args:
         server: the server.
         client_id: the browser's number.
-        connection: the browser's connection; its `recv` and `send` are replaced.
+        connection: the browser's connection; its `recv` is replaced.
     """
 
     def __init__(
@@ -101,10 +106,10 @@ class Door:
         self._connection = connection
         self._known = False
         self._rate = Rate(MESSAGES_PER_SECOND, BURST)
-        self._recv, self._send = connection.recv, connection.send
+        self._recv = connection.recv
         connection.protocol.max_message_size = LARGEST_MESSAGE
         connection.close_timeout = CLOSE_TIME
-        viser_private.replace_methods(connection, recv=self.recv, send=self.send)
+        viser_private.replace_methods(connection, recv=self.recv)
 
     async def recv(self) -> bytes:
         """The next message that may be handled."""
@@ -119,14 +124,6 @@ class Door:
                 self._give(message.updates["value"])
             else:
                 return cast(bytes, raw)
-
-    async def send(self, message: bytes) -> None:
-        """Send a message; disconnect a browser that does not take it."""
-        timer = StallTimer(self._connection.transport)
-        try:
-            await self._send(message)
-        finally:
-            timer.cancel()
 
     def _give(self, edit: object) -> None:
         take = _takers.get(self._server)
@@ -223,34 +220,6 @@ class Rate:
         pause = self.take()
         if pause > 0.0:
             await asyncio.sleep(pause)
-
-
-class StallTimer:
-    """Disconnects a browser that hardly reads, while something is sent to it.
-
-    Args:
-        transport: its connection.
-    """
-
-    def __init__(self, transport: asyncio.Transport) -> None:
-        self._transport = transport
-        self._left = math.inf
-        self._start()
-
-    def _start(self) -> None:
-        loop = asyncio.get_running_loop()
-        self._timer = loop.call_later(STALL_PERIOD, self._look)
-
-    def _look(self) -> None:
-        before, self._left = self._left, self._transport.get_write_buffer_size()
-        if before - self._left < SLOWEST * STALL_PERIOD:
-            self._transport.abort()
-        else:
-            self._start()
-
-    def cancel(self) -> None:
-        """Everything was sent."""
-        self._timer.cancel()
 
 
 _next_report = 0.0

@@ -1,9 +1,10 @@
-"""What goes out to a browser: the messages it has not had yet, in windows.
+"""What goes out to a browser: the messages it has not had yet, in batches.
 
 viser numbers its messages and keeps the newest of each kind and node. Its own loop asks
 for every number since the server started, on the event loop and for every page that is
 opened: a second in which nobody gets anything, for each ten million messages. This one
-asks only for messages that are there.
+asks only for messages that are there. A mesh goes alone, so that it is packed once for
+all browsers that are opened at the same time.
 """
 
 from __future__ import annotations
@@ -11,12 +12,13 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import AsyncGenerator, Sequence
-from functools import partial
 from typing import Any, Protocol
 
 import viser
+from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
+from sambot_viz.server.parcels import HEAVY, Batch, Parcels, weight
 
 
 class Message(Protocol):
@@ -66,13 +68,66 @@ class Buffer(Protocol):
 
 def prepare(server: viser.ViserServer) -> None:
     """Have what goes out to all browsers of a server go out from here."""
-    buffer: Buffer = viser_private.broadcast_buffer(server)
-    viser_private.replace_window_loop(buffer, partial(windows, buffer))
+    _replace(server, viser_private.broadcast_buffer(server))
 
 
-async def windows(
+def prepare_own(server: viser.ViserServer, client_id: int) -> None:
+    """Have what goes out to one browser go out from here."""
+    _replace(server, viser_private.own_buffer(server, client_id))
+
+
+def _replace(server: viser.ViserServer, buffer: Buffer) -> None:
+    parcels = Parcels()
+
+    def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
+        connection = viser_private.connection_of(server, client_id)
+        return Sender(
+            connection, parcels, batches(buffer, client_id, backlog_end, marker)
+        )
+
+    viser_private.replace_window_loop(buffer, loop)
+
+
+class Sender:
+    """Sends batches by itself: viser, which asks it for them, would pack them again.
+
+    Args:
+        connection: of the browser.
+        parcels: packs them.
+        batches: for this browser.
+    """
+
+    def __init__(
+        self,
+        connection: ServerConnection,
+        parcels: Parcels,
+        batches: AsyncGenerator[Batch, None],
+    ) -> None:
+        self._connection = connection
+        self._parcels = parcels
+        self._batches = batches
+
+    async def __anext__(self) -> Sequence[Any]:
+        """Send everything, until the server or the browser ends.
+
+        Raises:
+            ConnectionClosed: the browser has left.
+        """
+        async for batch in self._batches:
+            # It is there for other browsers as long as this one holds it.
+            parcel = await self._parcels.parcel(batch)
+            await self._connection.send(parcel.content)
+            del parcel
+        raise StopAsyncIteration
+
+    async def aclose(self) -> None:
+        """The browser has left."""
+        await self._batches.aclose()
+
+
+async def batches(
     buffer: Buffer, client_id: int, backlog_end: int, marker: Message | None
-) -> AsyncGenerator[Sequence[Message], None]:
+) -> AsyncGenerator[Batch, None]:
     """The messages for one browser, several at a time, as they come.
 
     Args:
@@ -87,18 +142,18 @@ async def windows(
     try:
         while not buffer.done:
             newest = buffer.message_counter - 1
-            window = walk.next(newest if marker is None else min(newest, backlog_end))
+            batch = walk.next(newest if marker is None else min(newest, backlog_end))
             # viser forgets a removal when every browser has had it.
             buffer.generator_cursors[client_id] = walk.last
             if marker is not None and walk.last >= backlog_end and not walk.held:
-                window.append(marker)
+                batch = batch.with_marker(marker)
                 marker = None
-            if window:
-                yield window
+            if batch.messages:
+                yield batch
             else:
                 await buffer.message_event.wait()
                 buffer.message_event.clear()
-            if not window or buffer.message_counter - 1 == walk.last:
+            if not batch.messages or buffer.message_counter - 1 == walk.last:
                 await asyncio.wait([flush], timeout=buffer.window_duration_sec)
                 if flush.done() and not buffer.done:
                     buffer.flush_event.clear()
@@ -132,24 +187,31 @@ class Walk:
         """Whether nothing may go out for now."""
         return self._buffer.atomic_counter != 0
 
-    def next(self, end: int) -> list[Message]:
+    def next(self, end: int) -> Batch:
         """The next messages; none when there are none, or when they are held.
 
         Args:
             end: number of the last message that may be among them; never a smaller
                 one than before.
         """
-        window: list[Message] = []
-        most = self._buffer.max_window_size
-        while self.last < end and len(window) < most and not self.held:
+        found: list[tuple[int, Message]] = []
+        most, heavy = self._buffer.max_window_size, 0
+        while self.last < end and len(found) < most and heavy < HEAVY and not self.held:
             if self._place == len(self._ahead):
                 self._ahead, self._place = self._numbers(end), 0
-            self.last = self._ahead[self._place]
-            self._place += 1
-            message = self._message(self.last)
+            number = self._ahead[self._place]
+            message = self._buffer.message_from_id.get(number)
             if message is not None and message.excluded_self_client != self._client_id:
-                window.append(message)
-        return window
+                more = weight(message)
+                if found and more >= HEAVY:
+                    break
+                heavy += more
+                found.append((number, message))
+            self._place += 1
+            self.last = number
+            self._forget(number)
+        numbers, messages = tuple(n for n, _ in found), [m for _, m in found]
+        return Batch(numbers, messages, heavy)
 
     def _numbers(self, end: int) -> Sequence[int]:
         """The numbers to ask for, up to `end`, which is the last of them."""
@@ -161,8 +223,7 @@ class Walk:
             there = [number for number in messages if self.last < number < end]
         return [*there, end]
 
-    def _message(self, number: int) -> Message | None:
-        if self._buffer.persistent_messages:
-            return self._buffer.message_from_id.get(number)
-        with self._buffer.buffer_lock:
-            return self._buffer.pop_message_locked(number)
+    def _forget(self, number: int) -> None:
+        if not self._buffer.persistent_messages:
+            with self._buffer.buffer_lock:
+                self._buffer.pop_message_locked(number)

@@ -1,0 +1,219 @@
+"""Many light browsers in processes of their own, which note when a joint has moved.
+
+    with Crowd(port, 30) as crowd:             # all are connected and have the scene
+        crowd.joined                           # how long each took until then [s]
+        ...                                    # a user moves a joint
+        for light in crowd.look("wheel", 0.5): # all have seen it there
+            light.poses, light.bytes
+
+They decode only what they must, so that they do not measure themselves. They note times
+of `time.perf_counter`, which on Linux is the same clock in all processes.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import multiprocessing
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from types import TracebackType
+from typing import Any
+
+import msgspec.msgpack
+import viser
+import zstandard
+from protocol_client import CAMERA
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+LONGEST = 120.0
+"""How long a crowd may take for anything [s]."""
+
+
+class _Head(msgspec.Struct):
+    """What is read of every message."""
+
+    type: str
+    name: str = ""
+    wxyz: tuple[float, float, float, float] | None = None
+
+
+class _Frame(msgspec.Struct):
+    messages: list[_Head]
+
+
+_DECODER = msgspec.msgpack.Decoder(_Frame)
+
+
+Pose = tuple[float, str, float]
+"""When which node was turned to which angle [s, rad]."""
+
+
+@dataclass
+class Light:
+    """What one light browser has seen.
+
+    Attributes:
+        joined: how long it took until it had the whole scene [s].
+        bytes: how much it was sent since it was last asked.
+        poses: of nodes that were turned, since it was last asked.
+        nodes: how many scene nodes it was sent.
+        closed: whether its connection has ended.
+    """
+
+    joined: float = math.nan
+    bytes: int = 0
+    poses: list[Pose] = field(default_factory=list[Pose])
+    nodes: int = 0
+    closed: bool = False
+
+
+class Crowd:
+    """Light browsers that join at the same time.
+
+    Args:
+        port: of the server.
+        count: how many.
+        processes: so many processes share them.
+        meshes: one has joined when it was sent so many meshes.
+    """
+
+    def __init__(
+        self, port: int, count: int, processes: int = 2, meshes: int = 0
+    ) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._pipes: list[Connection] = []
+        self._processes: list[Any] = []
+        for number in range(processes):
+            ours, theirs = context.Pipe()
+            share = count // processes + (number < count % processes)
+            process = context.Process(
+                target=_crowd, args=(theirs, port, share, meshes), daemon=True
+            )
+            process.start()
+            self._pipes.append(ours)
+            self._processes.append(process)
+        self._ask("ready")
+        self.joined = [light.joined for light in self._ask("join")]
+
+    def __enter__(self) -> Crowd:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        for process in self._processes:
+            process.terminate()
+            process.join(LONGEST)
+
+    def look(self, name: str = "", angle: float = -math.inf) -> list[Light]:
+        """What each has seen since the last look.
+
+        Args:
+            name: end of the name of a node.
+            angle: wait until every browser that is connected has seen the node at it,
+                or beyond [rad].
+        """
+        return self._ask("look", name, angle)
+
+    def _ask(self, *words: object) -> list[Light]:
+        for pipe in self._pipes:
+            pipe.send(words)
+        found: list[Light] = []
+        for pipe in self._pipes:
+            assert pipe.poll(LONGEST), f"no answer to {words}"
+            answer = pipe.recv()
+            assert isinstance(answer, list), answer
+            found += answer
+        return found
+
+
+def _crowd(pipe: Connection, port: int, count: int, meshes: int) -> None:
+    asyncio.run(_serve(pipe, port, count, meshes))
+
+
+async def _serve(pipe: Connection, port: int, count: int, meshes: int) -> None:
+    loop = asyncio.get_running_loop()
+    lights = [Light() for _ in range(count)]
+    tasks: list[asyncio.Task[None]] = []
+    while True:
+        word, *details = await loop.run_in_executor(None, pipe.recv)
+        try:
+            if word == "join":
+                joins = [asyncio.Event() for _ in lights]
+                tasks += [
+                    asyncio.create_task(_browse(port, light, joined, meshes))
+                    for light, joined in zip(lights, joins, strict=True)
+                ]
+                waiting = asyncio.gather(*(joined.wait() for joined in joins))
+                await asyncio.wait_for(waiting, LONGEST)
+                assert not any(task.done() for task in tasks), "a connection ended"
+            elif word == "look":
+                await asyncio.wait_for(_until_seen(lights, *details), LONGEST)
+        except Exception as error:
+            pipe.send(repr(error))
+        else:
+            pipe.send(lights)
+        for light in lights:
+            light.poses, light.bytes = [], 0
+
+
+async def _until_seen(lights: Sequence[Light], name: str, angle: float) -> None:
+    def has(light: Light) -> bool:
+        return light.closed or any(
+            node.endswith(name) and seen >= angle
+            for _, node, seen in reversed(light.poses)
+        )
+
+    while angle > -math.inf and not all(map(has, lights)):
+        await asyncio.sleep(0.02)
+
+
+async def _browse(port: int, light: Light, joined: asyncio.Event, meshes: int) -> None:
+    start = time.perf_counter()
+    try:
+        async with connect(
+            f"ws://127.0.0.1:{port}",
+            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+            max_size=None,
+            compression=None,
+            ping_interval=None,
+        ) as socket:
+            camera = {"type": "ViewerCameraMessage", **CAMERA}
+            await socket.send(msgspec.msgpack.encode(camera))
+            await _read(socket, light, joined, meshes, start)
+    finally:
+        light.closed = True
+        joined.set()
+
+
+async def _read(
+    socket: ClientConnection,
+    light: Light,
+    joined: asyncio.Event,
+    meshes: int,
+    start: float,
+) -> None:
+    unpacker = zstandard.ZstdDecompressor()
+    replayed, had = False, 0
+    async for data in socket:
+        assert isinstance(data, bytes)
+        now = time.perf_counter()
+        light.bytes += len(data)
+        size, packed = (int.from_bytes(data[i : i + 8], "little") for i in (0, 8))
+        content = unpacker.decompress(data[16 : 16 + packed], max_output_size=size)
+        for message in _DECODER.decode(content).messages:
+            if message.type == "SetOrientationMessage" and message.wxyz:
+                angle = 2.0 * math.acos(max(-1.0, min(1.0, message.wxyz[0])))
+                light.poses.append((now, message.name, angle))
+            had += message.type in ("GlbMessage", "MeshMessage")
+            replayed = replayed or message.type == "ReplayDoneMessage"
+        if replayed and had >= meshes and not joined.is_set():
+            light.joined, light.nodes = time.perf_counter() - start, had
+            joined.set()
