@@ -113,7 +113,8 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent http socket threading",
     ),
     "export": Row(
-        "server session views viser_private",
+        "displays joints meshes open_config options page robot rviz server session "
+        "views viser_private",
         "numpy viser websockets",
         "signal subprocess threading",
     ),
@@ -145,7 +146,8 @@ ROOMS: Mapping[str, Row] = {
     "tokens": Row(),
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "visualizer": Row(
-        "displays frames inputs joints open_config options robot rviz server session",
+        "displays export frames inputs joints open_config options robot rviz server "
+        "session",
         "viser",
     ),
 }

@@ -96,3 +96,17 @@ def test_a_pose_is_set_as_by_visers_own_setters(server: viser.ViserServer) -> No
     assert (tuple(node.wxyz), tuple(node.position)) == ((0, 1, 0, 0), (0, 0, 0))
     viser_private.set_pose(node, None, (1.0, 2.0, 3.0))
     assert (tuple(node.wxyz), tuple(node.position)) == ((0, 1, 0, 0), (1, 2, 3))
+
+
+def test_what_is_drawn_can_be_recorded_without_a_server() -> None:
+    recorder = viser_private.Recorder(720)
+    heard: list[str] = []
+    recorder.listen(lambda message, arrays: heard.append(message["type"]))
+    frame = recorder.scene.add_frame("/a", show_axes=False)
+    frame.wxyz = (0.0, 1.0, 0.0, 0.0)
+    recorder.camera.position = (1.0, 2.0, 3.0)
+    recorder.scene.add_frame("/a", show_axes=False).remove()
+    assert heard[-1] == "RemoveSceneNodeMessage"
+    assert {"FrameMessage", "SetOrientationMessage"} <= set(heard)
+    assert "SetCameraPositionMessage" in heard
+    assert len(recorder.bytes()) > 100

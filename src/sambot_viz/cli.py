@@ -20,7 +20,7 @@ from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageErro
 
 OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
 
-COMMANDS = ("check", "config", "echo", "expand", "frames", "snapshot")
+COMMANDS = ("check", "config", "echo", "expand", "export", "frames", "snapshot")
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
 
 

@@ -6,12 +6,14 @@ import functools
 import inspect
 from collections.abc import Callable, Mapping
 from functools import partial
+from pathlib import Path
 from types import MappingProxyType, TracebackType
 from typing import Any, Concatenate, ParamSpec
 
 import viser
 
 from sambot_viz.errors import RobotError, ServerError
+from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
@@ -249,6 +251,24 @@ class Visualizer:
         transform = Transform.from_xyz_rpy(xyz, rpy)
         for session in self._server.sessions():
             session.add_frame(parent, child, transform)
+
+    def export(self, path: Path | str, *, sweep: bool = True) -> None:
+        """Write what is shown as one HTML file that needs no server.
+
+        Args:
+            path: the file, which is written whole or not at all.
+            sweep: whether the page has a motion of each joint to its limits and back.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        from sambot_viz.export.page_file import Looking, page_file
+        from sambot_viz.export.recorded_scene import Shown
+
+        session = self._first()
+        shown = Shown.by(session, self._server.meshes)
+        content = page_file(shown, Looking.at_first(session), moving=sweep)
+        write_atomically(Path(path), content)
 
     def wait(self) -> None:
         """Return when the server is stopped (by `stop`, or by Ctrl-C)."""

@@ -38,7 +38,7 @@ def motion(session: Session) -> Iterator[Motion]:
 
 def pose_in_odom(viz: Visualizer, session: Session) -> tuple[float, float, float]:
     """x, y [m] and yaw [rad] of base_footprint in odom."""
-    session._draw_moved()  # pyright: ignore[reportPrivateUsage]
+    session.draw_moved()
     T = viz.frames.lookup("odom", "base_footprint")
     assert T.translation[2] == pytest.approx(0.0)
     return (float(T.translation[0]), float(T.translation[1]), T.rpy[2])

@@ -1,1 +1,1 @@
-"""Pictures of the 3D view, drawn by a Chromium or Chrome of this machine."""
+"""The 3D view as a picture or a page: pictures need a Chromium of this machine."""

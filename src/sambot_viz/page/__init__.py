@@ -11,36 +11,100 @@ import base64
 import json
 import posixpath
 import re
+from collections.abc import Iterable
+from html import escape
 from pathlib import Path
+from typing import Any
 
 _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _STYLES = ("window.css", "tree.css", "dialogs.css")
+_TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
+_ONLY_ITSELF = (
+    "default-src 'none'; base-uri 'none'; form-action 'none'; "
+    "script-src 'unsafe-inline' 'unsafe-eval' data: blob:; "
+    "worker-src data: blob:; connect-src data: blob:; img-src data: blob:; "
+    "font-src data:; style-src 'unsafe-inline'"
+)
+"""What a page from a file may load: nothing from anywhere."""
 
 
 def with_scripts(html: bytes, panels: bool) -> bytes:
     """The page of viser with our scripts and style sheets in its head.
 
-    The script is `async`: viser's own script must not wait for ours.
-
     Args:
         html: the page of viser.
         panels: whether there are panels round the view, or the view fills the page.
     """
-    modules = {
-        _PREFIX + path.relative_to(_FOLDER).as_posix(): _address(path)
-        for path in sorted(_FOLDER.rglob("*.js"))
-    }
-    styles = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in _STYLES)
-    first = "main.js" if panels else "bare.js"
-    head = (
+    head = _head("main.js" if panels else "bare.js", _STYLES)
+    return html.replace(b"</head>", head.encode() + b"</head>", 1)
+
+
+def standing_alone(
+    html: bytes, title: str, scene: bytes, about: dict[str, Any], motion: str
+) -> bytes:
+    """The page of viser as a file of its own, which shows a recording.
+
+    Args:
+        html: the page of viser.
+        title: of the page; a plain text.
+        scene: viser's recording of the first picture.
+        about: what `player.js` has to know.
+        motion: what moves afterwards; base64, read by `player.js`.
+    """
+    # A name may hold anything: it must not end the element.
+    data = json.dumps(about, ensure_ascii=True).replace("<", "\\u003c")
+    first = (
+        '<head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" '
+        f'content="{_ONLY_ITSELF}">'
+        f"<title>{escape(title)}</title>"
+    )
+    last = (
+        f'<script>window.__VISER_EMBED_DATA__="{base64.b64encode(scene).decode()}";'
+        "window.__VISER_EMBED_CONFIG__={darkMode:true};</script>"
+        f'<script type="application/json" id="sambot-about">{data}</script>'
+        f'<script type="text/plain" id="sambot-motion">{motion}</script>'
+        f"{_head('player.js', ('window.css', 'player.css'))}</head>"
+    )
+    html = _TITLE.sub(b"", html, 1).replace(b"<head>", first.encode(), 1)
+    return html.replace(b"</head>", last.encode(), 1)
+
+
+def _head(first: str, styles: Iterable[str]) -> str:
+    """Scripts and style sheets for the head of a page.
+
+    The script is `async`: viser's own script must not wait for ours.
+
+    Args:
+        first: the script that the page begins with; it comes with all it imports.
+        styles: the style sheets.
+    """
+    modules = {_PREFIX + name: _address(name) for name in sorted(_needed(first))}
+    css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
+    return (
         f'<script type="importmap">{json.dumps({"imports": modules})}</script>'
         f'<script type="module" async>import "{_PREFIX}{first}";</script>'
-        f"<style>{styles}</style>"
+        f"<style>{css}</style>"
     )
-    return html.replace(b"</head>", head.encode() + b"</head>", 1)
+
+
+def _needed(first: str) -> set[str]:
+    """A script and all that it imports, as paths in this folder."""
+    needed: set[str] = set()
+    pending = [first]
+    while pending:
+        name = pending.pop()
+        if name not in needed:
+            needed.add(name)
+            source = _FOLDER.joinpath(name).read_text("utf-8")
+            pending += [_imported(name, found[3]) for found in _IMPORT.finditer(source)]
+    return needed
+
+
+def _imported(name: str, path: str) -> str:
+    return posixpath.normpath(posixpath.join(posixpath.dirname(name), path))
 
 
 def licenses() -> bytes:
@@ -48,15 +112,12 @@ def licenses() -> bytes:
     return _FOLDER.joinpath("vendor", "LICENSES.txt").read_bytes()
 
 
-def _address(path: Path) -> str:
+def _address(name: str) -> str:
     """A script as a data address; what it imports is named as in the import map."""
-    folder = path.parent.relative_to(_FOLDER).as_posix()
 
     def absolute(found: re.Match[str]) -> str:
-        name = posixpath.normpath(posixpath.join(_PREFIX, folder, found[3]))
-        return f'{found[1]}"{name}"'
+        return f'{found[1]}"{_PREFIX}{_imported(name, found[3])}"'
 
-    source = _IMPORT.sub(absolute, path.read_text("utf-8"))
-    name = _PREFIX + path.relative_to(_FOLDER).as_posix()
-    packed = base64.b64encode(f"{source}\n//# sourceURL={name}\n".encode())
+    source = _IMPORT.sub(absolute, _FOLDER.joinpath(name).read_text("utf-8"))
+    packed = base64.b64encode(f"{source}\n//# sourceURL={_PREFIX}{name}\n".encode())
     return "data:text/javascript;charset=utf-8;base64," + packed.decode()

@@ -12,11 +12,12 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.gate import checked
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.row import Row
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
+from sambot_viz.session.document_view import mouse_facts
 from sambot_viz.views.registry import VIEWS
 
 CURRENT = "view"
@@ -91,23 +92,7 @@ class ViewsPanel(Panel):
             help="All browsers show what the camera shows that moved last.",
             set=self._follow,
         )
-        yield Row("view/shown", "", "names", value=self._shown())
-
-    def _shown(self) -> Json:
-        """What the page's own mouse handling has to know of the view."""
-        view = self._browser.view.view
-        config = view.config
-        known = config.declared
-        return {
-            "kind": view.kind.rpartition("/")[2],
-            "focalSize": (
-                config.get("Focal Shape Size") if "Focal Shape Size" in known else 0.0
-            ),
-            "focalFixed": (
-                "Focal Shape Fixed Size" in known
-                and config.get("Focal Shape Fixed Size")
-            ),
-        }
+        yield Row("view/shown", "", "names", value=mouse_facts(view))
 
     def _follow(self, on: bool) -> None:
         with self._session.change("view"):

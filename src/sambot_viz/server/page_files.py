@@ -74,8 +74,13 @@ def _text(content: bytes) -> Response:
 
 @cache
 def _page(panels: bool) -> bytes:
+    return page.with_scripts(page_of_viser(), panels)
+
+
+def page_of_viser() -> bytes:
+    """The HTML page that comes with viser, all in one."""
     html = Path(viser.__file__).parent / "client" / "build" / "index.html"
-    return page.with_scripts(html.read_bytes(), panels)
+    return html.read_bytes()
 
 
 @cache

@@ -335,10 +335,14 @@ def prepare_page(server: viser.ViserServer) -> None:
     """Light for the page, and nothing of viser's own but a panel for scripts."""
     server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
     server.gui.set_panel_label("Script")
-    # Without our script the page still has light to see by.
-    server.scene.configure_default_lights(enabled=False)
-    server.scene.configure_environment_map(None)
-    server.scene.add_light_ambient("/~ambient", intensity=2.0)
+    prepare_scene(server.scene)
+
+
+def prepare_scene(scene: viser.SceneApi) -> None:
+    """Take away viser's light; without our script the page still has some to see by."""
+    scene.configure_default_lights(enabled=False)
+    scene.configure_environment_map(None)
+    scene.add_light_ambient("/~ambient", intensity=2.0)
 
 
 def _run_what_waits(loop: asyncio.AbstractEventLoop) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
 from sambot_viz.rviz.config_findings import ConfigFindings
@@ -41,3 +41,18 @@ def target_of(session: ShownDocument, view: View, last: Target = WORLD) -> Targe
         return last
     T = session.tree.lookup(fixed, str(name)).matrix
     return Target(T[:3, 3], math.atan2(T[1, 0], T[0, 0]))
+
+
+def mouse_facts(view: View) -> dict[str, Any]:
+    """What the page's own mouse handling has to know of a view."""
+    config = view.config
+    known = config.declared
+    return {
+        "kind": view.kind.rpartition("/")[2],
+        "focalSize": (
+            config.get("Focal Shape Size") if "Focal Shape Size" in known else 0.0
+        ),
+        "focalFixed": (
+            "Focal Shape Fixed Size" in known and config.get("Focal Shape Fixed Size")
+        ),
+    }

@@ -58,7 +58,7 @@ class RobotEdits(DisplayEdits):
         self.poses = poses
         self.added = UserFrames(self.tree)
         self._posed = RobotState(self.tree, self.added)
-        self._pacer = Throttle(worker, self.period, self._draw_moved)
+        self._pacer = Throttle(worker, self.period, self.draw_moved)
 
     @property
     def robot(self) -> Robot | None:
@@ -206,8 +206,8 @@ class RobotEdits(DisplayEdits):
                 self.drawn.publish()
             self._frames_changed()
 
-    def _draw_moved(self) -> None:
-        """Send the poses of all that moved since the last time."""
+    def draw_moved(self) -> None:
+        """Send the poses of all that moved since the last time; `move` does it soon."""
         with self.lock:
             frames = self._posed.settle()
             if not frames:

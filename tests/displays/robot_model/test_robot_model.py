@@ -247,7 +247,7 @@ def test_a_trail_grows_behind_a_link_that_moves(show: Show, nodes: Nodes) -> Non
     session = show("      Links: {tool: {Show Trail: true}}")
     for step in range(1, 6):
         session.set_joint_positions({"shoulder": step / 10})
-        session._draw_moved()
+        session.draw_moved()
     name = f"/{model_of(session).key}t0"
     trail: Any = nodes(session)[name]
     assert trail.points.shape[1:] == (2, 3)

@@ -1,0 +1,65 @@
+"""``sambot-viz export``: the 3D view and a motion as one HTML file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from sambot_viz import problem_text
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.posed_frames import start_state
+from sambot_viz.errors import UsageError
+from sambot_viz.inputs import Inputs
+
+ENDINGS = (".html", ".htm")
+
+
+def run(words: list[str]) -> int:
+    """Write a page of a model; 0 when the file is written."""
+    given, options = parse(parser(), words, panels=False, watch=False)
+    output = _output(given.output)
+    inputs = Inputs(options)
+    problem_text.write(inputs.robot().problems, model=options.model)
+    start_state(inputs.robot(), options)
+
+    from sambot_viz.visualizer import Visualizer
+
+    with Visualizer.of_inputs(inputs) as viz:
+        problem_text.write(viz.server.sessions()[0].config.problems)
+        try:
+            viz.export(output, sweep=given.motion == "sweep")
+        except OSError as error:
+            raise UsageError(f"cannot write '{output}': {error.strerror}") from error
+    return 0
+
+
+def parser() -> Parser:
+    """The flags of the command."""
+    made = Parser(
+        prog="sambot-viz export",
+        groups=("model", "view", "pose"),
+        description="Write the 3D view with a motion of the robot as one HTML file, "
+        "which any browser opens from a disk, without a server and without a network. "
+        "Exit status: 0 written, 1 errors found, 2 usage.",
+    )
+    add = made.add_argument
+    add("-o", "--output", required=True, metavar="FILE.html", help="where to write it")
+    add(
+        "--motion",
+        default="sweep",
+        choices=("sweep", "none"),
+        help="what moves: sweep moves each joint to its limits and back, none nothing "
+        "(default: %(default)s)",
+    )
+    return made
+
+
+def _output(text: str) -> Path:
+    path = Path(text)
+    if path.suffix.lower() not in ENDINGS:
+        raise UsageError(f"-o {text}: only a page can be written; name it FILE.html")
+    if os.path.isdir(path):
+        raise UsageError(f"-o {text} is a folder; name a file in it")
+    if not path.parent.is_dir():
+        raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")
+    return path

@@ -1,0 +1,194 @@
+"""What a session shows, drawn once more for a file, and then moved."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, cast
+
+from sambot_viz.displays.model_reader import ModelReader, ModelResult
+from sambot_viz.displays.scene.path_line import PathLine
+from sambot_viz.export.tracks import Tracks
+from sambot_viz.geometry import Matrix
+from sambot_viz.joints import JointState
+from sambot_viz.meshes.cache import MeshCache
+from sambot_viz.open_config import declarations
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.server import prepare_scene
+from sambot_viz.session import Session
+from sambot_viz.session.browser_camera import BrowserCamera
+from sambot_viz.session.drive_control import ODOM
+from sambot_viz.session.user_frames import UserFrame
+from sambot_viz.session.worker import Action, Worker
+from sambot_viz.views.camera import Camera
+from sambot_viz.viser_private import Recorder
+
+LONGEST_READ = 30.0
+"""A robot of a display's own file gets this long to be read [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Where joints and frames that move are from a time on.
+
+    Attributes:
+        time: from the beginning [s].
+        positions: joint → position [rad or m].
+        frames: added frame → (4, 4) T_parent_child.
+    """
+
+    time: float
+    positions: Mapping[str, float]
+    frames: Mapping[str, Matrix]
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """All that a session shows, for another thread.
+
+    Attributes:
+        robot: the robot, if there is one.
+        document: the text of its .rviz document.
+        file: where the document came from.
+        trusted: the model files that the document may name.
+        positions: free joint → position [rad or m].
+        added: frame → how it was added.
+        trail: where the robot was driven, x, y [m] in odom.
+        models: reads further models.
+        meshes: mesh files that are read already.
+    """
+
+    robot: Robot | None
+    document: str
+    file: str | None
+    trusted: frozenset[str]
+    positions: Mapping[str, float]
+    added: Mapping[str, UserFrame]
+    trail: tuple[tuple[float, float], ...]
+    models: ModelReader | None
+    meshes: MeshCache
+
+    @classmethod
+    def by(cls, session: Session, meshes: MeshCache) -> Shown:
+        """What a session shows now."""
+        with session.lock:
+            context, joints = session.context, session.joints
+            return cls(
+                session.robot,
+                session.config.to_yaml(),
+                session.config.file,
+                context.trusted_files,
+                {} if joints is None else dict(joints.positions),
+                dict(session.added.all),
+                session.motion.drive.trail,
+                context.models,
+                meshes,
+            )
+
+
+def recorded(
+    shown: Shown,
+    camera: Camera,
+    height: int,
+    motion: Callable[[JointState], Iterable[Step]],
+) -> tuple[bytes, Tracks, float]:
+    """Draw what was shown, then move it.
+
+    Args:
+        shown: what to draw.
+        camera: where to look from.
+        height: of the picture that the camera was meant for [pixels].
+        motion: what is to move, given the joints where they are.
+
+    Returns:
+        The first picture as viser's page reads it, all that changes afterwards, and
+        how long the motion is [s].
+    """
+    recorder, tracks = Recorder(height), Tracks()
+    recorder.listen(tracks.take)
+    prepare_scene(recorder.scene)
+    session = _drawn(shown, recorder)
+    BrowserCamera(cast(Any, recorder)).point(camera)
+    scene = recorder.bytes()
+    duration = 0.0
+    if session.joints is not None:
+        for step in motion(session.joints):
+            tracks.time = duration = step.time
+            session.move(step.positions, step.frames)
+            session.draw_moved()
+    session.close()
+    return scene, tracks, duration
+
+
+def _drawn(shown: Shown, recorder: Recorder) -> Session:
+    config = RvizConfig.parse(shown.document, declarations(), file=shown.file)
+    models = None if shown.models is None else _Models(shown.models)
+    worker, audience = _Nobody(cast(Any, None)), cast(Any, recorder)
+    session = Session(audience, worker, config, shown.meshes, models)
+    # A document that a browser has changed is trusted no more than before.
+    session.context.trusted_files = shown.trusted
+    session.show_config()
+    if shown.robot is not None:
+        session.show_robot(shown.robot)
+    for child, frame in shown.added.items():
+        session.add_frame(frame.parent, child, frame.transform, static=frame.static)
+    session.move(shown.positions, {})
+    session.draw_moved()
+    if models is not None:
+        models.finish()
+    if shown.trail:
+        PathLine(recorder.scene).draw(session.context.nodes.path(ODOM), shown.trail)
+    return session
+
+
+class _Nobody(Worker):
+    """The worker of a session that no browser sees: nothing is to be done later."""
+
+    def post(self, action: Action, latest_of: object = None) -> None:
+        del action, latest_of
+
+    def post_later(self, delay: float, action: Action) -> None:
+        del delay, action
+
+
+class _Models:
+    """Reads further models, and gives them out when it is asked to."""
+
+    def __init__(self, models: ModelReader) -> None:
+        self._models = models
+        self._changed = threading.Condition()
+        self._asked: dict[object, Callable[[ModelResult], None]] = {}
+        self._read: dict[object, ModelResult] = {}
+
+    @property
+    def package_path(self) -> tuple[Path | str, ...]:
+        return self._models.package_path
+
+    def read(
+        self,
+        owner: object,
+        path: Path,
+        trusted: bool,
+        done: Callable[[ModelResult], None],
+    ) -> None:
+        self._asked[owner] = done
+
+        def take(result: ModelResult) -> None:
+            with self._changed:
+                self._read[owner] = result
+                self._changed.notify_all()
+
+        self._models.read(owner, path, trusted, take)
+
+    def finish(self) -> None:
+        """Wait for what was asked for, and give it to the displays."""
+        for owner, done in list(self._asked.items()):
+            with self._changed:
+                there = self._changed.wait_for(
+                    lambda owner=owner: owner in self._read, LONGEST_READ
+                )
+            if there:
+                done(self._read[owner])

@@ -1,0 +1,105 @@
+"""A page that is a file: it shows the same as the page of a server, and plays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from inside import node_of
+from recorded_page import open_page
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.export.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+LEFT_LINK = "drivewhl_l_link"
+BAR = 40
+Open = Callable[..., ViewerPage]
+HOSTILE = (
+    "</script><script>document.title='changed'</script><img src=x onerror=alert(1)>"
+)
+
+
+@pytest.fixture
+def open_file(chromium: Chromium) -> Iterator[Open]:
+    """Open an exported page from the disk; it may ask for nothing else."""
+    opened: list[ViewerPage] = []
+
+    def open_one(file: Path, width: int = 800, height: int = 640) -> ViewerPage:
+        page = open_page(chromium, width, height)
+        url = f"file://{file}?fixedDpr=1"
+        page.goto(url)
+        page.wait_for("document.querySelector('#sambot[data-ready]')", 30.0)
+        viewer = ViewerPage(page, url)
+        viewer.wait_until_drawn()
+        opened.append(viewer)
+        return viewer
+
+    yield open_one
+    for viewer in opened:
+        viewer.page.close()
+    for viewer in opened:
+        asked = [url for url in viewer.page.requests if url != viewer.url]
+        assert [url for url in asked if not url.startswith(("data:", "blob:"))] == []
+        assert viewer.errors() == []
+
+
+def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
+    open_viewer: Open, open_file: Open, tmp_path: Path
+) -> None:
+    file = tmp_path / "robot.html"
+    with Visualizer(port=0, panels=False) as viz:
+        wheel = node_of(viz, LEFT_LINK)
+        viz.export(file)
+        live = open_viewer(viz.url, width=800, height=600)
+        live.wait_for_nodes(wheel)
+        wanted = live.pixels()
+    # Its server has stopped.
+    live.expects_errors = True
+    viewer = open_file(file, 800, 600 + BAR)
+    viewer.wait_for_nodes(wheel)
+    assert viewer.page.evaluate("document.title") == "sam_bot"
+    shown = viewer.pixels()
+    assert shown.shape == wanted.shape
+    other = np.abs(shown.astype(int) - wanted).max(axis=-1) > 8
+    assert other.mean() < 0.001
+    user = viewer.user
+    still = viewer.pose(wheel)
+    user.click("button", "Play")
+    user.find("button", "Pause")
+    user.until(lambda: np.abs(viewer.pose(wheel) - still).max() > 0.5)
+    user.click("button", "Pause")
+    user.find("button", "Play")
+    viewer.wait_until_drawn()
+    stopped = viewer.pose(wheel)
+    viewer.wait_for_frames()
+    assert np.allclose(viewer.pose(wheel), stopped)
+    # By keys: the slider is behind the button, and the space bar plays.
+    viewer.page.keyboard.press("Tab")
+    viewer.page.keyboard.press("Home")
+    user.until(lambda: np.allclose(viewer.pose(wheel), still, atol=1e-5))
+    assert user.find("slider", "Time").value in ("0", 0)
+    viewer.page.keyboard.press(" ")
+    user.find("button", "Pause")
+
+
+def test_a_robot_with_a_hostile_name_is_shown_with_that_name(
+    open_file: Open, tmp_path: Path
+) -> None:
+    name = HOSTILE.replace("<", "&lt;")
+    model, file = tmp_path / "r.urdf", tmp_path / "r.html"
+    model.write_text(
+        f"""<robot name="{name}"><link name="{name}"><visual><geometry>
+        <sphere radius="0.3"/></geometry></visual></link></robot>""",
+        "utf-8",
+    )
+    with Visualizer(model=model, port=0) as viz:
+        viz.export(file)
+    viewer = open_file(file)
+    assert viewer.page.evaluate("document.title") == HOSTILE
+    viewer.user.find("heading", HOSTILE)
+    # Without a joint there is nothing to play.
+    assert viewer.user.see().all("button") == []
