@@ -181,6 +181,41 @@ def test_opening_offers_the_files_of_the_folder_and_takes_no_other(
     assert not page.value("file/state").get("modified")
 
 
+def test_a_link_is_a_file_of_the_folder_only_if_it_does_not_lead_out_of_it(
+    page: Page, folder: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    (elsewhere / "theirs.rviz").write_text(CONFIG, "utf-8")
+    (folder / "out.rviz").symlink_to(elsewhere / "theirs.rviz")
+    (folder / "dangling.rviz").symlink_to(elsewhere / "new.rviz")
+    (folder / "inside.rviz").symlink_to(folder / "other.rviz")
+    page.act("file/list")
+    assert page.value("file/names")[:-1] == ["inside.rviz", "mine.rviz", "other.rviz"]
+    for name in ("out", "dangling"):
+        with pytest.raises(UsageError, match="link to another folder"):
+            page.act("file/save-as", name, True, [])
+    assert sorted(os.listdir(elsewhere)) == ["theirs.rviz"]
+    page.act("file/save-as", "inside", True, [])
+    assert names_in(folder / "other.rviz") == ["Floor"]
+
+
+def test_a_workspace_of_links_to_its_sources_opens_and_saves_these(
+    folder: Path,
+    tmp_path_factory: pytest.TempPathFactory,
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    installed = tmp_path_factory.mktemp("install")
+    for file in folder.glob("*.rviz"):
+        (installed / file.name).symlink_to(file)
+    with Visualizer(config=installed / "mine.rviz", port=0) as viz:
+        protocol(viz.viser.get_port()).settle(viz.viser)
+        page = Page(viz, session_of(viz))
+        page.act("file/list")
+        assert page.value("file/names")[:-1] == ["mine.rviz", "other.rviz"]
+        page.act("file/save-as", "other", True, [])
+        assert names_in(folder / "other.rviz") == ["Floor"]
+
+
 def test_the_config_of_the_program_is_opened_again_and_fits_the_robot(
     tmp_path: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:

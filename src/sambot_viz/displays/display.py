@@ -40,8 +40,8 @@ class DisplayContext:
         robot: the robot that was opened, or None.
         moving: child frame → the joint type that moves it.
         models: reads other models, for a RobotModel from a file.
-        config_file: the .rviz file that was opened, or None.
-        trusted_files: the files that it named when it was opened.
+        config_file: the .rviz file that the command line opened, or None.
+        trusted_files: the models that it named before a browser could change it.
         apply: runs a function that draws, from any thread, and sends what it draws.
     """
 

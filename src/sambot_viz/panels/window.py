@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from functools import partial
 
 from sambot_viz.errors import SambotVizError
@@ -23,8 +22,6 @@ from sambot_viz.panels.row import Answer
 from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
-
-_log = logging.getLogger(__name__)
 
 
 class Window:
@@ -99,7 +96,6 @@ class Window:
         """Take a message of a browser; called on the event loop, returns at once."""
         edit = gate.read(message)
         if edit is None:
-            _log.warning("browser %d: dropped a message that is not an edit", client_id)
             return
         # Of the values of one drag that wait, only the last one counts.
         latest_of = None

@@ -29,6 +29,8 @@ class Documents:
     Attributes:
         current: the document that is shown, as it was read last.
         file: the file that is shown, and followed.
+        trusted: whether the file that is shown is that of the command line, and no
+            browser has written it.
         view: the current view that it had when it was read.
         on_open: called after another file was opened.
     """
@@ -45,6 +47,7 @@ class Documents:
         self._copy = copy
         self._prepare = prepare
         self.file = file
+        self.trusted = True
         self.view = _view_of(document)
         self.on_open: list[Callable[[], object]] = []
 
@@ -87,8 +90,8 @@ class Documents:
         self._prepare(document)
         with self._lock:
             self.file, self.view = path, _view_of(document)
-            self.current = document
-        session.set_config(document)
+            self.current, self.trusted = document, False
+        session.set_config(document, trusted=False)
         session.show_view()
         for listener in self.on_open:
             listener()
@@ -96,7 +99,7 @@ class Documents:
     def saved(self, path: Path) -> None:
         """The page has saved the document into this file: follow it from now on."""
         with self._lock:
-            self.file = path
+            self.file, self.trusted = path, False
 
 
 def _view_of(document: RvizConfig) -> Plain:

@@ -12,8 +12,6 @@ callback, and so none of our checks, before that.
 A message is limited in size, and a browser in messages per second: one that sends more
 is slowed down, by reading less from its connection. One that does not read what it is
 sent is disconnected.
-
-What stays weak: the number of connections is not limited; that is the job of a proxy.
 """
 
 from __future__ import annotations
@@ -31,6 +29,7 @@ import viser
 from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
+from sambot_viz.panels import gate
 from sambot_viz.server import outbox
 from sambot_viz.server.browser_messages import (
     BrowserMessage,
@@ -150,7 +149,8 @@ class Door:
         if set(message.updates) != {"value"}:
             return "an attribute of a widget other than its value"
         if message.uuid == EDITS:
-            return None
+            known = gate.read(message.updates["value"]) is not None
+            return None if known else "what is not an edit"
         handle = self._usable(message.uuid)
         if handle is None:
             return "a value for a widget that is not there, hidden or disabled"

@@ -230,7 +230,7 @@ class Reloader:
                 return True
             if session.edits.modified:
                 return False
-            session.set_config(self._documents())
+            session.set_config(self._documents(), self._documents.trusted)
             if self._documents.view != before:
                 session.show_view()
             return True

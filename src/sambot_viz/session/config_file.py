@@ -1,7 +1,8 @@
 """The .rviz file of a session: where it is, what may be beside it, and saving it.
 
-A browser may overwrite the config that was opened, and write new files beside it;
-nothing else, because whoever can open the page can press the buttons.
+A browser may overwrite the config that was opened, and open and write other files
+beside it; nothing else, because whoever can open the page can press the buttons. A link
+that leads elsewhere is not beside it.
 """
 
 from __future__ import annotations
@@ -61,14 +62,31 @@ class ConfigFile:
     @property
     def folder(self) -> Path:
         """Where files are saved and opened: beside the config, else the model."""
-        target, robot = self.target, self._session.robot
-        if target is not None:
-            return target.absolute().parent
+        opened, robot = self.target or self._opened, self._session.robot
+        if opened is not None:
+            return opened.absolute().parent
         if robot is not None and robot.files:
             beside = robot.files[0].absolute().parent
             if not _is_bundled(beside / "any") and os.access(beside, os.W_OK):
                 return beside
         return Path.cwd()
+
+    @property
+    def _opened(self) -> Path | None:
+        """The config of the command line; another one may be shown meanwhile."""
+        file = self._session.context.config_file
+        return None if file is None or _is_bundled(file) else file
+
+    def _leads_elsewhere(self, path: Path) -> bool:
+        """Whether a path in the folder is a link out of it."""
+        if path == self.target or not path.is_symlink():
+            return False
+        opened = self._opened
+        folders = [self.folder.resolve()]
+        if opened is not None:
+            # Builds of ROS workspaces consist of links to the sources.
+            folders.append(Path(os.path.realpath(opened)).parent)
+        return not is_below(path, folders)
 
     def names(self) -> list[str]:
         """The .rviz files in the folder, by name, and the one of the program.
@@ -80,7 +98,9 @@ class ConfigFile:
             found = [
                 entry.name
                 for entry in os.scandir(self.folder)
-                if entry.name.endswith(ENDING) and entry.is_file()
+                if entry.name.endswith(ENDING)
+                and not self._leads_elsewhere(self.folder / entry.name)
+                and entry.is_file()
             ]
         except OSError as error:
             raise UsageError(
@@ -116,7 +136,13 @@ class ConfigFile:
         refusal = _refusal(name)
         if refusal is not None:
             raise UsageError(f"{refusal}; the file goes into {self.folder}")
-        return self.folder / f"{name}{ENDING}"
+        path = self.folder / f"{name}{ENDING}"
+        if self._leads_elsewhere(path):
+            raise UsageError(
+                f"{path.name} is a link to another folder; the file goes into "
+                f"{self.folder}"
+            )
+        return path
 
     def is_taken(self, path: Path) -> bool:
         """Whether a path is another file, or a folder, that exists already."""

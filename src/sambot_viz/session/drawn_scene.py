@@ -36,18 +36,24 @@ class DrawnScene:
 
     # The document
 
-    def take_config(self, config: RvizConfig) -> None:
-        """Take the options of a document; `make_displays` makes its displays."""
+    def take_config(self, config: RvizConfig, trusted: bool = True) -> None:
+        """Take the options of a document; `make_displays` makes its displays.
+
+        Args:
+            config: the document.
+            trusted: whether the models that it names are trusted, and its folder is
+                open; False when a browser has chosen or written the file.
+        """
         self.config = config
-        # Only files that the config names before a browser can change it are trusted.
         context, file = self.context, config.file
-        context.config_file = None if file is None else Path(file)
-        context.trusted_files = frozenset(
-            str(display.get(path))
-            for display in walk(config.displays)
-            for path, declared in display.declared.items()
-            if isinstance(declared.property, FileProperty)
-        )
+        if trusted:
+            context.config_file = None if file is None else Path(file)
+            context.trusted_files = frozenset(
+                str(display.get(path))
+                for display in walk(config.displays)
+                for path, declared in display.declared.items()
+                if isinstance(declared.property, FileProperty)
+            )
         self.take_options()
 
     def make_displays(self) -> None:

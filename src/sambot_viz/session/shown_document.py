@@ -78,14 +78,19 @@ class ShownDocument(SharedState):
         with self.change("config"):
             self.drawn.make_displays()
 
-    def set_config(self, config: RvizConfig) -> None:
+    def set_config(self, config: RvizConfig, trusted: bool = True) -> None:
         """Show another document: its displays and options.
 
         Browsers keep their views, until `Session.show_view`.
+
+        Args:
+            config: the document.
+            trusted: False when a browser has chosen or written its file: the models
+                that it names are then read as those that a browser names.
         """
         with self.change():
             self.edits.clear()
-            self.drawn.take_config(config)
+            self.drawn.take_config(config, trusted)
             self._period_changed()
             self.context.nodes.sync(self.tree, self.context.fixed_frame)
             self.show_config()

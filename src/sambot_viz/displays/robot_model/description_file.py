@@ -8,6 +8,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from sambot_viz.files import is_below
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.packages.package_index import PackageIndex
 
 MOST_LEVELS = 5
 """So many folders, from a given one upwards, are looked in."""
@@ -63,20 +64,23 @@ def opened_folders(
     """The folders that the command line opened.
 
     Args:
-        robot: the opened model; its package, or else the folder of its file, is open.
+        robot: the opened model; the folder of its file and its package are open.
         config: the .rviz file; its folder is open.
         package_path: folders, or ``name=folder``.
     """
-    model = [_package_of(file) for file in robot.files[:1]] if robot else []
-    beside = [config.absolute().parent] if config is not None else []
-    listed = [Path(str(entry).rpartition("=")[2]).absolute() for entry in package_path]
-    return tuple(dict.fromkeys((*model, *beside, *listed)))
+    folders: list[Path] = []
+    for file in _with_target(robot.files[0] if robot and robot.files else None):
+        folders += reversed(PackageIndex(file.parent).own_roots())
+    folders += [file.parent for file in _with_target(config)]
+    folders += PackageIndex(None, package_path).own_roots()
+    return tuple(dict.fromkeys(folders))
 
 
-def _package_of(file: Path) -> Path:
-    """The nearest folder above a file that is a package, or else its folder."""
-    parents = file.absolute().parents
-    return next((p for p in parents if (p / "package.xml").is_file()), parents[0])
+def _with_target(file: Path | None) -> Iterator[Path]:
+    """A file, and where it leads: builds of ROS workspaces consist of links."""
+    if file is not None:
+        yield file.absolute()
+        yield Path(os.path.realpath(file))
 
 
 def _candidates(name: str, near: Sequence[Path]) -> Iterator[Path]:
