@@ -124,6 +124,7 @@ ROOMS: Mapping[str, Row] = {
         "PIL segno",
         "signal webbrowser",
     ),
+    "jupyter": Row("bundled cli tokens", "", "signal socket threading"),
     # The hall.
     "__init__": Row("_version checks frames open_config robot rviz visualizer"),
     "__main__": Row("cli"),

@@ -55,6 +55,8 @@ class Flag:
         read: makes the value from all words of an option that may be repeated, and
             the flag's name.
         optional_value: whether the flag may stand without a value, which is "" then.
+        variable: of the environment, with the value for a command line without the
+            flag; for what other users must not read in the list of processes.
         switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
             one that makes it False.
     """
@@ -69,6 +71,7 @@ class Flag:
     type: Callable[[str], object] | None = None
     read: Callable[[Sequence[str], str], object] | None = None
     optional_value: bool = False
+    variable: str = ""
     switch: Literal["", "yes-no", "off"] = ""
 
 
@@ -219,6 +222,13 @@ class Options:
         type=int,
         flag_default=8080,
     )
+    unix_socket: PathLike | None = _option(
+        None,
+        "listen on a socket in the file system instead of a port, for a proxy of the "
+        "same user: nobody else can open it",
+        "--unix-socket",
+        metavar="PATH",
+    )
     allowed_origins: Sequence[str] = _option(
         (),
         "another name of this machine, or another web page that may use the server, "
@@ -236,10 +246,11 @@ class Options:
     token: str | None = _option(
         None,
         "a secret without which nobody sees the page, in the link that is printed; "
-        "made when no VALUE is given",
+        "made when no VALUE is given; by default that of the variable SAMBOT_VIZ_TOKEN",
         "--token",
         metavar="VALUE",
         optional_value=True,
+        variable="SAMBOT_VIZ_TOKEN",
     )
     session: SessionMode = _option(
         "shared",

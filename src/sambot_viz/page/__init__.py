@@ -20,6 +20,8 @@ _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
+_FIRST = "address.js"
+"""Runs before viser's own script."""
 _STYLES = ("window.css", "tree.css", "dialogs.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _ONLY_ITSELF = (
@@ -38,7 +40,9 @@ def with_scripts(html: bytes, panels: bool) -> bytes:
         html: the page of viser.
         panels: whether there are panels round the view, or the view fills the page.
     """
+    own = _FOLDER.joinpath(_FIRST).read_text("utf-8")
     head = _head("main.js" if panels else "bare.js", _STYLES)
+    head = f"<script>{own}</script>{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
 

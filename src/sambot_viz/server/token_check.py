@@ -41,12 +41,14 @@ class TokenCheck:
 
     Args:
         token: the secret.
-        base_path: where the page is; the cookie is sent to nowhere else.
+        base_path: where the page is; the cookie is sent to nowhere else. With "/" a
+            browser sends it to where the page was opened, which is below the path of a
+            proxy that takes it away, such as that of Jupyter.
     """
 
     def __init__(self, token: str, base_path: str = "/") -> None:
         self._token = token.encode()
-        self._path = base_path
+        self._path = "" if base_path == "/" else f"Path={base_path}; "
         # Cookies are shared by all ports of a host, where other servers may be.
         name = hashlib.sha256(b"cookie " + self._token).hexdigest()[:12]
         self._cookie = f"sambot-viz-{name}"
@@ -96,7 +98,7 @@ class TokenCheck:
         """The same page without the token in its address, and with a cookie."""
         tls = "https" in headers.get_all("X-Forwarded-Proto")
         cookie = (
-            f"{self._cookie}={self._token.decode()}; Path={self._path}; "
+            f"{self._cookie}={self._token.decode()}; {self._path}"
             f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}
