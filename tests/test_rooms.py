@@ -113,10 +113,10 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent http socket threading",
     ),
     "export": Row(
-        "displays joints meshes open_config options page robot rviz server session "
-        "views viser_private",
+        "displays frames joints meshes open_config options page robot rviz server "
+        "session views viser_private",
         "numpy viser websockets",
-        "signal subprocess threading",
+        "asyncio concurrent signal subprocess threading",
     ),
     "commands": Row(
         "_version bundled checks export frames inputs joints open_config options "

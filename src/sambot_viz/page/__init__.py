@@ -60,20 +60,25 @@ def standing_alone(
     """
     # A name may hold anything: it must not end the element.
     data = json.dumps(about, ensure_ascii=True).replace("<", "\\u003c")
-    first = (
-        '<head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" '
-        f'content="{_ONLY_ITSELF}">'
-        f"<title>{escape(title)}</title>"
+    before, _, rest = _TITLE.sub(b"", html, 1).partition(b"<head>")
+    head, _, after = rest.partition(b"</head>")
+    return b"".join(
+        [
+            before,
+            b'<head><meta charset="utf-8">',
+            b'<meta http-equiv="Content-Security-Policy" ',
+            f'content="{_ONLY_ITSELF}"><title>{escape(title)}</title>'.encode(),
+            head,
+            b'<script>window.__VISER_EMBED_DATA__="',
+            # The longest part; it is copied once.
+            base64.b64encode(scene),
+            b'";window.__VISER_EMBED_CONFIG__={darkMode:true};</script>',
+            f'<script type="application/json" id="sambot-about">{data}</script>'
+            f'<script type="text/plain" id="sambot-motion">{motion}</script>'
+            f"{_head('player.js', ('window.css', 'player.css'))}</head>".encode(),
+            after,
+        ]
     )
-    last = (
-        f'<script>window.__VISER_EMBED_DATA__="{base64.b64encode(scene).decode()}";'
-        "window.__VISER_EMBED_CONFIG__={darkMode:true};</script>"
-        f'<script type="application/json" id="sambot-about">{data}</script>'
-        f'<script type="text/plain" id="sambot-motion">{motion}</script>'
-        f"{_head('player.js', ('window.css', 'player.css'))}</head>"
-    )
-    html = _TITLE.sub(b"", html, 1).replace(b"<head>", first.encode(), 1)
-    return html.replace(b"</head>", last.encode(), 1)
 
 
 def _head(first: str, styles: Iterable[str]) -> str:
