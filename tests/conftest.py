@@ -50,8 +50,10 @@ def protocol() -> Iterator[Callable[..., ProtocolClient]]:
 
     clients: list[ProtocolClient] = []
 
-    def connect(port: int, host: str = "127.0.0.1", *, camera: bool = True):
-        clients.append(ProtocolClient(port, host, camera=camera))
+    def connect(
+        port: int, host: str = "127.0.0.1", *, camera: bool = True, path: str = ""
+    ):
+        clients.append(ProtocolClient(port, host, camera=camera, path=path))
         return clients[-1]
 
     yield connect

@@ -54,9 +54,8 @@ class Flag:
         type: makes the value from one word; None keeps the text.
         read: makes the value from all words of an option that may be repeated, and
             the flag's name.
-        optional_value: whether the flag may stand without a value, which is "" then.
-        variable: of the environment, with the value for a command line without the
-            flag; for what other users must not read in the list of processes.
+        optional_value: how a value may follow a flag that may stand without one, and
+            is "" then: as the next word, or after "=" only.
         switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
             one that makes it False.
     """
@@ -70,8 +69,7 @@ class Flag:
     choices: tuple[str, ...] = ()
     type: Callable[[str], object] | None = None
     read: Callable[[Sequence[str], str], object] | None = None
-    optional_value: bool = False
-    variable: str = ""
+    optional_value: Literal["", "word", "="] = ""
     switch: Literal["", "yes-no", "off"] = ""
 
 
@@ -222,13 +220,6 @@ class Options:
         type=int,
         flag_default=8080,
     )
-    unix_socket: PathLike | None = _option(
-        None,
-        "listen on a socket in the file system instead of a port, for a proxy of the "
-        "same user: nobody else can open it",
-        "--unix-socket",
-        metavar="PATH",
-    )
     allowed_origins: Sequence[str] = _option(
         (),
         "another name of this machine, or another web page that may use the server, "
@@ -246,11 +237,18 @@ class Options:
     token: str | None = _option(
         None,
         "a secret without which nobody sees the page, in the link that is printed; "
-        "made when no VALUE is given; by default that of the variable SAMBOT_VIZ_TOKEN",
+        "made when no VALUE is given",
         "--token",
         metavar="VALUE",
-        optional_value=True,
-        variable="SAMBOT_VIZ_TOKEN",
+        optional_value="word",
+    )
+    presenter: str | None = _option(
+        None,
+        "only who opens a second, secret link moves the robot and the displays; the "
+        "others watch, may ask for the wheel, and may work on a copy of their own",
+        "--presenter",
+        metavar="=VALUE",
+        optional_value="=",
     )
     session: SessionMode = _option(
         "shared",
@@ -326,15 +324,23 @@ class Options:
                 "one such as /robot"
             )
         object.__setattr__(self, "base_path", path)
-        if self.token is not None:
-            object.__setattr__(self, "token", self._checked_token())
+        for name in ("token", "presenter"):
+            if (secret := getattr(self, name)) is not None:
+                object.__setattr__(self, name, _checked_secret(secret, f"--{name}"))
+        self._check_presenter()
         object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
 
-    def _checked_token(self) -> str:
-        from sambot_viz.tokens import check_token, new_token
-
-        return check_token(self.token) if self.token else new_token()
+    def _check_presenter(self) -> None:
+        if self.presenter is None:
+            return
+        if self.session == "private":
+            raise UsageError(
+                "--presenter needs a robot that all browsers share; leave "
+                "--session private out"
+            )
+        if self.presenter == self.token:
+            raise UsageError("--presenter and --token need different secrets")
 
     @property
     def start_pose(self) -> StartPose:
@@ -388,3 +394,9 @@ def _check_choice(option: Field[Any], value: object) -> None:
     if choices and value not in choices:
         listed = " or ".join(f"'{choice}'" for choice in choices)
         raise UsageError(f"{option.name}={value!r}: it must be {listed}")
+
+
+def _checked_secret(secret: str, flag: str) -> str:
+    from sambot_viz.tokens import check_token, new_token
+
+    return check_token(secret, flag) if secret else new_token()

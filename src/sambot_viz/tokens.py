@@ -18,8 +18,12 @@ def new_token() -> str:
     return secrets.token_urlsafe(16)
 
 
-def check_token(token: str) -> str:
+def check_token(token: str, flag: str = "--token") -> str:
     """The token that a user has chosen.
+
+    Args:
+        token: what stands behind the flag.
+        flag: for messages.
 
     Raises:
         UsageError: it is too short, would not survive in an address, or is a file:
@@ -27,17 +31,17 @@ def check_token(token: str) -> str:
     """
     if os.path.exists(token):
         raise UsageError(
-            f"--token has taken '{token}', which is a file, for its value; write the "
-            "model before --token"
+            f"{flag} has taken '{token}', which is a file, for its value; write the "
+            f"model before {flag}"
         )
     if not _ALLOWED.fullmatch(token):
         raise UsageError(
-            f"--token '{token}': letters, digits and . _ ~ - may be in it; leave the "
+            f"{flag} '{token}': letters, digits and . _ ~ - may be in it; leave the "
             "value out, and one is made"
         )
     if len(token) < SHORTEST:
         raise UsageError(
-            f"--token '{token}' is too easy to guess; give at least {SHORTEST} "
+            f"{flag} '{token}' is too easy to guess; give at least {SHORTEST} "
             "characters, or leave the value out, and one is made"
         )
     return token

@@ -83,7 +83,11 @@ def own_buffer(server: viser.ViserServer, client_id: int) -> Any:
 
 
 def connection_of(server: viser.ViserServer, client_id: int) -> ServerConnection:
-    """The connection of a browser that has just come."""
+    """The connection of a browser.
+
+    Raises:
+        KeyError: it has ended.
+    """
     return cast(Any, server)._websock_server._live_connections[client_id]
 
 
@@ -179,6 +183,11 @@ def input_handle(server: viser.ViserServer, client_id: int, uuid: str) -> Any:
         if handle is not None:
             return handle
     return None
+
+
+def is_for_all(server: viser.ViserServer, uuid: str) -> bool:
+    """Whether the widget of this id is common to all browsers."""
+    return uuid in cast(Any, server.gui)._gui_input_handle_from_uuid
 
 
 def send_value(server: viser.ViserServer, client_id: int, handle: Any) -> None:

@@ -13,14 +13,10 @@ from typing import Any, Concatenate, ParamSpec
 import viser
 
 from sambot_viz.errors import RobotError, ServerError
-from sambot_viz.export.page_file import Looking, page_file
-from sambot_viz.export.pages import ask_page
-from sambot_viz.export.recorded_scene import Shown
 from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
-from sambot_viz.open_config import declarations
 from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -70,7 +66,8 @@ class Visualizer:
             viz.wait()
 
     The arguments are the fields of `Options`. With ``session="private"`` the methods
-    act on the sessions of all browsers.
+    act on the sessions of all browsers. Copies that browsers have made of a shared
+    session are theirs alone.
 
     Raises:
         RobotError: the model cannot be shown.
@@ -114,7 +111,7 @@ class Visualizer:
         prepare(document)
         self._documents = Documents(
             document,
-            None if options.session == "shared" else _copy,
+            options.session == "shared",
             prepare,
             inputs.config,
         )
@@ -130,7 +127,6 @@ class Visualizer:
             listening,
             inputs.presets(),
             self._documents,
-            ask_page,
         )
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
@@ -189,6 +185,11 @@ class Visualizer:
         return self._server.url
 
     @property
+    def presenter_url(self) -> str | None:
+        """The secret address for who drives; None without ``presenter``."""
+        return self._server.presenter_url
+
+    @property
     def viser(self) -> viser.ViserServer:
         """The viser server, to add your own nodes and widgets.
 
@@ -231,7 +232,7 @@ class Visualizer:
         Raises:
             JointError: an unknown joint, a mimic joint, or no finite number.
         """
-        for session in self._server.sessions():
+        for session in self._server.sessions(copies=False):
             session.set_joint_positions(positions)
 
     def set_static_transform(
@@ -253,7 +254,7 @@ class Visualizer:
             FrameError: a ring, the same name twice, an empty name, or NaN.
         """
         transform = Transform.from_xyz_rpy(xyz, rpy)
-        for session in self._server.sessions():
+        for session in self._server.sessions(copies=False):
             session.add_frame(parent, child, transform)
 
     def export(self, path: Path | str, *, sweep: bool = True) -> None:
@@ -266,11 +267,12 @@ class Visualizer:
         Raises:
             OSError: it cannot be written.
         """
+        from sambot_viz.export.page_file import Looking, page_file
+        from sambot_viz.export.recorded_scene import Shown
+
         session = self._first()
-        shown = Shown.by(session)
-        content = page_file(
-            shown, Looking.at_first(session), "sweep" if sweep else "none"
-        )
+        shown = Shown.by(session, self._server.meshes)
+        content = page_file(shown, Looking.at_first(session), moving=sweep)
         write_atomically(Path(path), content)
 
     def wait(self) -> None:
@@ -299,10 +301,6 @@ class Visualizer:
         if not sessions:
             raise ServerError("no browser has opened a private session yet")
         return sessions[0]
-
-
-def _copy(document: RvizConfig) -> RvizConfig:
-    return RvizConfig.parse(document.to_yaml(), declarations(), file=document.file)
 
 
 def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:

@@ -111,3 +111,32 @@ def test_what_will_not_be_served_ends_with_1_and_without_an_address(
         out, err = process.communicate(timeout=30)
         assert (process.returncode, out) == (1, "")
         assert said in err
+
+
+def test_a_presenter_gets_a_second_link_and_the_model_stays_the_model(
+    tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    (tmp_path / "arm.urdf").write_text(ARM)
+    with running(
+        "--presenter", "arm.urdf", "--port", "0", "--no-watch", cwd=tmp_path
+    ) as process:
+        link, secret = address(process), address(process)
+        assert "who opens the second one drives" in read_until(process, "drives")
+        page, _, query = secret.partition("/?token=")
+        assert page == link and len(query) == 22
+        port = int(link.rsplit(":", 1)[1])
+        drives: list[bool] = []
+        for path in ("", f"/?token={query}"):
+            client = protocol(port, path=path)
+            client.wait_until(lambda c=client: "role/me" in c.rows)
+            drives.append(client.row("role/me")["value"]["drives"])
+        assert drives == [False, True]
+
+
+def test_a_presenters_secret_of_ones_own_is_written_in_one_word(tmp_path: Path) -> None:
+    (tmp_path / "arm.urdf").write_text(ARM)
+    with running(
+        "--presenter=for-the-teacher", "arm.urdf", "--port", "0", cwd=tmp_path
+    ) as process:
+        assert address(process).startswith("http://127.0.0.1:")
+        assert address(process).endswith("/?token=for-the-teacher")

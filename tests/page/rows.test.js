@@ -115,3 +115,18 @@ test("a server that was started again with fewer panels leaves no old rows", () 
   assert.equal(rows.get("a"), undefined);
   assert.deepEqual(heard, ["whole"]);
 });
+
+test("who watches cannot set what others see, and their own rows they can", () => {
+  const { rows } = grid();
+  rows.take("browser", "rows", { base: 1, panels: { views: [
+    { id: "mine", in: "", kind: "float", value: 1, own: true }, { id: "fact", in: "", kind: "fact", fixed: true, value: "x" }] } });
+  let heard = 0;
+  rows.listen("a", () => { heard += 1; });
+  assert.equal(rows.get("a")?.off, undefined);
+  rows.watch(true);
+  assert.equal(heard, 1);
+  assert.deepEqual([rows.get("a")?.off, rows.get("mine")?.off, rows.get("fact")?.off], [true, undefined, undefined]);
+  assert.equal(rows.get("a"), rows.get("a"));
+  rows.watch(false);
+  assert.deepEqual([heard, rows.get("a")?.off], [2, undefined]);
+});

@@ -2,21 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from panel_rows import rows_of
 
 from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
-
-
-def test_the_number_of_browsers(session: Session, join: Callable[[], Browser]) -> None:
-    panel = StatusBarPanel(session)
-    assert rows_of(panel)["statusbar/browsers"].value == 0
-    join()
-    join()
-    assert rows_of(panel)["statusbar/browsers"].value == 2
 
 
 def test_nothing_is_being_read_at_rest(session: Session, browser: Browser) -> None:

@@ -77,7 +77,9 @@ CAMERA: dict[str, Any] = {
     "up_direction": (0.0, 0.0, 1.0),
 }
 """What `send_camera` reports."""
-_fenced: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
+_fences: weakref.WeakKeyDictionary[viser.ViserServer, _Fence] = (
+    weakref.WeakKeyDictionary()
+)
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,14 @@ class Received:
 class ProtocolClient:
     """One connection that records; the module's docstring lists what it offers."""
 
-    def __init__(self, port: int, host: str = "127.0.0.1", *, camera: bool = True):
+    def __init__(
+        self,
+        port: int,
+        host: str = "127.0.0.1",
+        *,
+        camera: bool = True,
+        path: str = "",
+    ):
         """Connect, wait for the end of the replay, and report a camera pose.
 
         Args:
@@ -112,17 +121,20 @@ class ProtocolClient:
             host: name or address of the server.
             camera: viser hands a browser to the program when the first camera pose
                 arrives; False leaves that out.
+            path: of the address, such as "/copy" or "/?token=…".
         """
         self._changed = threading.Condition()
         self._messages: list[Received] = []
         self._fence_uuids: set[str] = set()
         self._fence_values: dict[str, str] = {}
         self._fence_count = 0
+        # What goes out to all does not reach a browser with a copy of its own.
+        self._sides = ("own",) if path.startswith("/copy") else ("all", "own")
         self._frames = 0
         self.replayed = False
         self.closed = False
         self._socket = connect(
-            f"ws://{host}:{port}",
+            f"ws://{host}:{port}{path}",
             subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
             max_size=None,
             compression=None,
@@ -273,10 +285,16 @@ class ProtocolClient:
 
     def settle(self, server: viser.ViserServer, timeout: float = 10.0) -> None:
         """Wait until everything caused so far has arrived (see above)."""
-        _build_fence(server)
-        self.wait_until(lambda: self._fence_request is not None, timeout)
+        if server not in _fences:
+            _fences[server] = _Fence(server)
+
+        def is_built() -> bool:
+            _fences[server].build()
+            return self._fence_request is not None
+
+        self.wait_until(is_built, timeout)
         self._fence_count += 1
-        wanted = {f"{side} {id(self)} {self._fence_count}" for side in ("all", "own")}
+        wanted = {f"{side} {id(self)} {self._fence_count}" for side in self._sides}
         uuid = cast(str, self._fence_request)
         self.set_value(uuid, f"{id(self)} {self._fence_count}")
         self.wait_until(lambda: wanted <= set(self._fence_values.values()), timeout)
@@ -385,24 +403,33 @@ def wait_for_workers(timeout: float = 10.0) -> None:
                     assert time.monotonic() < end, "a session hangs"
 
 
-def _build_fence(server: viser.ViserServer) -> None:
-    """Put the two text fields of `settle` into the server's page, once."""
-    if server in _fenced:
-        return
-    _fenced.add(server)
-    reply = server.gui.add_text(FENCE_REPLY, "", visible=False)
-    request = server.gui.add_text(FENCE_REQUEST, "")
-    own: dict[int, viser.GuiTextHandle] = {}
+class _Fence:
+    """The text fields of `settle` on one server.
 
-    @request.on_update
-    async def _(event: viser.GuiEvent[viser.GuiTextHandle]) -> None:
+    Every browser has a field to write to of its own, because not every browser may
+    write to one that all have.
+    """
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self._server = server
+        self._reply = server.gui.add_text(FENCE_REPLY, "", visible=False)
+        self._own: dict[int, viser.GuiTextHandle] = {}
+
+    def build(self) -> None:
+        """Give a field to each browser that has none."""
+        for client_id, client in self._server.get_clients().items():
+            if client_id not in self._own:
+                own = client.gui.add_text(FENCE_REPLY, "", visible=False)
+                self._own[client_id] = own
+                client.gui.add_text(FENCE_REQUEST, "").on_update(self._answer)
+                client.flush()
+
+    async def _answer(self, event: viser.GuiEvent[viser.GuiTextHandle]) -> None:
         client, value = event.client, event.target.value
         if client is None or event.client_id is None:
             return
         await asyncio.to_thread(wait_for_workers)
-        reply.value = f"all {value}"
-        if event.client_id not in own:
-            own[event.client_id] = client.gui.add_text(FENCE_REPLY, "", visible=False)
-        own[event.client_id].value = f"own {value}"
-        server.flush()
+        self._reply.value = f"all {value}"
+        self._own[event.client_id].value = f"own {value}"
+        self._server.flush()
         client.flush()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
 import sys
 from collections.abc import Sequence
@@ -29,6 +28,9 @@ class Parser(argparse.ArgumentParser):
         prog: the command, such as "sambot-viz check".
         groups: which of the `Options` it takes; with any, it takes a MODEL.
         rest: as for `argparse.ArgumentParser`.
+
+    Attributes:
+        alone: flags whose value, if any, is written in the same word.
     """
 
     def __init__(self, prog: str, groups: Sequence[Group] = (), **rest: Any) -> None:
@@ -46,6 +48,12 @@ class Parser(argparse.ArgumentParser):
             )
         for option in self.options:
             _add(self, option)
+        self.alone = {
+            name
+            for option in self.options
+            if flag_of(option).optional_value == "="
+            for name in flag_of(option).names
+        }
         self.add_argument(
             "--debug", action="store_true", help="show where an internal error occurred"
         )
@@ -81,7 +89,8 @@ def parse(
         if match:
             arguments[match[1]] = match[2].strip()
         else:
-            rest.append(word)
+            # argparse would take the word that follows, such as the model, for a value.
+            rest.append(f"{word}=" if word in parser.alone else word)
     launch_model = arguments.pop("model", None)
     by_word = [
         spelled
@@ -130,8 +139,7 @@ def _add(parser: Parser, option: Field[Any]) -> None:
     elif flag.switch == "off":
         given |= {"action": "store_false"}
     else:
-        value = os.environ.get(flag.variable) or default
-        given |= {"metavar": flag.metavar, "type": flag.type, "default": value}
+        given |= {"metavar": flag.metavar, "type": flag.type, "default": default}
         if flag.optional_value:
             given |= {"nargs": "?", "const": ""}
         if flag.choices:

@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 from collections.abc import Sequence
+from functools import partial
 
 from sambot_viz import problem_text
 from sambot_viz._version import __version__
@@ -39,6 +40,10 @@ move its joints; --token asks for a link that you give to those who may
 """
 
 
+_PRESENTED = """\
+sambot-viz: the first link is for those who watch; who opens the second one drives
+"""
+
 _WAITING = """\
 sambot-viz: note: the page is open; it shows the file as soon as it is saved right
 """
@@ -64,9 +69,17 @@ def run(words: list[str]) -> int:
     server = listen(options)
     try:
         _refuse_early(inputs)
-        _announce(url_of(server, options), given.open)
+        presented, link = (
+            options.presenter is not None,
+            partial(url_of, server, options),
+        )
+        _announce(link(), given.open and not presented)
+        if presented:
+            _announce(link(presenter=True), given.open)
+            sys.stderr.write(_PRESENTED)
         if not only_this_machine(options.host):
-            _invite(url_of(server, options, reachable_at(options.host)))
+            here = reachable_at(options.host)
+            _invite(link(here), link(here, presenter=True) if presented else None)
             if options.token is None:
                 sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
         inputs.begin()
@@ -155,9 +168,11 @@ def _announce(url: str, open_it: bool) -> None:
         webbrowser.open(url)
 
 
-def _invite(url: str) -> None:
-    """Write the link for other machines, and draw it for the camera of a phone."""
+def _invite(url: str, presenter_url: str | None) -> None:
+    """Write the links for other machines, and draw one for the camera of a phone."""
     sys.stderr.write(f"sambot-viz: from other machines: {url}\n")
+    if presenter_url is not None:
+        sys.stderr.write(f"sambot-viz: for the presenter there: {presenter_url}\n")
     if sys.stderr.isatty():
         import segno
 

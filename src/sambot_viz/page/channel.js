@@ -21,6 +21,8 @@ export const ONLINE = "online";
 export const WAITING = "waiting";
 /** An action was not done, for want of a connection. */
 export const NOT_DONE = "not done";
+/** An action was not done, because this user only watches. */
+export const WATCHING = "watching";
 /** The action that reports where the mouse is. */
 export const HOVER = "tools/hover";
 /** What a page sends without a user who means it. @param {string} id */
@@ -144,6 +146,7 @@ export function sendHeldBack(now = (id) => id) {
 export function act(id, args = []) {
   const row = rows.get(id);
   if (row && !row.off) send(id, args);
+  else if (row && rows.watching && !row.own && !byItself(id)) rows.notify(WATCHING);
 }
 
 /** @type {WeakMap<Node, string>} */

@@ -23,6 +23,10 @@ export function remember() {
   };
 }
 
+/** Of a memory what another robot can take over. @param {Memory} before @returns {Memory} */
+export const withoutRobot = ({ session, folds, places, view }) => (
+  { session, folds, places, view, joints: {}, frames: [], poses: [], turning: false, selected: false, modified: false, file: {} });
+
 /** @param {string} panel */
 const ids = (panel) => rows.panels.get(panel) || [];
 /** @param {string} id */

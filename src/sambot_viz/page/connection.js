@@ -7,12 +7,12 @@
 
 import { html } from "./vendor/preact.js";
 import { act, CUT, disconnect, goOffline, goOnline, heldBack, holdBack, isConnected, rows, sendHeldBack, WAITING } from "./channel.js";
-import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember, showView } from "./comeback.js";
+import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember, showView, withoutRobot } from "./comeback.js";
 import { hasDisk } from "./files.js";
 import { Cell, folds, useRow } from "./state.js";
 
 /** @typedef {import("./comeback.js").Memory} Memory */
-/** @typedef {Memory & {waiting: any[][], stuck: boolean}} Kept what a page that is loaded again has kept */
+/** @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is loaded again has kept */
 
 /** How often the page looks [ms]. */
 const PERIOD = 250;
@@ -83,7 +83,7 @@ export function followConnection() {
   rows.listen("panel:joints_again", () => whenJoints());
   addEventListener("pagehide", (event) => {
     const now = lost && before ? before : remember();
-    if (kept || now.session) keep(kept || { ...now, folds: folds.value, waiting: heldBack(), stuck });
+    if (kept || now.session) keep(kept || { ...now, folds: folds.value, waiting: heldBack(), stuck, at: location.pathname });
     if (event.persisted) disconnect();
   });
   addEventListener("pageshow", (event) => { if (event.persisted) location.reload(); });
@@ -122,6 +122,8 @@ function takeKept() {
   try {
     const kept = JSON.parse(sessionStorage.getItem(KEPT) || "null");
     sessionStorage.removeItem(KEPT);
+    // A copy of one's own is another robot: only the view and the folds go there and back.
+    if (kept && kept.at !== location.pathname) Object.assign(kept, withoutRobot(kept), { waiting: [], stuck: false });
     if (kept) {
       folds.set(kept.folds);
       holdBack(kept.waiting);

@@ -10,6 +10,7 @@ import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./pointer.js";
+import { followRole } from "./people.js";
 import { followScript } from "./script_panel.js";
 import { toolKeys } from "./toolbar.js";
 import { Window } from "./window.js";
@@ -31,6 +32,7 @@ const start = () => {
   tellView();
   followFile();
   followConnection();
+  followRole();
   followScript();
   connect();
 };

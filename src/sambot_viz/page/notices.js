@@ -2,7 +2,7 @@
 /* Sentences for this browser, from the server or from the page itself, and why values
  * were refused. */
 
-import { EDITED, NOT_DONE, rows } from "./channel.js";
+import { EDITED, NOT_DONE, rows, WATCHING } from "./channel.js";
 import { Cell } from "./state.js";
 
 /** @typedef {{text: string, level: string, row?: string}} Notice row: the one that has refused a value */
@@ -42,6 +42,8 @@ rows.listen(EDITED, () => {
 });
 
 rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
+
+rows.listen(WATCHING, () => tell("You are watching: ask for the wheel, or work on a copy of your own", "warn"));
 
 rows.listen("notice", () => {
   const said = rows.value("notice");

@@ -9,7 +9,7 @@
  * @typedef {{
  *   id: string, in: string, kind: string, name?: string, value?: any, unit?: string,
  *   min?: number, max?: number, step?: number, options?: string[], editable?: boolean,
- *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean,
+ *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean, own?: boolean,
  *   open?: boolean, bold?: boolean, lazy?: boolean, part?: number, [key: string]: any,
  * }} Row
  * @typedef {{base: number, from?: string, panels: Record<string, Row[]>, rows?: Record<string, any>}} Part
@@ -31,6 +31,17 @@ export class Rows {
     this.listeners = new Map();
     /** What the server has said of rows that show something newer. @type {Map<string, any>} */
     this.held = new Map();
+    /** Whether this user only watches: what others see cannot be set here. */
+    this.watching = false;
+    /** @type {WeakMap<Row, Row>} */
+    this.locked = new WeakMap();
+  }
+
+  /** Whether this user only watches from now on. @param {boolean} on */
+  watch(on) {
+    if (this.watching === on) return;
+    this.watching = on;
+    for (const id of [...this.byId.keys()]) this.notify(id);
   }
 
   /**
@@ -133,7 +144,12 @@ export class Rows {
   }
 
   /** @param {string} id */
-  get(id) { return this.byId.get(id); }
+  get(id) {
+    const row = this.byId.get(id);
+    if (!row || !this.watching || row.own || row.fixed || row.off) return row;
+    if (!this.locked.has(row)) this.locked.set(row, { ...row, off: true });
+    return this.locked.get(row);
+  }
 
   /** The value of a row, for rows that are only data. @param {string} id */
   value(id) { return this.byId.get(id)?.value; }
@@ -162,8 +178,8 @@ export class Rows {
 /** A row for each number of a vector. @param {Row} row @returns {Row[]} */
 function partsOf(row) {
   if (row.kind !== "vector" || !row.parts) return [];
-  const { unit, step, fixed, off, help } = row;
-  const shared = Object.fromEntries(Object.entries({ unit, step, fixed, off, help }).filter(([, value]) => value !== undefined));
+  const { unit, step, fixed, off, own, help } = row;
+  const shared = Object.fromEntries(Object.entries({ unit, step, fixed, off, own, help }).filter(([, value]) => value !== undefined));
   return row.parts.map((/** @type {string} */ name, /** @type {number} */ part) => (
     { id: `${row.id}/.${name}`, in: row.id, kind: "float", name, value: row.value[part], part, ...shared }));
 }

@@ -6,6 +6,7 @@ import { html, useEffect, useState } from "./vendor/preact.js";
 import { act } from "./channel.js";
 import { notice } from "./notices.js";
 import { ProblemCount } from "./panels/problems.js";
+import { People } from "./people.js";
 import { Driving } from "./panels/drive.js";
 import { useRow } from "./state.js";
 
@@ -25,7 +26,7 @@ export function StatusBar({ problems }) {
     <${Said} />
     <${Driving} />
     <${Progress} />
-    <${Browsers} />
+    <${People} />
     <${FramesPerSecond} />
   </footer>`;
 }
@@ -55,12 +56,6 @@ function Progress() {
   const words = `Reading meshes and textures: ${read[0]} of ${read[1]}`;
   return html`<span class="progress" title=${words}>${words}
     <progress aria-label=${words} value=${read[0]} max=${read[1]}></progress></span>`;
-}
-
-function Browsers() {
-  const count = useRow("statusbar/browsers")?.value || 0;
-  if (count < 2) return null;
-  return html`<span class="browsers" title="So many pages show this robot">${`${count} browsers`}</span>`;
 }
 
 /** Pictures drawn in the last second; none are drawn while nothing changes. */

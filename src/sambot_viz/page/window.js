@@ -12,6 +12,7 @@ import { DrivePanel, Driving } from "./panels/drive.js";
 import { JointsPanel } from "./panels/joints.js";
 import { ProblemCorner, ProblemsPanel } from "./panels/problems.js";
 import { ViewsPanel } from "./panels/views.js";
+import { Asking } from "./people.js";
 import { StatusBar } from "./status_bar.js";
 import { Top } from "./top.js";
 import { Tree } from "./tree.js";
@@ -100,6 +101,7 @@ export function Window() {
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
     ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems" && !away.side, show: showProblems, byItself: form === "wide" }} />`}
     <${Connection} />
+    <${Asking} />
     <${Dialogs} />
   </div>`;
 }

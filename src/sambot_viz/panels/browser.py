@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
-from sambot_viz.panels.files import AskPage, Files, FilesPanel
+from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames import FramesPanel
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.people import OwnRolePanel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer, Json, Level, Row
 from sambot_viz.panels.selection import SelectionPanel
@@ -28,7 +29,6 @@ class BrowserPanels:
         session: what it shows.
         browser: the browser.
         files: the disk, for those who may use it.
-        ask_page: makes a page of what is seen; None leaves that out.
         displays: the rows of the displays, for everyone.
     """
 
@@ -37,7 +37,6 @@ class BrowserPanels:
         session: Session,
         browser: Browser,
         files: Files | None,
-        ask_page: AskPage | None,
         displays: DisplaysPanel,
     ) -> None:
         self._notices = NoticePanel()
@@ -46,25 +45,24 @@ class BrowserPanels:
         self._publisher = Publisher(
             browser.client,
             session.worker,
-            self._panels(session, files, ask_page),
+            self._panels(session, files),
             "browser",
         )
         browser.listeners.append(self.hear)
 
-    def _panels(
-        self, session: Session, files: Files | None, ask_page: AskPage | None
-    ) -> list[Panel]:
+    def _panels(self, session: Session, files: Files | None) -> list[Panel]:
         browser, displays = self._browser, self._displays
         keep = displays.keep_unfolded
         return [
             self._notices,
+            OwnRolePanel(session, browser),
             ToolsPanel(session, browser),
             UndoPanel(session, browser, displays),
             ViewsPanel(session, browser),
             SelectionPanel(session, browser),
             ToolPropertiesPanel(session, browser),
             FramesPanel(session, browser, self.say),
-            FilesPanel(session, browser, files, ask_page, keep, self.say, self._remake),
+            FilesPanel(session, browser, files, keep, self.say, self._remake),
         ]
 
     def close(self) -> None:

@@ -86,6 +86,7 @@ class FramesPanel(Panel):
             "From",
             value=source,
             help="The frame to look from; parent of a static transform.",
+            own=True,
             set=partial(self._choose, "_from"),
         )
         yield Row(
@@ -95,6 +96,7 @@ class FramesPanel(Panel):
             "To",
             value=target,
             help="The frame to look at; child of a static transform.",
+            own=True,
             set=partial(self._choose, "_to"),
         )
 
@@ -179,6 +181,7 @@ class FramesPanel(Panel):
             "action",
             value=self._shown,
             takes=(bool,),
+            own=True,
             set=self._show,
         )
         yield Row(

@@ -16,7 +16,7 @@ from sambot_viz.joints.values import (
 )
 from sambot_viz.panels.joint_groups import joint_groups
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Row
+from sambot_viz.panels.row import Answer, Row, own
 from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Session
 from sambot_viz.session.joint_arrow import JointArrow
@@ -150,7 +150,7 @@ class JointsPanel(Panel):
         yield _action("joints/center", lambda _: session.center_joints())
         yield _action("joints/randomize", lambda _: session.randomize_joints())
         yield _action("joints/turn", self._turn, str)
-        yield _action("joints/copy", self._copy, str)
+        yield from own([_action("joints/copy", self._copy, str)])
 
     def _set_rate(self, rate: float) -> None:
         before = self._rate

@@ -32,7 +32,9 @@ class LazyRows:
 
     def action(self) -> Row:
         """The row with which a page asks."""
-        return Row(self._unfold_id, "", "action", takes=(str,), set=self._unfold)
+        return Row(
+            self._unfold_id, "", "action", takes=(str,), own=True, set=self._unfold
+        )
 
     def _unfold(self, arguments: tuple[str]) -> None:
         (row_id,) = arguments

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeAlias, cast
 
 from sambot_viz.text import text
@@ -73,6 +73,8 @@ class Row:
         expanded: whether the rows below it are shown when the page is opened.
         bold: RViz writes what a file gives, and displays, in bold.
         takes: the types of the values that an action takes.
+        own: whether setting it changes nothing that others see, so that who only
+            watches may do it too.
         extra: more for the page, by name.
         set: called with a checked value, in the session's worker and with its lock
             held; None for a row that can only be read. It raises SambotVizError to
@@ -97,6 +99,7 @@ class Row:
     expanded: bool = False
     bold: bool = False
     takes: tuple[type | tuple[type, ...], ...] = ()
+    own: bool = False
     extra: dict[str, Json] | None = None
     set: Callable[[Any], object] | None = field(default=None, compare=False)
 
@@ -121,6 +124,7 @@ class Row:
             "fixed": self.set is None,
             "open": self.expanded,
             "bold": self.bold,
+            "own": self.own and self.set is not None,
             **(safe(self.extra) or {}),
         }
         kept = ("id", "in", "kind")
@@ -132,6 +136,11 @@ class Row:
             # A box that is off is a value all the same.
             or (key == "value" and value is not None)
         }
+
+
+def own(rows: Iterable[Row]) -> list[Row]:
+    """Rows of which each changes only what its own browser shows."""
+    return [replace(row, own=True) for row in rows]
 
 
 def safe(value: Json) -> Json:

@@ -88,6 +88,7 @@ class SelectionPanel(Panel):
             value=self._frame,
             options=(FIXED_FRAME,),
             help=_FRAME.help,
+            own=True,
             set=self._set_frame,
         )
 

@@ -1,4 +1,4 @@
-"""What the status bar shows to everyone: what is being read, and how many watch."""
+"""What the status bar shows to everyone: what is being read."""
 
 from __future__ import annotations
 
@@ -23,10 +23,6 @@ class StatusBarPanel(Panel):
         self._session = session
 
     def rows(self) -> Sequence[Row]:
-        """How many files of how many are read, and the number of browsers."""
+        """How many files of how many are read."""
         progress = self._session.context.assets.progress
-        browsers = len(self._session.browsers)
-        return [
-            Row("statusbar/progress", "", "names", value=progress),
-            Row("statusbar/browsers", "", "names", value=browsers),
-        ]
+        return [Row("statusbar/progress", "", "names", value=progress)]

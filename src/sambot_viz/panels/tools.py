@@ -8,7 +8,7 @@ from functools import partial
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.row import Row, own
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
 from sambot_viz.tools.tool import Tool
@@ -38,7 +38,10 @@ class ToolsPanel(Panel):
 
     def rows(self) -> Sequence[Row]:
         """A row per tool, then the hint and the actions."""
-        return [*map(self._tool, self._browser.tools.tools), *self._others()]
+        tools = self._browser.tools.tools
+        # "Reset" draws the scene again for everyone.
+        reset = _action("tools/reset", lambda _: self._session.refresh())
+        return [*own([*map(self._tool, tools), *self._others()]), reset]
 
     def _tool(self, tool: Tool) -> Row:
         current = tool is self._browser.tools.current
@@ -67,7 +70,6 @@ class ToolsPanel(Panel):
         yield _action("tools/right_click", lambda _: tools.right_click())
         yield Row("tools/focus", "", "action", takes=_PLACE, set=self._focus)
         yield _action("tools/zero", lambda _: view.zero())
-        yield _action("tools/reset", lambda _: self._session.refresh())
 
     def _press(self, arguments: tuple[str]) -> None:
         (label,) = arguments

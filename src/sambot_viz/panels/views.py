@@ -12,7 +12,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.gate import checked
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.row import Row, own
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
@@ -48,9 +48,10 @@ class ViewsPanel(Panel):
     def rows(self) -> Sequence[Row]:
         """The type, the current view, then the saved ones."""
         return [
-            self._type(),
-            *self._current(),
+            *own([self._type(), *self._current()]),
+            self._follow_row(),
             *map(self._saved, self._session.config.saved_views),
+            *own(self._own_actions()),
             *self._actions(),
         ]
 
@@ -83,16 +84,21 @@ class ViewsPanel(Panel):
         if not self._browser.view.supported:
             yield Row("view/:unknown", CURRENT, "note", value=_UNKNOWN, level="warn")
         yield from property_rows(view.config, CURRENT, self._browser.view.set)
-        yield Row(
+        yield Row("view/shown", "", "names", value=mouse_facts(view))
+
+    def _follow_row(self) -> Row:
+        camera = "the presenter's camera shows"
+        if not self._session.roles.presented:
+            camera = "the camera shows that moved last"
+        return Row(
             "view/:follow",
             CURRENT,
             "bool",
             "Follow the presenter",
             value=self._session.follow_presenter,
-            help="All browsers show what the camera shows that moved last.",
+            help=f"All browsers show what {camera}.",
             set=self._follow,
         )
-        yield Row("view/shown", "", "names", value=mouse_facts(view))
 
     def _follow(self, on: bool) -> None:
         with self._session.change("view"):
@@ -138,6 +144,18 @@ class ViewsPanel(Panel):
                 return saved
         raise UsageError("this saved view is not there any more")
 
+    def _own_actions(self) -> Iterator[Row]:
+        yield Row("views/again", "", "action", takes=(str, str), set=self._bring_back)
+        yield Row(
+            "views/use",
+            "",
+            "action",
+            takes=(str,),
+            set=lambda arguments: self._browser.view.use(
+                self._saved_view(arguments[0])
+            ),
+        )
+
     def _actions(self) -> Iterator[Row]:
         view = self._browser.view
 
@@ -147,15 +165,7 @@ class ViewsPanel(Panel):
                 raise UsageError("a saved view needs a name")
             view.rename(self._saved_view(row_id), name.strip())
 
-        yield Row("views/again", "", "action", takes=(str, str), set=self._bring_back)
         yield Row("views/save", "", "action", set=lambda _: view.save())
-        yield Row(
-            "views/use",
-            "",
-            "action",
-            takes=(str,),
-            set=lambda arguments: view.use(self._saved_view(arguments[0])),
-        )
         yield Row("views/rename", "", "action", takes=(str, str), set=rename)
         yield Row(
             "views/remove",

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from functools import partial
 
-from sambot_viz.errors import SambotVizError
+from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.panels import gate
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
-from sambot_viz.panels.files import AskPage, Files
+from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.joints_again import JointsAgainPanel
 from sambot_viz.panels.names import NamesPanel
 from sambot_viz.panels.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.people import PeoplePanel
 from sambot_viz.panels.poses import PosesPanel
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.publisher import Publisher
@@ -22,6 +23,7 @@ from sambot_viz.panels.row import Answer
 from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Event, Session
 from sambot_viz.session.browser import Browser
+from sambot_viz.session.roles import WATCHING
 
 
 class Window:
@@ -31,22 +33,15 @@ class Window:
         session: what they show.
         joints: whether there are panels to move joints (``--no-gui`` leaves them out).
         files: the disk; None when the browsers may not use it.
-        ask_page: makes a page of what is seen; None leaves that out.
     """
 
     def __init__(
-        self,
-        session: Session,
-        joints: bool = True,
-        files: Files | None = None,
-        ask_page: AskPage | None = None,
+        self, session: Session, joints: bool = True, files: Files | None = None
     ) -> None:
         self._session = session
         self._files = files
-        self._ask_page = ask_page
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
-        self._status_bar = StatusBarPanel(session)
         self._displays = DisplaysPanel(session, self._remake)
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
@@ -58,7 +53,8 @@ class Window:
 
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
-        panels: list[Panel] = [NamesPanel(session), self._status_bar]
+        panels: list[Panel] = [NamesPanel(session), StatusBarPanel(session)]
+        panels.append(PeoplePanel(session))
         panels.append(self._displays)
         panels.append(ProblemsPanel(session, self._remake))
         panels.append(NewDisplaysPanel(session, self._displays, self._remake))
@@ -88,13 +84,12 @@ class Window:
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:
             self._browsers[browser.client_id] = BrowserPanels(
-                self._session, browser, self._files, self._ask_page, self._displays
+                self._session, browser, self._files, self._displays
             )
         else:
             panels = self._browsers.pop(browser.client_id, None)
             if panels is not None:
                 panels.close()
-        self._shared.remake(self._status_bar)
 
     # What browsers send
 
@@ -122,6 +117,8 @@ class Window:
             browser.answer(edit.row, "this row is not there any more", None)
             return
         try:
+            if not (row.own or self._session.roles.may_edit(client_id)):
+                raise UsageError(WATCHING)
             value = gate.checked(row, edit.value)
             with self._session.edits.acting(client_id, edit.gesture):
                 assert row.set is not None

@@ -66,6 +66,10 @@ class RvizConfig(DisplayList, ViewList, PanelList):
         """
         return cls(Document(text, file), declarations)
 
+    def copy(self) -> RvizConfig:
+        """The same document once more, with the edits that are not saved."""
+        return RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
+
     def _read_global_options(self) -> GlobalOptions:
         found = self._manager.get("Global Options")
         declared = self._declarations.global_options

@@ -5,12 +5,7 @@ viser accepts every connection, so any page that a user visits could open
 the page that this server itself sent, or from an origin that was allowed by name: a
 page of another origin is refused, and so is one that reached the server under a foreign
 name (DNS rebinding). Other pages cannot show this one in a frame. Programs send no
-Origin and are let in. With a token (`server.token_check`), nobody is let in without it,
-and the name does not count: a page under a foreign name has neither the token nor the
-cookie. So the proxy of Jupyter, which shows the page under names that this server
-cannot know, is let in with the token. That proxy adds the token to all that Jupyter
-lets through, but Jupyter itself refuses the websockets of pages of another origin, and
-it passes Host and Origin on as they came, so that they are compared here too.
+Origin and are let in. With a token (`server.token_check`), nobody is let in without it.
 
 A server that listens on a network takes its addresses, its host name, and names that
 cannot be bought: the attack needs a name in the DNS of all. Any other name has to be
@@ -38,7 +33,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from sambot_viz.options import Options
-from sambot_viz.server import page_files
+from sambot_viz.server import page_files, visitors
 from sambot_viz.server.crowd import Crowd
 from sambot_viz.server.token_check import TokenCheck
 
@@ -59,11 +54,7 @@ def only_this_machine(host: str) -> bool:
 
 
 def is_welcome(
-    host: str,
-    origin: str | None,
-    listening_on: str,
-    allowed: Sequence[str] = (),
-    any_name: bool = False,
+    host: str, origin: str | None, listening_on: str, allowed: Sequence[str] = ()
 ) -> bool:
     """Whether a request may be answered.
 
@@ -72,14 +63,11 @@ def is_welcome(
         origin: its Origin header, or None (programs, and pages by themselves).
         listening_on: the address the server listens on.
         allowed: origins that were allowed, such as "https://lab.example.org".
-        any_name: whether the server may be reached by a name that it does not know,
-            because it asks for a token.
     """
     if origin is not None and origin in allowed:
         return True
-    name = _hostname(host)
-    named = (any_name and name != "") or host in map(_netloc, allowed)
-    if not named and not _is_own_name(name, listening_on):
+    named = host in map(_netloc, allowed)
+    if not named and not _is_own_name(_hostname(host), listening_on):
         return False
     return origin is None or _netloc(origin) == host
 
@@ -149,9 +137,7 @@ def _hostname(host: str) -> str:
 
 
 @contextlib.contextmanager
-def checked(
-    options: Options, listening: socket.socket | None = None
-) -> Generator[None]:
+def checked(options: Options) -> Generator[None]:
     """Servers that are started in here check every request before viser answers it.
 
     viser gives no way to look at a request, so the function with which it starts its
@@ -159,13 +145,10 @@ def checked(
 
     Args:
         options: where the server listens, and for whom.
-        listening: a socket of the file system that listens, in place of a port.
     """
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
-    token = (
-        None if options.token is None else TokenCheck(options.token, options.base_path)
-    )
+    check_token = TokenCheck(options.token, options.presenter, options.base_path)
     page_files.prepare(options.panels)
     crowd = Crowd()
 
@@ -175,19 +158,18 @@ def checked(
         def check(
             connection: ServerConnection, request: Request
         ) -> Response | Awaitable[Response] | None:
-            refused = _refusal(request, options) or (token and token.refusal(request))
+            refused = _refusal(request, options) or check_token.refusal(request)
             if refused:
                 return refused
+            if folder := _folder(request, options.base_path):
+                return _plain(http.HTTPStatus.SEE_OTHER, "See there.", folder)
+            request.path = without_base(request.path, options.base_path)
+            request.path, copy = visitors.without_copy(request.path)
             if crowd.is_full(connection) and page_files.is_page(request):
                 return crowd.refusal()
-            path, _, query = request.path.partition("?")
-            if path == options.base_path != "/" and not page_files.is_websocket(
-                request
-            ):
-                # The page names its files relative to the folder it is in.
-                where = f"./{path.rpartition('/')[2]}/{'?' if query else ''}{query}"
-                return _plain(http.HTTPStatus.SEE_OTHER, "See there.", where)
-            request.path = without_base(request.path, options.base_path)
+            if page_files.is_websocket(request):
+                presenter = check_token.is_presenter(request)
+                visitors.note(connection, visitors.Visitor(presenter, copy))
             try:
                 response = page_files.answer(request, options.panels)
                 if response is None and answer:
@@ -211,8 +193,6 @@ def checked(
 
         settings["process_request"] = check
         settings["create_connection"] = crowd.connection
-        if listening is not None:
-            return original(handle, unix=True, sock=listening, **settings)
         return original(handle, *arguments, **settings)
 
     module.serve = serve  # type: ignore[assignment, misc]
@@ -231,10 +211,9 @@ def _refusal(request: Request, options: Options) -> Response | None:
             http.HTTPStatus.BAD_REQUEST, f"One Host; one {', '.join(_ONCE)} at most."
         )
     host, origin = hosts[0], origins[0] if origins else None
-    any_name = options.token is not None
-    if is_welcome(host, origin, options.host, options.allowed_origins, any_name):
+    if is_welcome(host, origin, options.host, options.allowed_origins):
         return None
-    if is_welcome(host, None, options.host, options.allowed_origins, any_name):
+    if is_welcome(host, None, options.host, options.allowed_origins):
         sentence = "A page of another address may not use this server"
     else:
         sentence = (
@@ -246,6 +225,18 @@ def _refusal(request: Request, options: Options) -> Response | None:
         f"{sentence}, or start it with --allow-origin and the address that the browser "
         "shows, such as http://lab.example.org:8080.",
     )
+
+
+def _folder(request: Request, base: str) -> str:
+    """Where a page is that is asked for without the "/" at its end; "" for others.
+
+    The page names its files relative to the folder it is in.
+    """
+    path, mark, query = request.path.partition("?")
+    lacks_slash = path == base != "/" or without_base(path, base) == visitors.COPY
+    if page_files.is_websocket(request) or not lacks_slash:
+        return ""
+    return f"./{path.rpartition('/')[2]}/{mark}{query}"
 
 
 def _plain(status: http.HTTPStatus, sentence: str, location: str = "") -> Response:

@@ -22,7 +22,7 @@ class Documents:
 
     Args:
         document: as it was read, with the options of the command line applied.
-        copy: makes a copy for a private session; None shares the document itself.
+        shared: whether all browsers have this document, or each a copy.
         prepare: applies the options of the command line to a document that was read.
         file: where it was read from; None when no file is to be followed.
 
@@ -38,13 +38,13 @@ class Documents:
     def __init__(
         self,
         document: RvizConfig,
-        copy: Callable[[RvizConfig], RvizConfig] | None,
+        shared: bool,
         prepare: Callable[[RvizConfig], None],
         file: Path | None,
     ) -> None:
         self._lock = threading.Lock()
         self.current = document
-        self._copy = copy
+        self._shared = shared
         self._prepare = prepare
         self.file = file
         self.trusted = True
@@ -53,7 +53,7 @@ class Documents:
 
     def __call__(self) -> RvizConfig:
         """The document for one more session."""
-        return self.current if self._copy is None else self._copy(self.current)
+        return self.current if self._shared else self.current.copy()
 
     def read(self, file: Path) -> RvizConfig:
         """Read a file, without the options of the command line.

@@ -41,6 +41,7 @@ from sambot_viz.server.browser_messages import (
 from sambot_viz.server.sending import Sending
 
 TakeEdit = Callable[[int, object], None]
+MayEdit = Callable[[int], bool]
 
 LARGEST_MESSAGE = 64 * 1024
 """A connection that sends a longer message is closed [bytes]."""
@@ -61,18 +62,23 @@ _log = logging.getLogger(__name__)
 
 EDITS = "sambot-viz"
 """A value for the widget of this id is an edit of one of our rows."""
-_takers: weakref.WeakKeyDictionary[viser.ViserServer, TakeEdit] = (
+_takers: weakref.WeakKeyDictionary[viser.ViserServer, tuple[TakeEdit, MayEdit]] = (
     weakref.WeakKeyDictionary()
 )
 
 
-def give_edits(server: viser.ViserServer, take: TakeEdit) -> None:
+def give_edits(server: viser.ViserServer, take: TakeEdit, may: MayEdit) -> None:
     """Call `take` with the number of a browser and what it wants to edit.
 
     It is called on the event loop, and viser never sees these messages: it would send
     them on to the other browsers.
+
+    Args:
+        server: the server.
+        take: gets every edit of a row; it checks who may do what.
+        may: whether a browser may set the widgets of a program.
     """
-    _takers[server] = take
+    _takers[server] = take, may
 
 
 def guard(server: viser.ViserServer) -> None:
@@ -125,8 +131,8 @@ class Door:
                 return cast(bytes, raw)
 
     def _give(self, edit: object) -> None:
-        take = _takers.get(self._server)
-        if take is not None:
+        if self._server in _takers:
+            take, _ = _takers[self._server]
             take(self._client_id, edit)
 
     def _reason_against(self, message: BrowserMessage | None) -> str | None:
@@ -154,6 +160,9 @@ class Door:
         handle = self._usable(message.uuid)
         if handle is None:
             return "a value for a widget that is not there, hidden or disabled"
+        if not self._may_set(message.uuid):
+            viser_private.send_value(self._server, self._client_id, handle)
+            return "a value from a browser that only watches"
         value = message.updates["value"]
         options: Sequence[str] | None = getattr(handle, "options", None)
         if fits(handle.value, value) and (options is None or value in options):
@@ -161,6 +170,12 @@ class Door:
         # The page shows what its user entered; send it the value that is kept.
         viser_private.send_value(self._server, self._client_id, handle)
         return "a value that is not of its widget's type"
+
+    def _may_set(self, uuid: str) -> bool:
+        """Whether the user may set a widget: one of this browser alone, or any."""
+        _, may = _takers.get(self._server, (None, None))
+        shared = viser_private.is_for_all(self._server, uuid)
+        return may is None or not shared or may(self._client_id)
 
     def _usable(self, uuid: str) -> viser.GuiInputHandle[Any] | None:
         """The widget, if a user of this browser can see and use it."""

@@ -10,8 +10,9 @@ all browsers that are opened at the same time.
 from __future__ import annotations
 
 import asyncio
+import math
 import threading
-from collections.abc import AsyncGenerator, Sequence
+from collections.abc import AsyncGenerator, Callable, Sequence
 from typing import Any, Protocol
 
 import viser
@@ -76,13 +77,30 @@ def prepare_own(server: viser.ViserServer, client_id: int) -> None:
     _replace(server, viser_private.own_buffer(server, client_id))
 
 
-def _replace(server: viser.ViserServer, buffer: Buffer) -> None:
+def keep_apart(server: viser.ViserServer, apart: Callable[[int], bool]) -> None:
+    """Send some browsers only what goes out to all until now: they have a scene alone.
+
+    Args:
+        server: the server.
+        apart: whether the browser of a number is one of them.
+    """
+    buffer = viser_private.broadcast_buffer(server)
+    end = buffer.message_counter - 1
+    _replace(server, buffer, lambda client_id: end if apart(client_id) else math.inf)
+
+
+def _replace(
+    server: viser.ViserServer,
+    buffer: Buffer,
+    last_for: Callable[[int], float] = lambda _: math.inf,
+) -> None:
     parcels = Parcels()
 
     def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
         connection = viser_private.connection_of(server, client_id)
+        last = last_for(client_id)
         return Sender(
-            connection, parcels, batches(buffer, client_id, backlog_end, marker)
+            connection, parcels, batches(buffer, client_id, backlog_end, marker, last)
         )
 
     viser_private.replace_window_loop(buffer, loop)
@@ -126,7 +144,11 @@ class Sender:
 
 
 async def batches(
-    buffer: Buffer, client_id: int, backlog_end: int, marker: Message | None
+    buffer: Buffer,
+    client_id: int,
+    backlog_end: int,
+    marker: Message | None,
+    last: float = math.inf,
 ) -> AsyncGenerator[Batch, None]:
     """The messages for one browser, several at a time, as they come.
 
@@ -135,17 +157,20 @@ async def batches(
         client_id: the number of the browser.
         backlog_end: number of the last message that was there when it came.
         marker: a message that goes out right behind that one.
+        last: number of the last message that is for this browser.
     """
     walk = Walk(buffer, client_id)
     flush = buffer.event_loop.create_task(buffer.flush_event.wait())
     buffer.generator_cursors[client_id] = walk.last
     try:
         while not buffer.done:
-            newest = buffer.message_counter - 1
+            newest = int(min(buffer.message_counter - 1, last))
             batch = walk.next(newest if marker is None else min(newest, backlog_end))
             # viser forgets a removal when every browser has had it.
-            buffer.generator_cursors[client_id] = walk.last
-            if marker is not None and walk.last >= backlog_end and not walk.held:
+            done = walk.last if walk.last < last else buffer.message_counter - 1
+            buffer.generator_cursors[client_id] = done
+            replayed = walk.last >= min(backlog_end, last)
+            if marker is not None and replayed and not walk.held:
                 batch = batch.with_marker(marker)
                 marker = None
             if batch.messages:
@@ -153,7 +178,7 @@ async def batches(
             else:
                 await buffer.message_event.wait()
                 buffer.message_event.clear()
-            if not batch.messages or buffer.message_counter - 1 == walk.last:
+            if not batch.messages or walk.last >= min(buffer.message_counter - 1, last):
                 await asyncio.wait([flush], timeout=buffer.window_duration_sec)
                 if flush.done() and not buffer.done:
                     buffer.flush_event.clear()

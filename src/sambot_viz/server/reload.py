@@ -210,7 +210,7 @@ class Reloader:
             if not self._take(session, path, text, before):
                 kept.append(session)
 
-        self._server.for_each_session(take)
+        self._server.for_each_session(take, copies=False)
         problems = (reload_problems.kept(str(path)),) if kept else ()
         self._server.set_reload_problems("config", problems)
         self._of_config = problems or document.problems

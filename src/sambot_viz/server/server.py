@@ -19,16 +19,19 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
-from sambot_viz.panels.files import AskPage, Files
+from sambot_viz.panels.files import Files
 from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server import outbox
 from sambot_viz.server.bind import close, listen, url_of
 from sambot_viz.server.door import give_edits, guard
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.visitors import Visitor, visitor_of
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
+from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Worker
 
 _log = logging.getLogger(__name__)
@@ -50,7 +53,6 @@ class Server:
         poses: the named poses; a private session has a copy that writes no file.
         files: opens and follows .rviz files for the shared session; None leaves Open
             and Save out.
-        ask_page: makes a page of what is seen; None leaves that out.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -65,11 +67,9 @@ class Server:
         listening: viser.ViserServer | None = None,
         poses: Presets | None = None,
         files: Files | None = None,
-        ask_page: AskPage | None = None,
     ) -> None:
         self.options = options
         self.files = files
-        self._ask_page = ask_page
         self._poses = poses or Presets()
         self._make_config = make_config
         self._models = models
@@ -85,8 +85,9 @@ class Server:
         self._viser = listening or listen(options)
         self._stopped = threading.Event()
         guard(self._viser)
-        give_edits(self._viser, self._take_edit)
+        give_edits(self._viser, self._take_edit, self._may_edit)
         prepare_page(self._viser)
+        outbox.keep_apart(self._viser, self._has_copy)
         self.shared: Session | None = None
         self._windows: dict[Session, Window] = {}
         if options.session == "shared":
@@ -104,6 +105,13 @@ class Server:
         return url_of(self._viser, self.options)
 
     @property
+    def presenter_url(self) -> str | None:
+        """The secret address for who drives; None when everyone may."""
+        if self.options.presenter is None:
+            return None
+        return url_of(self._viser, self.options, presenter=True)
+
+    @property
     def robot(self) -> Robot | None:
         """The robot that is shown."""
         return self._robot
@@ -113,20 +121,32 @@ class Server:
         """The viser server, to add your own nodes and widgets."""
         return self._viser
 
-    def sessions(self) -> list[Session]:
-        """All sessions there are at the moment."""
+    def sessions(self, *, copies: bool = True) -> list[Session]:
+        """All sessions there are at the moment.
+
+        Args:
+            copies: also those that browsers have made of the shared one.
+        """
         with self._lock:
             private = list(self._private.values())
-        return [*private] if self.shared is None else [self.shared, *private]
+        if self.shared is None:
+            return private
+        return [self.shared, *private] if copies else [self.shared]
 
-    def for_each_session(self, action: Callable[[Session], object]) -> None:
+    def for_each_session(
+        self, action: Callable[[Session], object], *, copies: bool = True
+    ) -> None:
         """Call an action with every session; one that fails does not stop the others.
+
+        Args:
+            action: what to do.
+            copies: as for `sessions`.
 
         Raises:
             Exception: the first error of the action, after the last session.
         """
         errors: list[Exception] = []
-        for session in self.sessions():
+        for session in self.sessions(copies=copies):
             try:
                 action(session)
             except Exception as error:
@@ -159,9 +179,7 @@ class Server:
             if self.options.panels and session not in self._windows:
                 # Visitors with a session of their own do not use the server's disk.
                 files = self.files if session is self.shared else None
-                self._windows[session] = Window(
-                    session, self.options.gui, files, self._ask_page
-                )
+                self._windows[session] = Window(session, self.options.gui, files)
 
     def _check(self, session: Session) -> None:
         checks = self._checks.get(session)
@@ -247,55 +265,102 @@ class Server:
         _run_what_waits(self._viser.get_event_loop())
         close(self._viser)
 
-    def _open(self, audience: object, worker: Worker) -> Session:
+    def _open(
+        self, audience: object, worker: Worker, copy: SessionCopy | None = None
+    ) -> Session:
+        if copy is not None:
+            config, poses = copy.config, copy.poses
+        else:
+            config, poses = self._make_config(), self._poses
+            poses = poses if audience is self._viser else poses.in_memory()
         session = Session(
             cast(Audience, audience),
             worker,
-            self._make_config(),
+            config,
             self.meshes,
             self._models,
             self._mesh_thread,
             self.options,
-            self._poses if audience is self._viser else self._poses.in_memory(),
+            poses,
         )
         session.show_config()
         checks = self._checks[session] = CheckResults(session)
         if self._robot is not None:
             session.show_robot(self._robot)
             worker.post(checks.give)
+        if copy is not None:
+            copy.give(session)
         for of, problems in self._reload_problems.items():
             session.problems.set_saves(of, problems)
         return session
 
     def _take_edit(self, client_id: int, edit: object) -> None:
         """Give an edit of a browser to the window of its session."""
-        session = self.shared or self._private.get(client_id)
+        session = self._session_of(client_id)
         window = None if session is None else self._windows.get(session)
         if window is not None:
             window.receive(client_id, edit)
 
+    def _may_edit(self, client_id: int) -> bool:
+        """Whether a browser may use the widgets of a program, which all have."""
+        return self.shared is None or self.shared.roles.may_edit(client_id)
+
+    def _session_of(self, client_id: int) -> Session | None:
+        """What a browser sees; None while that is made."""
+        return (
+            self._private.get(client_id) if client_id in self._workers else self.shared
+        )
+
+    def _visitor(self, client_id: int) -> Visitor:
+        try:
+            return visitor_of(viser_private.connection_of(self._viser, client_id))
+        except KeyError:
+            # It has left already.
+            return Visitor()
+
+    def _has_copy(self, client_id: int) -> bool:
+        return self.shared is not None and self._visitor(client_id).copy
+
     async def _join(self, client: viser.ClientHandle) -> None:
         viser_private.allow_late_messages(client)
-        if self.shared is not None:
-            self.shared.worker.post(partial(self._give_view, self.shared, client))
+        shared, visitor = self.shared, self._visitor(client.client_id)
+        if shared is not None and not visitor.copy:
+            shared.worker.post(partial(self._give_view, shared, client, visitor))
             return
         with self._lock:
             if self._stopped.is_set():
                 return
             worker = self._worker(client.client_id)
-        worker.post(partial(self._open_private, client, worker))
+        if shared is None:
+            worker.post(partial(self._open_private, client, worker))
+        else:
+            shared.worker.post(partial(self._open_copy, shared, client, worker))
 
     def _worker(self, client_id: int | None) -> Worker:
         """The thread for one browser's session, or with None for that of all."""
         worker = self._workers[client_id] = Worker(self._viser.get_event_loop())
         return worker
 
-    def _give_view(self, session: Session, client: viser.ClientHandle) -> None:
-        session.join_browser(client)
+    def _give_view(
+        self, session: Session, client: viser.ClientHandle, visitor: Visitor
+    ) -> None:
+        session.join_browser(client, presenter=visitor.presenter)
         with self._joined:
             self._joined.notify_all()
 
-    def _open_private(self, client: viser.ClientHandle, worker: Worker) -> None:
+    def _open_copy(
+        self, shared: Session, client: viser.ClientHandle, worker: Worker
+    ) -> None:
+        """Copy the shared session, which is locked, for one browser."""
+        copy = SessionCopy.of(shared)
+        worker.post(partial(self._open_private, client, worker, copy))
+
+    def _open_private(
+        self,
+        client: viser.ClientHandle,
+        worker: Worker,
+        copy: SessionCopy | None = None,
+    ) -> None:
         """Draw the session of one browser; its worker runs this and has its lock.
 
         A robot that is shown in all sessions meanwhile waits for that lock once this
@@ -304,7 +369,7 @@ class Server:
         if client.client_id not in self._workers:
             # It has left already.
             return
-        session = self._open(client, worker)
+        session = self._open(client, worker, copy)
         with self._lock:
             self._private[client.client_id] = session
             robot, problems = self._robot, dict(self._reload_problems)
@@ -313,16 +378,15 @@ class Server:
         for of, found in problems.items():
             session.problems.set_saves(of, found)
         self._add_panels(session)
-        self._give_view(session, client)
+        self._give_view(session, client, Visitor())
 
     async def _leave(self, client: viser.ClientHandle) -> None:
-        if self.shared is not None:
-            leave = partial(self.shared.leave_browser, client.client_id)
-            self.shared.worker.post(leave)
-            return
         worker = self._workers.pop(client.client_id, None)
         if worker is not None:
             worker.post(partial(self._close_private, client.client_id, worker))
+        elif self.shared is not None:
+            leave = partial(self.shared.leave_browser, client.client_id)
+            self.shared.worker.post(leave)
 
     def _close_private(self, client_id: int, worker: Worker) -> None:
         with self._lock:

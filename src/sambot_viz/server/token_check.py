@@ -1,4 +1,4 @@
-"""The secret in a link that lets a browser in, and the cookie that remembers it.
+"""The secrets in links: one lets a browser in, one makes it a presenter's.
 
 The first page that is opened with ``?token=…`` is answered with a cookie and the same
 address without the token, which so is neither in the history nor on a screen that is
@@ -34,24 +34,29 @@ _REMEMBERED = 30 * 24 * 3600
 
 
 class TokenCheck:
-    """Lets in who has the token.
+    """Lets in who has the token, and knows the presenter by another one.
 
     Guesses are slowed down for all together: so many seconds for an answer, so many
     answers at a time. Who comes while that many guesses wait may try again later.
 
     Args:
-        token: the secret.
-        base_path: where the page is; the cookie is sent to nowhere else. With "/" a
-            browser sends it to where the page was opened, which is below the path of a
-            proxy that takes it away, such as that of Jupyter.
+        token: the secret without which nobody is let in; None lets everyone in.
+        presenter: the secret of presenters, which lets them in too.
+        base_path: where the page is; the cookie is sent to nowhere else.
     """
 
-    def __init__(self, token: str, base_path: str = "/") -> None:
-        self._token = token.encode()
-        self._path = "" if base_path == "/" else f"Path={base_path}; "
-        # Cookies are shared by all ports of a host, where other servers may be.
-        name = hashlib.sha256(b"cookie " + self._token).hexdigest()[:12]
-        self._cookie = f"sambot-viz-{name}"
+    def __init__(
+        self, token: str | None, presenter: str | None = None, base_path: str = "/"
+    ) -> None:
+        self._needed = token is not None
+        self._presenter = None if presenter is None else presenter.encode()
+        # By the name of the cookie that remembers it. Cookies are shared by all ports
+        # of a host, where other servers may be.
+        self._tokens = {
+            f"sambot-viz-{hashlib.sha256(b'cookie ' + secret).hexdigest()[:12]}": secret
+            for secret in (one.encode() for one in (token, presenter) if one)
+        }
+        self._path = base_path
         self._waiting = 0
 
     def refusal(self, request: Request) -> Response | Awaitable[Response] | None:
@@ -60,6 +65,12 @@ class TokenCheck:
         Returns:
             None for a request with the token.
         """
+        if not self._tokens:
+            return None
+        address, given = _split(request.path)
+        sent = self._sent(request.headers)
+        if not (self._needed or given or sent):
+            return None
         if self._waiting >= MOST_WAITING:
             return plain_page(
                 http.HTTPStatus.TOO_MANY_REQUESTS,
@@ -67,16 +78,29 @@ class TokenCheck:
                 "Load the page again in a few seconds.",
                 {"Retry-After": "2"},
             )
-        address, given = _split(request.path)
-        right = [hmac.compare_digest(one, self._token) for one in given]
-        if any(right):
+        name = next((n for one in given if (n := self._name_of(one))), None)
+        if name is not None:
             if is_websocket(request):
                 return None
-            return self._remember(address, request.headers)
-        sent = self._sent(request.headers)
-        if any(hmac.compare_digest(one, self._token) for one in sent):
+            return self._remember(name, address, request.headers)
+        if any(map(self._name_of, sent)):
             return None
         return self._wrong() if [*given, *sent] else _no_token()
+
+    def is_presenter(self, request: Request) -> bool:
+        """Whether a request comes from a browser that has the presenter's link."""
+        if self._presenter is None:
+            return False
+        sent = [*_split(request.path)[1], *self._sent(request.headers)]
+        # All are looked at, so that the time says nothing.
+        return any([hmac.compare_digest(one, self._presenter) for one in sent])
+
+    def _name_of(self, given: bytes) -> str | None:
+        """The cookie of the token that this is; None when it is none."""
+        right = [
+            n for n, one in self._tokens.items() if hmac.compare_digest(given, one)
+        ]
+        return right[0] if right else None
 
     def _sent(self, headers: Headers) -> list[bytes]:
         """The tokens in the headers of a request."""
@@ -87,18 +111,18 @@ class TokenCheck:
                 found.append(_bytes(value.strip()))
         for text in headers.get_all("Cookie"):
             try:
-                morsel = SimpleCookie(text).get(self._cookie)
+                cookies = SimpleCookie(text)
             except CookieError:
                 continue
-            if morsel is not None:
-                found.append(_bytes(morsel.value))
+            values = (cookies[name].value for name in self._tokens if name in cookies)
+            found.extend(map(_bytes, values))
         return found
 
-    def _remember(self, address: str, headers: Headers) -> Response:
+    def _remember(self, name: str, address: str, headers: Headers) -> Response:
         """The same page without the token in its address, and with a cookie."""
         tls = "https" in headers.get_all("X-Forwarded-Proto")
         cookie = (
-            f"{self._cookie}={self._token.decode()}; {self._path}"
+            f"{name}={self._tokens[name].decode()}; Path={self._path}; "
             f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}

@@ -288,7 +288,8 @@ class BrowserView(SavedViews):
 
     def _lead(self) -> None:
         """The others show the same, where they are to follow."""
-        if self._session.follow_presenter:
+        session, own = self._session, self._browser.client_id
+        if session.follow_presenter and session.roles.may_edit(own):
             for other in tuple(self._session.browsers.values()):
                 if other is not self._browser:
                     other.view.follow(self)

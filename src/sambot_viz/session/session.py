@@ -8,6 +8,7 @@ streams at the config's Frame Rate.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
@@ -27,6 +28,7 @@ from sambot_viz.session.motion import Motion
 from sambot_viz.session.pick_rays import PickRays
 from sambot_viz.session.problem_list import ProblemList
 from sambot_viz.session.robot_edits import RobotEdits
+from sambot_viz.session.roles import Roles
 from sambot_viz.session.shared_state import Audience
 from sambot_viz.session.worker import Worker
 from sambot_viz.views.camera import Camera
@@ -47,8 +49,9 @@ class Session(RobotEdits):
         poses: the named poses; None keeps new ones in memory.
 
     Attributes:
+        roles: who of the browsers may change the session.
         follow_presenter: whether all browsers show what the browser shows whose camera
-            moved last.
+            moved last, of those that may change the session.
         browser_listeners: called with a browser that joined (True) or left (False),
             with the session locked.
 
@@ -77,6 +80,9 @@ class Session(RobotEdits):
         self._browsers: dict[int, Browser] = {}
         self.browser_listeners: list[Callable[[Browser, bool], None]] = []
         self.follow_presenter = False
+        self._open = threading.Semaphore()
+        private = isinstance(audience, viser.ClientHandle)
+        self.roles = Roles(self.options.presenter is not None and not private)
         for added in self.options.transforms:
             self.add_frame(added.parent, added.child, added.transform)
 
@@ -87,12 +93,16 @@ class Session(RobotEdits):
         """The browsers that see the session, by their numbers; read-only."""
         return MappingProxyType(self._browsers)
 
-    def join_browser(self, client: viser.ClientHandle) -> Browser:
-        """A browser has opened the page."""
+    def join_browser(
+        self, client: viser.ClientHandle, *, presenter: bool = False
+    ) -> Browser:
+        """A browser has opened the page, maybe by the presenter's link."""
         with self.lock:
+            self.roles.join(client.client_id, presenter)
             browser = self._browsers[client.client_id] = Browser(self, client)
             for listener in tuple(self.browser_listeners):
                 listener(browser, True)
+            self.notify("people")
             return browser
 
     def leave_browser(self, client_id: int) -> None:
@@ -102,8 +112,10 @@ class Session(RobotEdits):
             if browser is not None:
                 browser.close()
                 self.edits.leave(client_id)
+                self.roles.leave(client_id)
                 for listener in tuple(self.browser_listeners):
                     listener(browser, False)
+                self.notify("people")
 
     @property
     def camera(self) -> Camera:
@@ -151,7 +163,12 @@ class Session(RobotEdits):
             self._frames_changed()
 
     def close(self) -> None:
-        """Send nothing any more."""
+        """Send nothing any more; a second call does nothing.
+
+        The browser of a private session may leave while the server stops.
+        """
+        if not self._open.acquire(blocking=False):
+            return
         self.context.apply = lambda action: None
         self.motion.close()
         for browser in self._browsers.values():

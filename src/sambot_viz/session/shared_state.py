@@ -21,9 +21,10 @@ Event = Literal[
     "edits",
     "view",
     "tools",
+    "people",
 ]
 """What has changed; "view" and "tools" are events of one browser, "motion" of how fast
-the robot drives and what keeps turning."""
+the robot drives and what keeps turning, "people" of who is there and who drives."""
 Listener = Callable[[Event], None]
 """Called after a change, with the lock held."""
 

@@ -1,0 +1,105 @@
+"""A class in real pages: one drives, the others watch, ask, and go on by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+LEFT = "drivewhl_l_joint"
+Open = Callable[..., ViewerPage]
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0, presenter="") as viz:
+        yield viz
+
+
+@pytest.fixture
+def guest(viz: Visualizer, open_viewer: Open) -> ViewerPage:
+    return ready(open_viewer(viz.url))
+
+
+@pytest.fixture
+def teacher(viz: Visualizer, open_viewer: Open) -> ViewerPage:
+    assert viz.presenter_url is not None
+    return ready(open_viewer(viz.presenter_url))
+
+
+def ready(viewer: ViewerPage) -> ViewerPage:
+    viewer.user.row("Joints", LEFT)
+    viewer.user.find("button", "People")
+    return viewer
+
+
+def people(user: User, does: str) -> None:
+    """Open the panel of the status bar, and press a button there."""
+    user.click("button", "People")
+    user.click("button", does, ("dialog", "People"))
+
+
+def slider_is_off(user: User) -> bool:
+    return bool(user.row("Joints", LEFT).one("slider").state("disabled"))
+
+
+def test_a_guest_asks_is_given_the_wheel_drives_and_loses_it(
+    viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
+) -> None:
+    asking, driving = guest.user, teacher.user
+    asking.until(lambda: slider_is_off(asking))
+    asking.reads("Watching")
+    driving.reads("You drive, 1 watching")
+    asking.click("button", "People")
+    asking.reads("Presenter drives; 1 watches.")
+    asking.click_on(asking.find("textbox", "Your name"))
+    asking.type("Ann <i>")
+    asking.keys("Enter")
+    driving.reads("Ann <i> asks for the wheel.")
+    driving.click("button", "Give the wheel to Ann <i>")
+    asking.until(lambda: not slider_is_off(asking))
+    asking.enter(asking.row("Joints", LEFT).one("textbox"), "0.5")
+    driving.until(lambda: driving.row("Joints", LEFT).one("textbox").value == "0.5")
+    people(driving, "Take the wheel back")
+    asking.until(lambda: slider_is_off(asking))
+    assert viz.joint_positions[LEFT] == 0.5
+
+
+def test_who_watches_turns_the_view_and_is_told_what_needs_the_wheel(
+    guest: ViewerPage, teacher: ViewerPage
+) -> None:
+    user = guest.user
+    user.until(lambda: slider_is_off(user))
+    yaw = user.row("Views", "Yaw").text
+    guest.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
+    user.until(lambda: user.row("Views", "Yaw").text != yaw)
+    user.click("button", "Center")
+    user.reads("You are watching: ask for the wheel, or work on a copy of your own")
+    user.click("button", "Measure", ("toolbar", "Tools"))
+    user.until(
+        lambda: user.find("button", "Measure", ("toolbar", "Tools")).is_on,
+    )
+    assert not slider_is_off(teacher.user)
+
+
+def test_a_copy_of_ones_own_and_back(
+    viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
+) -> None:
+    user = guest.user
+    teacher.user.enter(teacher.user.row("Joints", LEFT).one("textbox"), "1")
+    people(user, "Work on a copy of my own")
+    user.reads("My copy")
+    user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
+    user.enter(user.row("Joints", LEFT).one("textbox"), "-2")
+    user.until(lambda: len(viz.server.sessions()) == 2)
+    teacher.user.reads("You drive, 0 watching")
+    people(user, "Back to the shared robot")
+    user.reads("Watching")
+    user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
+    assert viz.joint_positions[LEFT] == 1.0

@@ -1,0 +1,243 @@
+"""A presenter drives and the others watch: what their browsers may send."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from inside import session_of, viser_server
+from protocol_client import ProtocolClient
+
+from sambot_viz import UsageError, Visualizer
+from sambot_viz.session import Session
+
+Protocol = Callable[..., ProtocolClient]
+JOINT = "drivewhl_l_joint"
+REFUSED = "you are watching"
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0, presenter="teach-the-class") as viz:
+        yield viz
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    return session_of(viz)
+
+
+@pytest.fixture
+def settle(viz: Visualizer) -> Callable[..., None]:
+    """Wait for all that clients have caused."""
+
+    def settled(*clients: ProtocolClient) -> None:
+        for client in clients:
+            client.settle(viser_server(viz))
+
+    return settled
+
+
+@pytest.fixture
+def guest(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
+    client = protocol(viz.viser.get_port())
+    client.settle(viser_server(viz))
+    return client
+
+
+@pytest.fixture
+def teacher(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
+    client = protocol(viz.viser.get_port(), path="/?token=teach-the-class")
+    client.settle(viser_server(viz))
+    return client
+
+
+def joint(client: ProtocolClient) -> str:
+    return client.id_of("joints", JOINT)
+
+
+def me(client: ProtocolClient) -> Any:
+    return client.row("role/me")["value"]
+
+
+def everything(viz: Visualizer, session: Session) -> object:
+    """All that the browsers of a session have in common."""
+    return (
+        dict(viz.joint_positions),
+        session.config.to_yaml(),
+        sorted(session.tree.frames),
+        dict(session.added.all),
+        session.poses.names,
+        session.follow_presenter,
+        session.motion.turning,
+        session.edits.modified,
+    )
+
+
+def other_value(row: Any) -> Any:
+    """A value that a row would take, other than the one it has."""
+    kind, value = row["kind"], row.get("value")
+    if kind in ("bool", "display"):
+        return not value
+    if kind in ("int", "float", "slider"):
+        low, high = row.get("min", -1e6), row.get("max", 1e6)
+        return next(v for v in (1, 2, low, high) if v != value and low <= v <= high)
+    if kind == "vector":
+        return [part + 1 for part in value]
+    if kind == "color":
+        return "1; 2; 3"
+    if kind in ("enum", "frame"):
+        return next((o for o in row.get("options", ()) if o != value), "base_link")
+    return "other"
+
+
+ARGUMENTS: list[list[Any]] = [[], ["x"], ["x", "y"], ["x", "", 0], [[]], [[], []]]
+"""What actions take, of all lengths; who only watches is refused before that counts."""
+
+
+def test_nothing_that_a_watcher_sends_changes_what_others_see(
+    viz: Visualizer,
+    session: Session,
+    guest: ProtocolClient,
+    settle: Callable[..., None],
+) -> None:
+    settle(guest)
+    before = everything(viz, session)
+    rows = [row for row in guest.rows.values() if not row.get("fixed")]
+    shared = [row for row in rows if not row.get("own")]
+    assert len(shared) > 50 and len(rows) - len(shared) > 20
+    for row in shared:
+        if row["kind"] != "action":
+            guest.edit(row["id"], other_value(row))
+        else:
+            for values in ARGUMENTS:
+                guest.act(row["id"], *values)
+    # Their own rows they may set: the view, tools, the frames they look from.
+    for row in rows:
+        if row.get("own") and row["kind"] != "action":
+            guest.edit(row["id"], other_value(row))
+    for tool in ("tool/Select", "tool/Measure"):
+        guest.act(tool)
+    guest.act("tools/zero")
+    settle(guest)
+    assert everything(viz, session) == before
+    assert guest.row("tool/Measure")["value"] is True
+
+
+def test_a_refused_edit_is_answered_in_its_own_browser(
+    guest: ProtocolClient, teacher: ProtocolClient, settle: Callable[..., None]
+) -> None:
+    guest.edit(joint(guest), 1.0)
+    settle(guest, teacher)
+    assert guest.row("notice")["value"]["text"].startswith(REFUSED)
+    assert teacher.row("notice").get("value") is None
+
+
+def test_the_presenter_drives_and_the_guests_see_it(
+    viz: Visualizer,
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    settle: Callable[..., None],
+) -> None:
+    teacher.edit(joint(teacher), 1.0)
+    settle(teacher, guest)
+    assert viz.joint_positions[JOINT] == 1.0
+    assert guest.shown("joints", JOINT) == 1.0
+    assert not me(guest)["drives"] and me(teacher)["presenter"]
+    state = guest.row("people/state")["value"]
+    assert (state["drive"], state["watching"]) == (["Presenter"], 1)
+
+
+def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
+    viz: Visualizer,
+    session: Session,
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    settle: Callable[..., None],
+) -> None:
+    guest.act("role/ask", "Ann <b>")
+    settle(guest, teacher)
+    ((number, name),) = teacher.row("people/state")["value"]["asks"]
+    assert name == "Ann <b>"
+    guest.act("role/give", number)
+    settle(guest)
+    assert "only the presenter" in guest.row("notice")["value"]["text"]
+    teacher.act("role/give", number)
+    settle(teacher, guest)
+    guest.edit(joint(guest), 0.5)
+    settle(guest)
+    assert viz.joint_positions[JOINT] == 0.5
+    assert teacher.row("people/state")["value"]["drive"] == ["Ann <b>", "Presenter"]
+    guest.act("role/back")
+    guest.edit(joint(guest), 0.7)
+    guest.act("edit/undo")
+    settle(guest)
+    assert viz.joint_positions[JOINT] == 0.5
+
+
+def test_the_wheel_is_free_when_its_guest_has_left(
+    session: Session,
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    settle: Callable[..., None],
+) -> None:
+    guest.act("role/ask", "")
+    settle(guest, teacher)
+    ((number, _),) = teacher.row("people/state")["value"]["asks"]
+    teacher.act("role/give", number)
+    settle(teacher)
+    guest.close()
+    teacher.wait_until(lambda: len(session.browsers) == 1)
+    settle(teacher)
+    state = teacher.row("people/state")["value"]
+    assert (state["drive"], state["given"]) == (["Presenter"], False)
+
+
+def test_a_watcher_does_not_set_the_widgets_of_a_program(
+    viz: Visualizer,
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    settle: Callable[..., None],
+) -> None:
+    slider = viz.viser.gui.add_slider("speed", 0.0, 1.0, 0.1, 0.0)
+    settle(guest, teacher)
+    guest.set_value(guest.uuid_of("speed"), 0.5)
+    settle(guest)
+    assert slider.value == 0.0
+    assert guest.value_of("speed") == 0.0
+    teacher.set_value(teacher.uuid_of("speed"), 0.3)
+    settle(teacher)
+    assert slider.value == 0.3
+
+
+def test_a_wrong_presenter_token_does_not_drive(
+    viz: Visualizer, session: Session, protocol: Protocol
+) -> None:
+    with pytest.raises(Exception, match="401"):
+        protocol(viz.viser.get_port(), path="/?token=teach-the-clasS")
+    assert not session.browsers
+
+
+def test_a_private_session_has_no_presenter() -> None:
+    with pytest.raises(UsageError, match="leave --session private out"):
+        Visualizer(port=0, session="private", presenter="")
+
+
+def test_one_secret_for_both_links_is_refused() -> None:
+    with pytest.raises(UsageError, match="different secrets"):
+        Visualizer(port=0, token="same-secret", presenter="same-secret")
+
+
+def test_the_presenters_link_lets_in_too(protocol: Protocol) -> None:
+    with Visualizer(port=0, token="", presenter="") as viz:
+        assert viz.presenter_url is not None and viz.presenter_url != viz.url
+        port = viz.viser.get_port()
+        with pytest.raises(Exception, match="401"):
+            protocol(port)
+        drives = []
+        for url in (viz.url, viz.presenter_url):
+            client = protocol(port, path=f"/?{url.partition('?')[2]}")
+            client.settle(viser_server(viz))
+            drives.append(me(client)["drives"])
+        assert drives == [False, True]
