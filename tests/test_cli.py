@@ -38,6 +38,16 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
         assert time.monotonic() - started < 5
 
 
+def test_the_token_may_come_from_a_variable(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SAMBOT_VIZ_TOKEN", "of-the-environment")
+    with running("--port", "0", cwd=tmp_path) as process:
+        assert address(process).endswith("/?token=of-the-environment")
+    with running("--port", "0", "--token=of-the-line", cwd=tmp_path) as process:
+        assert address(process).endswith("/?token=of-the-line")
+
+
 def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
     import socket
 

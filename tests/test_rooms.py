@@ -113,10 +113,10 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent http socket threading",
     ),
     "export": Row(
-        "displays joints meshes open_config options page robot rviz server session "
-        "views viser_private",
+        "displays frames joints meshes open_config options page robot rviz server "
+        "session views viser_private",
         "numpy viser websockets",
-        "signal subprocess threading",
+        "asyncio concurrent signal subprocess threading",
     ),
     "commands": Row(
         "_version bundled checks export frames inputs joints open_config options "
@@ -124,6 +124,7 @@ ROOMS: Mapping[str, Row] = {
         "PIL segno",
         "signal webbrowser",
     ),
+    "jupyter": Row("bundled cli tokens", "", "signal socket threading"),
     # The hall.
     "__init__": Row("_version checks frames open_config robot rviz visualizer"),
     "__main__": Row("cli"),

@@ -56,6 +56,8 @@ class Flag:
             the flag's name.
         optional_value: how a value may follow a flag that may stand without one, and
             is "" then: as the next word, or after "=" only.
+        variable: of the environment, with the value for a command line without the
+            flag; for what other users must not read in the list of processes.
         switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
             one that makes it False.
     """
@@ -70,6 +72,7 @@ class Flag:
     type: Callable[[str], object] | None = None
     read: Callable[[Sequence[str], str], object] | None = None
     optional_value: Literal["", "word", "="] = ""
+    variable: str = ""
     switch: Literal["", "yes-no", "off"] = ""
 
 
@@ -220,6 +223,13 @@ class Options:
         type=int,
         flag_default=8080,
     )
+    unix_socket: PathLike | None = _option(
+        None,
+        "listen on a socket in the file system instead of a port, for a proxy of the "
+        "same user: nobody else can open it",
+        "--unix-socket",
+        metavar="PATH",
+    )
     allowed_origins: Sequence[str] = _option(
         (),
         "another name of this machine, or another web page that may use the server, "
@@ -237,10 +247,11 @@ class Options:
     token: str | None = _option(
         None,
         "a secret without which nobody sees the page, in the link that is printed; "
-        "made when no VALUE is given",
+        "made when no VALUE is given; by default that of the variable SAMBOT_VIZ_TOKEN",
         "--token",
         metavar="VALUE",
         optional_value="word",
+        variable="SAMBOT_VIZ_TOKEN",
     )
     presenter: str | None = _option(
         None,

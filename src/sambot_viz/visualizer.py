@@ -13,6 +13,9 @@ from typing import Any, Concatenate, ParamSpec
 import viser
 
 from sambot_viz.errors import RobotError, ServerError
+from sambot_viz.export.page_file import Looking, page_file
+from sambot_viz.export.pages import ask_page
+from sambot_viz.export.recorded_scene import Shown
 from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Vector3
@@ -127,6 +130,7 @@ class Visualizer:
             listening,
             inputs.presets(),
             self._documents,
+            ask_page,
         )
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
@@ -267,12 +271,11 @@ class Visualizer:
         Raises:
             OSError: it cannot be written.
         """
-        from sambot_viz.export.page_file import Looking, page_file
-        from sambot_viz.export.recorded_scene import Shown
-
         session = self._first()
-        shown = Shown.by(session, self._server.meshes)
-        content = page_file(shown, Looking.at_first(session), moving=sweep)
+        shown = Shown.by(session)
+        content = page_file(
+            shown, Looking.at_first(session), "sweep" if sweep else "none"
+        )
         write_atomically(Path(path), content)
 
     def wait(self) -> None:

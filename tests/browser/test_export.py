@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from sambot_viz.export.chromium import Chromium
 pytestmark = pytest.mark.browser
 LEFT_LINK = "drivewhl_l_link"
 BAR = 40
+CAMERA = "__viserMutable.camera.position.toArray()"
 Open = Callable[..., ViewerPage]
 HOSTILE = (
     "</script><script>document.title='changed'</script><img src=x onerror=alert(1)>"
@@ -84,6 +86,36 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
     assert user.find("slider", "Time").value in ("0", 0)
     viewer.page.keyboard.press(" ")
     user.find("button", "Pause")
+
+
+def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
+    open_viewer: Open, open_file: Open, tmp_path: Path
+) -> None:
+    with Visualizer(port=0) as viz:
+        wheel = node_of(viz, LEFT_LINK)
+        viewer = open_viewer(viz.url)
+        viewer.wait_for_nodes(wheel)
+        viewer.page.take_downloads(tmp_path)
+        viewer.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
+        viz.set_joint_positions({"drivewhl_l_joint": 1.0})
+        viewer.wait_until_drawn()
+        turned = viewer.pose(wheel)
+        camera = viewer.page.evaluate(CAMERA)
+        viewer.user.menu("File", "Export Page…")
+        viewer.user.find("radio", re.compile("^The last minute"), ("dialog", None))
+        viewer.user.click("button", "Export")
+        viewer.user.reads("Saved sam_bot.html, 0.9 MB", 30.0)
+        file = tmp_path / "sam_bot.html"
+        viewer.user.until(lambda: file.exists() and b"</html>" in file.read_bytes())
+    viewer.expects_errors = True
+    alone = open_file(file)
+    assert alone.page.evaluate(CAMERA) == pytest.approx(camera, abs=1e-4)
+    assert not np.allclose(alone.pose(wheel), turned, atol=0.1)
+    alone.user.click("button", "Loop")
+    alone.user.click("button", "Play")
+    # At the end it stays.
+    alone.user.until(lambda: np.allclose(alone.pose(wheel), turned, atol=1e-4))
+    alone.user.find("button", "Play")
 
 
 def test_a_robot_with_a_hostile_name_is_shown_with_that_name(

@@ -41,6 +41,9 @@ def find_what_is_bundled() -> None:
     expect(package.is_relative_to(ENVIRONMENT), f"imported from {package}")
     expect((package / "py.typed").is_file(), "py.typed is missing")
     expect((package / "page" / "rviz_look.js").is_file(), "the page script is missing")
+    (tile,) = metadata.entry_points(group="jupyter_serverproxy_servers")
+    icon = tile.load()()["launcher_entry"]["icon_path"]
+    expect(Path(icon).is_file(), "the icon of the tile in JupyterLab is missing")
     expect(len(bundled.model_names()) >= 3, "models are missing")
     expect(len(bundled.config_names()) >= 2, "configs are missing")
     for path in (bundled.model_path(), bundled.config_path()):

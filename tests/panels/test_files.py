@@ -12,6 +12,7 @@ from inside import session_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
+from sambot_viz.export.pages import ask_page
 from sambot_viz.panels import gate
 from sambot_viz.panels.expanded import keep_expanded
 from sambot_viz.panels.files import FilesPanel
@@ -43,6 +44,7 @@ class Page:
             session,
             browser,
             files,
+            ask_page,
             self.unfolded.update,
             lambda sentence, level: self.sentences.append(f"{level}: {sentence}"),
             self.remade,
@@ -281,6 +283,7 @@ def test_a_visitor_may_download_and_uses_no_disk_of_the_server(
         "file/state",
         "file/download",
         "file/picture",
+        "file/page",
         "file/answer",
     }
 
@@ -362,3 +365,22 @@ def test_an_empty_list_of_unfolded_rows_means_that_all_are_folded(
     config.expanded = ()
     config.save(folder / "saved.rviz")
     assert load_config(folder / "saved.rviz").expanded == ()
+
+
+def test_a_page_of_what_has_moved_is_a_download_one_at_a_time(
+    viz: Visualizer, page: Page, client: ProtocolClient
+) -> None:
+    with pytest.raises(UsageError, match="nothing has moved in the last minute"):
+        page.act("file/page", "past")
+    with pytest.raises(UsageError, match="there is no motion 'jump'"):
+        page.act("file/page", "jump")
+    viz.set_joint_positions({"drivewhl_l_joint": 1.0})
+    mark = client.mark()
+    page.act("file/page", "past")
+    with pytest.raises(UsageError, match="a page is being made already"):
+        page.act("file/page", "past")
+    client.wait_until(lambda: bool(page.sentences))
+    assert page.sentences == ["ok: Saved sam_bot.html, 0.9 MB"]
+    client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
+    (part,) = (m for m in client.since(mark) if m.type == "FileTransferPart")
+    assert b"<title>sam_bot</title>" in part.fields["content"]

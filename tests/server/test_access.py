@@ -87,6 +87,14 @@ def test_a_name_is_known_when_it_is_allowed_or_listened_on() -> None:
             assert not is_welcome(name, None, listening_on, allowed)
 
 
+def test_with_a_token_the_name_of_the_server_does_not_count() -> None:
+    for host in ("hub.example.org", "127.0.0.1:8080"):
+        for origin in (None, f"https://{host}"):
+            assert is_welcome(host, origin, "127.0.0.1", any_name=True)
+        assert not is_welcome(host, "https://evil.example", "127.0.0.1", any_name=True)
+    assert not is_welcome("a b", None, "127.0.0.1", any_name=True)
+
+
 def test_an_origin_that_is_not_an_address_is_refused() -> None:
     assert not is_welcome("127.0.0.1:8080", "http://[", "127.0.0.1")
 

@@ -82,6 +82,23 @@ def test_the_printed_link_lets_in_and_leaves_the_address_bar(
     assert "</html>" in page.text
 
 
+def test_the_cookie_goes_where_the_page_was_opened(port: int) -> None:
+    # A browser takes the folder of the address, also below the path of a proxy.
+    assert "Path" not in ask(port, f"/?token={TOKEN}").headers["Set-Cookie"]
+    server = listen(Options(token=TOKEN, base_path="/robot"))
+    answer = ask(server.get_port(), f"/robot?token={TOKEN}")
+    close(server)
+    assert "; Path=/robot; " in answer.headers["Set-Cookie"]
+
+
+def test_under_a_foreign_name_it_is_asked_for_too(port: int) -> None:
+    host = {"Host": "hub.example.org"}
+    assert ask(port, "/", host).status == 401
+    assert ask(port, "/", {**host, "Authorization": f"Bearer {TOKEN}"}).status == 200
+    foreign = {"Origin": "https://evil.example", "Authorization": f"Bearer {TOKEN}"}
+    assert ask(port, "/", {**host, **foreign}).status == 403
+
+
 def test_a_cookie_that_came_through_tls_stays_on_tls(port: int) -> None:
     answer = ask(port, f"/?token={TOKEN}", {"X-Forwarded-Proto": "https"})
     assert "; Secure" in answer.headers["Set-Cookie"]

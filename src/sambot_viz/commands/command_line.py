@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
@@ -139,7 +140,8 @@ def _add(parser: Parser, option: Field[Any]) -> None:
     elif flag.switch == "off":
         given |= {"action": "store_false"}
     else:
-        given |= {"metavar": flag.metavar, "type": flag.type, "default": default}
+        value = os.environ.get(flag.variable) or default
+        given |= {"metavar": flag.metavar, "type": flag.type, "default": value}
         if flag.optional_value:
             given |= {"nargs": "?", "const": ""}
         if flag.choices:

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from sambot_viz import page
-from sambot_viz.export.recorded_scene import Shown, Step, recorded
+from sambot_viz.export.recorded_scene import Shown, recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.sweep import sweep
 from sambot_viz.server.page_files import page_of_viser
 from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
 from sambot_viz.session.document_view import mouse_facts, view_of
+from sambot_viz.session.past_motion import Moved
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
 
+Motion = Literal["sweep", "past", "none"]
+Past = tuple[Moved, Sequence[Moved]]
+"""Where everything was at the beginning, and the steps from there."""
 PERIOD = 1.0 / 30.0
 """Time between two steps of a motion [s]."""
+REST = 0.5
+"""How long the end of what has moved is shown [s]."""
 USUAL_SIZE = (1280, 720)
 """What a page is made for when nobody looks at it yet [pixels]."""
 LONGEST_NAME = 200
@@ -39,6 +46,12 @@ class Looking:
     mouse: Mapping[str, Any]
 
     @classmethod
+    def of(cls, browser: Browser) -> Looking:
+        """As a browser does now."""
+        height = max(1, browser.client.camera.image_height)
+        return cls(browser.view.camera, height, mouse_facts(browser.view.view))
+
+    @classmethod
     def at_first(cls, session: Session) -> Looking:
         """As a page does that was just opened."""
         view = view_of(session.config.detached_view())
@@ -48,16 +61,25 @@ class Looking:
         return cls(camera, height, mouse_facts(view))
 
 
-def page_file(shown: Shown, looking: Looking, *, moving: bool) -> bytes:
+def page_file(
+    shown: Shown, looking: Looking, motion: Motion, past: Past | None = None
+) -> bytes:
     """The HTML file.
 
     Args:
         shown: what is in it.
         looking: how it is looked at first.
-        moving: whether all joints move, one after the other.
+        motion: what moves: all joints one after the other, what has moved in the last
+            minute, or nothing.
+        past: how that was.
     """
-    motion = _sweep if moving else _nothing
-    scene, tracks, duration = recorded(shown, looking.camera, looking.height, motion)
+    steps: Callable[[JointState], Iterable[Moved]] = _nothing
+    if motion == "sweep":
+        steps = _sweep
+    elif motion == "past" and past is not None:
+        before, since = past
+        shown, steps = shown.before(before), lambda joints: _with_rest(since)
+    scene, tracks, duration = recorded(shown, looking.camera, looking.height, steps)
     robot = "no robot" if shown.robot is None else shown.robot.name
     title = text(robot, LONGEST_NAME) or "robot"
     about = {
@@ -69,11 +91,19 @@ def page_file(shown: Shown, looking: Looking, *, moving: bool) -> bytes:
     return page.standing_alone(page_of_viser(), title, scene, about, tracks.packed())
 
 
-def _sweep(joints: JointState) -> Iterable[Step]:
+def _sweep(joints: JointState) -> Iterable[Moved]:
+    # The joints are about to be moved.
     steps = list(sweep(joints, PERIOD))
-    return [Step(time, positions, {}) for time, positions in steps]
+    return [Moved(time, positions, {}) for time, positions in steps]
 
 
-def _nothing(joints: JointState) -> Iterable[Step]:
+def _with_rest(steps: Sequence[Moved]) -> Iterable[Moved]:
+    """Steps, and a moment in which the end can be seen."""
+    yield from steps
+    if steps:
+        yield Moved(steps[-1].time + REST, {}, {})
+
+
+def _nothing(joints: JointState) -> Iterable[Moved]:
     del joints
     return ()

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
 from sambot_viz.displays.model_reader import ModelReader, ModelResult
 from sambot_viz.displays.scene.path_line import PathLine
 from sambot_viz.export.tracks import Tracks
-from sambot_viz.geometry import Matrix
+from sambot_viz.frames import Transform
 from sambot_viz.joints import JointState
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.open_config import declarations
@@ -21,6 +21,7 @@ from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
 from sambot_viz.session.browser_camera import BrowserCamera
 from sambot_viz.session.drive_control import ODOM
+from sambot_viz.session.past_motion import Moved
 from sambot_viz.session.user_frames import UserFrame
 from sambot_viz.session.worker import Action, Worker
 from sambot_viz.views.camera import Camera
@@ -28,21 +29,6 @@ from sambot_viz.viser_private import Recorder
 
 LONGEST_READ = 30.0
 """A robot of a display's own file gets this long to be read [s]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """Where joints and frames that move are from a time on.
-
-    Attributes:
-        time: from the beginning [s].
-        positions: joint → position [rad or m].
-        frames: added frame → (4, 4) T_parent_child.
-    """
-
-    time: float
-    positions: Mapping[str, float]
-    frames: Mapping[str, Matrix]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +58,7 @@ class Shown:
     meshes: MeshCache
 
     @classmethod
-    def by(cls, session: Session, meshes: MeshCache) -> Shown:
+    def by(cls, session: Session) -> Shown:
         """What a session shows now."""
         with session.lock:
             context, joints = session.context, session.joints
@@ -85,15 +71,25 @@ class Shown:
                 dict(session.added.all),
                 session.motion.drive.trail,
                 context.models,
-                meshes,
+                context.assets.cache,
             )
+
+    def before(self, moved: Moved) -> Shown:
+        """The same, with joints and frames where they were."""
+        added = {
+            child: replace(frame, transform=Transform.trusted(moved.frames[child]))
+            if child in moved.frames
+            else frame
+            for child, frame in self.added.items()
+        }
+        return replace(self, positions=moved.positions, added=added)
 
 
 def recorded(
     shown: Shown,
     camera: Camera,
     height: int,
-    motion: Callable[[JointState], Iterable[Step]],
+    motion: Callable[[JointState], Iterable[Moved]],
 ) -> tuple[bytes, Tracks, float]:
     """Draw what was shown, then move it.
 
@@ -117,7 +113,8 @@ def recorded(
     if session.joints is not None:
         for step in motion(session.joints):
             tracks.time = duration = step.time
-            session.move(step.positions, step.frames)
+            there = {f: T for f, T in step.frames.items() if f in session.added}
+            session.move(step.positions, there)
             session.draw_moved()
     session.close()
     return scene, tracks, duration

@@ -20,6 +20,8 @@ _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
+_FIRST = "address.js"
+"""Runs before viser's own script."""
 _STYLES = ("window.css", "tree.css", "dialogs.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _ONLY_ITSELF = (
@@ -38,7 +40,9 @@ def with_scripts(html: bytes, panels: bool) -> bytes:
         html: the page of viser.
         panels: whether there are panels round the view, or the view fills the page.
     """
+    own = _FOLDER.joinpath(_FIRST).read_text("utf-8")
     head = _head("main.js" if panels else "bare.js", _STYLES)
+    head = f"<script>{own}</script>{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
 
@@ -56,20 +60,25 @@ def standing_alone(
     """
     # A name may hold anything: it must not end the element.
     data = json.dumps(about, ensure_ascii=True).replace("<", "\\u003c")
-    first = (
-        '<head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" '
-        f'content="{_ONLY_ITSELF}">'
-        f"<title>{escape(title)}</title>"
+    before, _, rest = _TITLE.sub(b"", html, 1).partition(b"<head>")
+    head, _, after = rest.partition(b"</head>")
+    return b"".join(
+        [
+            before,
+            b'<head><meta charset="utf-8">',
+            b'<meta http-equiv="Content-Security-Policy" ',
+            f'content="{_ONLY_ITSELF}"><title>{escape(title)}</title>'.encode(),
+            head,
+            b'<script>window.__VISER_EMBED_DATA__="',
+            # The longest part; it is copied once.
+            base64.b64encode(scene),
+            b'";window.__VISER_EMBED_CONFIG__={darkMode:true};</script>',
+            f'<script type="application/json" id="sambot-about">{data}</script>'
+            f'<script type="text/plain" id="sambot-motion">{motion}</script>'
+            f"{_head('player.js', ('window.css', 'player.css'))}</head>".encode(),
+            after,
+        ]
     )
-    last = (
-        f'<script>window.__VISER_EMBED_DATA__="{base64.b64encode(scene).decode()}";'
-        "window.__VISER_EMBED_CONFIG__={darkMode:true};</script>"
-        f'<script type="application/json" id="sambot-about">{data}</script>'
-        f'<script type="text/plain" id="sambot-motion">{motion}</script>'
-        f"{_head('player.js', ('window.css', 'player.css'))}</head>"
-    )
-    html = _TITLE.sub(b"", html, 1).replace(b"<head>", first.encode(), 1)
-    return html.replace(b"</head>", last.encode(), 1)
 
 
 def _head(first: str, styles: Iterable[str]) -> str:

@@ -4,6 +4,7 @@
 import { html, useEffect } from "./vendor/preact.js";
 import { act, rows } from "./channel.js";
 import { show } from "./dialogs/dialog.js";
+import { ExportPage } from "./dialogs/export_page.js";
 import { OpenConfig } from "./dialogs/open.js";
 import { SaveAs } from "./dialogs/save_as.js";
 import { SaveImage } from "./dialogs/save_image.js";
@@ -41,6 +42,7 @@ export function saveAs() {
 export function open() { if (hasDisk()) { takeTyped(); show(OpenConfig); } }
 export function download() { takeTyped(); act("file/download"); }
 export function saveImage() { show(SaveImage); }
+export function exportPage() { show(ExportPage); }
 
 /** A name of more characters may be cut before its last ones. */
 const LONG = 24, TAIL = 14;

@@ -5,7 +5,7 @@ import { html, useEffect, useLayoutEffect, useRef, useState } from "./vendor/pre
 import { act, rows } from "./channel.js";
 import { show } from "./dialogs/dialog.js";
 import { About, Keys } from "./dialogs/help.js";
-import { download, hasDisk, open, save, saveAs, saveImage } from "./files.js";
+import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./files.js";
 import { Icon } from "./icons.js";
 import { menuKey } from "./menu.js";
 import { useRow } from "./state.js";
@@ -34,6 +34,7 @@ const menus = (panels, hideAll) => [
     ] : []),
     { name: "Download Config", does: download }, null,
     { name: "Save Image…", does: saveImage },
+    { name: "Export Page…", does: exportPage, off: !rows.get("file/page") },
   ] },
   { name: "Edit", entries: () => [edit("edit/undo", "Ctrl+Z"), edit("edit/redo", "Ctrl+Shift+Z")] },
   { name: "Panels", entries: () => [

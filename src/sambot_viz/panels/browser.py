@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
-from sambot_viz.panels.files import Files, FilesPanel
+from sambot_viz.panels.files import AskPage, Files, FilesPanel
 from sambot_viz.panels.frames import FramesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import OwnRolePanel
@@ -29,6 +29,7 @@ class BrowserPanels:
         session: what it shows.
         browser: the browser.
         files: the disk, for those who may use it.
+        ask_page: makes a page of what is seen; None leaves that out.
         displays: the rows of the displays, for everyone.
     """
 
@@ -37,6 +38,7 @@ class BrowserPanels:
         session: Session,
         browser: Browser,
         files: Files | None,
+        ask_page: AskPage | None,
         displays: DisplaysPanel,
     ) -> None:
         self._notices = NoticePanel()
@@ -45,12 +47,14 @@ class BrowserPanels:
         self._publisher = Publisher(
             browser.client,
             session.worker,
-            self._panels(session, files),
+            self._panels(session, files, ask_page),
             "browser",
         )
         browser.listeners.append(self.hear)
 
-    def _panels(self, session: Session, files: Files | None) -> list[Panel]:
+    def _panels(
+        self, session: Session, files: Files | None, ask_page: AskPage | None
+    ) -> list[Panel]:
         browser, displays = self._browser, self._displays
         keep = displays.keep_unfolded
         return [
@@ -62,7 +66,7 @@ class BrowserPanels:
             SelectionPanel(session, browser),
             ToolPropertiesPanel(session, browser),
             FramesPanel(session, browser, self.say),
-            FilesPanel(session, browser, files, keep, self.say, self._remake),
+            FilesPanel(session, browser, files, ask_page, keep, self.say, self._remake),
         ]
 
     def close(self) -> None:

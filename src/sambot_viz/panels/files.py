@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from sambot_viz.errors import ConfigError, UsageError
+from sambot_viz.errors import ConfigError, SambotVizError, UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session import Session
@@ -19,8 +19,13 @@ from sambot_viz.session.picture import (
     picture_of,
 )
 
-_PICTURE = "robot"
-"""What a picture is called when there is no robot."""
+MakePage = Callable[[], Awaitable[bytes]]
+"""Makes an HTML file, on the event loop; raises SambotVizError when there is none."""
+AskPage = Callable[[Session, Browser, str], MakePage]
+"""Notes what a browser sees now, for a page with a motion: "sweep", "past" or "none";
+raises SambotVizError when there is no such motion."""
+_UNNAMED = "robot"
+"""What a picture or a page is called when there is no robot."""
 
 
 class Files(Protocol):
@@ -44,6 +49,7 @@ class FilesPanel(Panel):
         session: whose document it is.
         browser: who asks, and gets the downloads.
         files: the disk; None for a visitor, who may only download.
+        ask_page: makes a page of what is seen; None leaves that out.
         keep_unfolded: writes into the document which rows are unfolded, from their
             ids.
         say: shows a sentence to this browser.
@@ -58,6 +64,7 @@ class FilesPanel(Panel):
         session: Session,
         browser: Browser,
         files: Files | None,
+        ask_page: AskPage | None,
         keep_unfolded: Callable[[Collection[str]], None],
         say: Callable[[str, Level], None],
         remake: Callable[[Panel], None],
@@ -65,6 +72,7 @@ class FilesPanel(Panel):
         self._session = session
         self._browser = browser
         self._files = files
+        self._ask_page = ask_page
         self._keep_unfolded = keep_unfolded
         self._say = say
         self._remake = remake
@@ -73,6 +81,7 @@ class FilesPanel(Panel):
         self._answer: Json = None
         self._answers = 0
         self._drawing = False
+        self._making = False
 
     def rows(self) -> Sequence[Row]:
         """The name of the file, what can be done, and the last answer."""
@@ -101,6 +110,15 @@ class FilesPanel(Panel):
             own=True,
             set=lambda size: self._picture(*size),
         )
+        if (ask := self._ask_page) is not None:
+            yield Row(
+                "file/page",
+                "",
+                "action",
+                "page",
+                takes=(str,),
+                set=lambda sent: self._page(ask, sent[0]),
+            )
         yield Row("file/answer", "", "names", value=self._answer)
         if self._files is not None:
             yield from self._disk_rows(self._files)
@@ -206,8 +224,7 @@ class FilesPanel(Panel):
 
     async def _draw(self, width: int, height: int) -> None:
         """Have the browser draw, and send it the file; runs on the event loop."""
-        robot = self._session.robot
-        name = f"{_PICTURE if robot is None else _plain(robot.name)}.png"
+        name = f"{self._name()}.png"
         sentence, level = f"Saved {name}, {width} × {height} pixels", "ok"
         try:
             picture = await picture_of(self._session, self._browser, width, height)
@@ -218,6 +235,31 @@ class FilesPanel(Panel):
             self._drawing = False
         # The loop serves every browser and waits for no lock.
         self._session.worker.post(lambda: self._say(sentence, level))
+
+    def _page(self, ask: AskPage, motion: str) -> None:
+        if self._making:
+            raise UsageError("a page is being made already")
+        make = ask(self._session, self._browser, motion)
+        self._making = True
+        self._session.worker.run_on_loop(self._make(make))
+
+    async def _make(self, make: MakePage) -> None:
+        """Have a page made, and send it; runs on the event loop."""
+        name = f"{self._name()}.html"
+        sentence, level = "No page: internal error", "error"
+        try:
+            page = await make()
+            self._send(name, page)
+            sentence, level = f"Saved {name}, {len(page) / 1e6:.1f} MB", "ok"
+        except SambotVizError as error:
+            sentence = f"No page: {error}"
+        finally:
+            self._making = False
+            self._session.worker.post(lambda: self._say(sentence, level))
+
+    def _name(self) -> str:
+        robot = self._session.robot
+        return _UNNAMED if robot is None else _plain(robot.name)
 
 
 def _plain(name: str) -> str:

@@ -9,7 +9,7 @@ from sambot_viz.panels import gate
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
-from sambot_viz.panels.files import Files
+from sambot_viz.panels.files import AskPage, Files
 from sambot_viz.panels.joints import JointsPanel
 from sambot_viz.panels.joints_again import JointsAgainPanel
 from sambot_viz.panels.names import NamesPanel
@@ -33,13 +33,19 @@ class Window:
         session: what they show.
         joints: whether there are panels to move joints (``--no-gui`` leaves them out).
         files: the disk; None when the browsers may not use it.
+        ask_page: makes a page of what is seen; None leaves that out.
     """
 
     def __init__(
-        self, session: Session, joints: bool = True, files: Files | None = None
+        self,
+        session: Session,
+        joints: bool = True,
+        files: Files | None = None,
+        ask_page: AskPage | None = None,
     ) -> None:
         self._session = session
         self._files = files
+        self._ask_page = ask_page
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
         self._displays = DisplaysPanel(session, self._remake)
@@ -84,7 +90,7 @@ class Window:
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:
             self._browsers[browser.client_id] = BrowserPanels(
-                self._session, browser, self._files, self._displays
+                self._session, browser, self._files, self._ask_page, self._displays
             )
         else:
             panels = self._browsers.pop(browser.client_id, None)

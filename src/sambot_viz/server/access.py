@@ -5,7 +5,12 @@ viser accepts every connection, so any page that a user visits could open
 the page that this server itself sent, or from an origin that was allowed by name: a
 page of another origin is refused, and so is one that reached the server under a foreign
 name (DNS rebinding). Other pages cannot show this one in a frame. Programs send no
-Origin and are let in. With a token (`server.token_check`), nobody is let in without it.
+Origin and are let in. With a token (`server.token_check`), nobody is let in without it,
+and the name does not count: a page under a foreign name has neither the token nor the
+cookie. So the proxy of Jupyter, which shows the page under names that this server
+cannot know, is let in with the token. That proxy adds the token to all that Jupyter
+lets through, but Jupyter itself refuses the websockets of pages of another origin, and
+it passes Host and Origin on as they came, so that they are compared here too.
 
 A server that listens on a network takes its addresses, its host name, and names that
 cannot be bought: the attack needs a name in the DNS of all. Any other name has to be
@@ -54,7 +59,11 @@ def only_this_machine(host: str) -> bool:
 
 
 def is_welcome(
-    host: str, origin: str | None, listening_on: str, allowed: Sequence[str] = ()
+    host: str,
+    origin: str | None,
+    listening_on: str,
+    allowed: Sequence[str] = (),
+    any_name: bool = False,
 ) -> bool:
     """Whether a request may be answered.
 
@@ -63,11 +72,14 @@ def is_welcome(
         origin: its Origin header, or None (programs, and pages by themselves).
         listening_on: the address the server listens on.
         allowed: origins that were allowed, such as "https://lab.example.org".
+        any_name: whether the server may be reached by a name that it does not know,
+            because it asks for a token.
     """
     if origin is not None and origin in allowed:
         return True
-    named = host in map(_netloc, allowed)
-    if not named and not _is_own_name(_hostname(host), listening_on):
+    name = _hostname(host)
+    named = (any_name and name != "") or host in map(_netloc, allowed)
+    if not named and not _is_own_name(name, listening_on):
         return False
     return origin is None or _netloc(origin) == host
 
@@ -137,7 +149,9 @@ def _hostname(host: str) -> str:
 
 
 @contextlib.contextmanager
-def checked(options: Options) -> Generator[None]:
+def checked(
+    options: Options, listening: socket.socket | None = None
+) -> Generator[None]:
     """Servers that are started in here check every request before viser answers it.
 
     viser gives no way to look at a request, so the function with which it starts its
@@ -145,6 +159,7 @@ def checked(options: Options) -> Generator[None]:
 
     Args:
         options: where the server listens, and for whom.
+        listening: a socket of the file system that listens, in place of a port.
     """
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
@@ -193,6 +208,8 @@ def checked(options: Options) -> Generator[None]:
 
         settings["process_request"] = check
         settings["create_connection"] = crowd.connection
+        if listening is not None:
+            return original(handle, unix=True, sock=listening, **settings)
         return original(handle, *arguments, **settings)
 
     module.serve = serve  # type: ignore[assignment, misc]
@@ -211,9 +228,10 @@ def _refusal(request: Request, options: Options) -> Response | None:
             http.HTTPStatus.BAD_REQUEST, f"One Host; one {', '.join(_ONCE)} at most."
         )
     host, origin = hosts[0], origins[0] if origins else None
-    if is_welcome(host, origin, options.host, options.allowed_origins):
+    any_name = options.token is not None
+    if is_welcome(host, origin, options.host, options.allowed_origins, any_name):
         return None
-    if is_welcome(host, None, options.host, options.allowed_origins):
+    if is_welcome(host, None, options.host, options.allowed_origins, any_name):
         sentence = "A page of another address may not use this server"
     else:
         sentence = (

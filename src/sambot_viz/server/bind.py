@@ -7,7 +7,11 @@ itself can have it; the rest of the program is imported while a browser loads th
 from __future__ import annotations
 
 import errno
+import os
 import socket
+import stat
+import weakref
+from contextlib import suppress
 
 import viser
 
@@ -19,6 +23,8 @@ from sambot_viz.server.door import guard
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
+_paths: weakref.WeakKeyDictionary[viser.ViserServer, str] = weakref.WeakKeyDictionary()
+"""The sockets in the file system that servers listen on."""
 
 
 def url_of(
@@ -30,12 +36,16 @@ def url_of(
 ) -> str:
     """The address to open in a browser: "http://127.0.0.1:8080".
 
+    A socket in the file system, which no browser can open, is named "unix:PATH".
+
     Args:
         server: the server.
         options: the base path, and the secrets of the links.
         host: the name to reach it by, instead of the address it listens on.
         presenter: the link for who drives, instead of that for everyone.
     """
+    if options.unix_socket is not None:
+        return f"unix:{options.unix_socket}"
     token = options.presenter if presenter else options.token
     host = host or _ANYWHERE.get(server.get_host(), server.get_host())
     address = f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
@@ -78,12 +88,19 @@ def listen(options: Options) -> viser.ViserServer:
         ServerError: the address cannot be listened on, with what to do about it.
     """
     host, port = options.host, options.port
-    _try_to_bind(host, port)
+    path = None if options.unix_socket is None else os.fspath(options.unix_socket)
+    listening = None
+    if path is None:
+        _try_to_bind(host, port)
+    else:
+        listening = _bind_in_file_system(path)
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
-    with viser_private.without_banner(), access.checked(options):
+    with viser_private.without_banner(), access.checked(options, listening):
         server = viser.ViserServer(host=host, port=port, verbose=False)
-    if port not in (0, server.get_port()):
+    if path is not None:
+        _paths[server] = path
+    elif port not in (0, server.get_port()):
         close(server)
         raise _taken(host, port)
     outbox.prepare(server)
@@ -114,6 +131,39 @@ def _try_to_bind(host: str, port: int) -> None:
             ) from error
 
 
+def _bind_in_file_system(path: str) -> socket.socket:
+    """A socket that only programs of the same user can open.
+
+    Raises:
+        ServerError: it cannot be made.
+    """
+    if not hasattr(socket, "AF_UNIX"):
+        raise ServerError("this system has no sockets in the file system; give a port")
+    made = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    before = os.umask(0o177)
+    try:
+        _remove_left_over(path)
+        made.bind(path)
+    except OSError as error:
+        made.close()
+        reason = "a program listens there already, or it is a file"
+        if error.errno != errno.EADDRINUSE:
+            reason = error.strerror or str(error)
+        raise ServerError(f"cannot listen on the socket '{path}': {reason}") from error
+    finally:
+        os.umask(before)
+    return made
+
+
+def _remove_left_over(path: str) -> None:
+    """Remove the socket of a program that was killed."""
+    with suppress(FileNotFoundError):
+        if stat.S_ISSOCK(os.stat(path).st_mode):
+            with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+                if probe.connect_ex(path) == errno.ECONNREFUSED:
+                    os.unlink(path)
+
+
 def _taken(host: str, port: int) -> ServerError:
     return ServerError(
         f"port {port} on {host} is taken by another program; choose another with "
@@ -125,3 +175,7 @@ def close(server: viser.ViserServer) -> None:
     """Stop a server and print nothing; a second call does nothing."""
     with viser_private.without_banner():
         server.stop()
+    path = _paths.pop(server, None)
+    if path is not None:
+        with suppress(OSError):
+            os.unlink(path)

@@ -19,7 +19,7 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
-from sambot_viz.panels.files import Files
+from sambot_viz.panels.files import AskPage, Files
 from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -53,6 +53,7 @@ class Server:
         poses: the named poses; a private session has a copy that writes no file.
         files: opens and follows .rviz files for the shared session; None leaves Open
             and Save out.
+        ask_page: makes a page of what is seen; None leaves that out.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -67,9 +68,11 @@ class Server:
         listening: viser.ViserServer | None = None,
         poses: Presets | None = None,
         files: Files | None = None,
+        ask_page: AskPage | None = None,
     ) -> None:
         self.options = options
         self.files = files
+        self._ask_page = ask_page
         self._poses = poses or Presets()
         self._make_config = make_config
         self._models = models
@@ -179,7 +182,9 @@ class Server:
             if self.options.panels and session not in self._windows:
                 # Visitors with a session of their own do not use the server's disk.
                 files = self.files if session is self.shared else None
-                self._windows[session] = Window(session, self.options.gui, files)
+                self._windows[session] = Window(
+                    session, self.options.gui, files, self._ask_page
+                )
 
     def _check(self, session: Session) -> None:
         checks = self._checks.get(session)

@@ -42,7 +42,9 @@ class TokenCheck:
     Args:
         token: the secret without which nobody is let in; None lets everyone in.
         presenter: the secret of presenters, which lets them in too.
-        base_path: where the page is; the cookie is sent to nowhere else.
+        base_path: where the page is; the cookie is sent to nowhere else. With "/" a
+            browser sends it to where the page was opened, which is below the path of a
+            proxy that takes it away, such as that of Jupyter.
     """
 
     def __init__(
@@ -56,7 +58,7 @@ class TokenCheck:
             f"sambot-viz-{hashlib.sha256(b'cookie ' + secret).hexdigest()[:12]}": secret
             for secret in (one.encode() for one in (token, presenter) if one)
         }
-        self._path = base_path
+        self._path = "" if base_path == "/" else f"Path={base_path}; "
         self._waiting = 0
 
     def refusal(self, request: Request) -> Response | Awaitable[Response] | None:
@@ -122,7 +124,7 @@ class TokenCheck:
         """The same page without the token in its address, and with a cookie."""
         tls = "https" in headers.get_all("X-Forwarded-Proto")
         cookie = (
-            f"{name}={self._tokens[name].decode()}; Path={self._path}; "
+            f"{name}={self._tokens[name].decode()}; {self._path}"
             f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}

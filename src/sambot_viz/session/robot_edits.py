@@ -20,6 +20,7 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.display_edits import DisplayEdits
+from sambot_viz.session.past_motion import PastMotion
 from sambot_viz.session.robot_state import RobotState
 from sambot_viz.session.shared_state import Audience
 from sambot_viz.session.throttle import Throttle
@@ -79,6 +80,11 @@ class RobotEdits(DisplayEdits):
     def joints_moved(self) -> bool:
         """Whether anything has moved a joint since the start."""
         return self._posed.moved
+
+    @property
+    def past(self) -> PastMotion:
+        """How joints and driven frames have moved lately."""
+        return self._posed.past
 
     # Joints
 

@@ -12,6 +12,7 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.start import StartPose
 from sambot_viz.robot.model import Robot
+from sambot_viz.session.past_motion import PastMotion
 from sambot_viz.session.user_frames import UserFrames
 
 
@@ -27,6 +28,7 @@ class RobotState:
         joints: the positions of its joints.
         first: joint → its position before anything has moved it [rad or m].
         moved: whether anything has moved a joint.
+        past: how joints and frames have moved lately.
     """
 
     def __init__(self, tree: FrameTree, added: UserFrames) -> None:
@@ -34,6 +36,7 @@ class RobotState:
         self.joints: JointState | None = None
         self.first: dict[str, float] = {}
         self.moved = False
+        self.past = PastMotion()
         self._tree = tree
         self._added = added
         self._moved: dict[str, None] = {}
@@ -48,6 +51,7 @@ class RobotState:
             self.joints.reload(robot)
         known = self.first
         self.first = {n: known.get(n, q) for n, q in self.joints.positions.items()}
+        self.past.clear(self.joints.positions)
 
     def build_tree(self) -> tuple[Problem, ...]:
         """Set the frames of the robot, then the added ones; returns refused ones."""
@@ -103,6 +107,8 @@ class RobotState:
         """
         moved, self._moved = self._moved, {}
         poses, self._new_poses = self._new_poses, {}
+        if self.joints is not None and (moved or poses):
+            self.past.note(moved, self.joints.positions, poses)
         frames = {**self._joint_frames(moved), **poses}
         if frames:
             self._tree.update(frames)

@@ -35,6 +35,7 @@ class SessionAssets:
         on_read: called after some files have been read in the background.
 
     Attributes:
+        cache: what is read already.
         read_count: how many files have been read in the background so far.
     """
 
@@ -45,7 +46,7 @@ class SessionAssets:
         on_read: Callable[[], None] | None = None,
     ) -> None:
         self.read_count = 0
-        self._cache = cache
+        self.cache = cache
         self._reader = reader
         self._on_read = on_read
         self._changed = threading.Condition()
@@ -75,17 +76,17 @@ class SessionAssets:
 
     def look_again(self) -> None:
         """Files may have changed: those that have are read again."""
-        self._cache.forget_changed()
+        self.cache.forget_changed()
 
     def known(self, asset: Asset) -> Content | None:
         """What is in a file, if it has been read already; nothing is read for it."""
-        return self._cache.known(asset)
+        return self.cache.known(asset)
 
     def content(self, asset: Asset) -> Content | None:
         """What is in a file; None while it is being read in the background."""
         if self._reader is None:
-            return self._cache.read(asset)
-        content = self._cache.known(asset)
+            return self.cache.read(asset)
+        content = self.cache.known(asset)
         if content is None:
             with self._changed:
                 if asset not in self._pending:

@@ -1,0 +1,66 @@
+"""The viewer behind the tile: ``python -m sambot_viz.jupyter FOLDER FLAG...``.
+
+It shows the model that the variable SAMBOT_VIZ_MODEL names, or else the one that is
+found in the folder, or else the bundled robot, and ends with the Jupyter server.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+from sambot_viz import bundled, cli
+from sambot_viz.errors import UsageError
+
+MODEL = "SAMBOT_VIZ_MODEL"
+"""The variable that names a model file or a package folder."""
+LOOKS_EVERY = 1.0
+"""How often it is looked whether the Jupyter server is still there [s]."""
+
+
+def main(words: Sequence[str]) -> int:
+    """Serve until the Jupyter server ends.
+
+    Args:
+        words: the folder, and flags of ``sambot-viz``.
+    """
+    folder, *flags = words
+    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
+    model = model_of(Path(folder), os.environ.get(MODEL, ""))
+    return cli.main([*flags, *([] if model is None else ["--model", str(model)])])
+
+
+def model_of(folder: Path, named: str) -> Path | None:
+    """The model file or package folder to show; None for the bundled robot.
+
+    A reason why it is not the one that a user would expect is written to standard
+    error, which is the log of the Jupyter server.
+
+    Args:
+        folder: the folder that JupyterLab shows.
+        named: a file or folder, also relative to that folder; "" for none.
+    """
+    model = folder / Path(named).expanduser() if named else folder
+    try:
+        bundled.find(model)
+    except UsageError as error:
+        why = f"{MODEL}: {error}" if named else str(error)
+        sys.stderr.write(f"sambot-viz: note: the bundled sam_bot is shown; {why}\n")
+        return None
+    return model
+
+
+def _end_with_parent(parent: int) -> None:
+    """End this process when its parent has ended, however that was."""
+    wait = threading.Event().wait
+    while os.getppid() == parent:
+        wait(LOOKS_EVERY)
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,41 @@
+// @ts-check
+/* Export Page: what is seen, in one file that needs no server. */
+
+import { html, useState } from "../vendor/preact.js";
+import { act, rows } from "../channel.js";
+import { tell } from "../notices.js";
+import { Cell } from "../state.js";
+import { Dialog } from "./dialog.js";
+
+/** @type {[string, string, string][]} */
+const MOTIONS = [
+  ["past", "The last minute", "how the joints and the robot have moved"],
+  ["sweep", "All joints", "each to its limits and back, one after the other"],
+  ["none", "Nothing", "a view to turn and zoom"],
+];
+/** The last choice. */
+const last = new Cell("past", "motion");
+
+/** @param {{close: () => void}} props */
+export function ExportPage({ close }) {
+  // Before anything has moved, there is no last minute.
+  const [motion, setMotion] = useState(last.value === "past" && rows.value("joints/again") ? "sweep" : last.value);
+  const save = () => {
+    last.set(motion);
+    tell("Making the page…", "info");
+    act("file/page", [motion]);
+    close();
+  };
+  return html`<${Dialog} title="Export Page" close=${close} submit=${save}>
+    <p>The view as one HTML file for your computer. It opens without this program and without a network.</p>
+    <fieldset><legend>What moves in it</legend>
+      ${MOTIONS.map(([id, name, what]) => html`<label class="line choice" key=${id}>
+        <input type="radio" name="motion" value=${id} checked=${motion === id} data-first=${motion === id ? "" : undefined}
+          onChange=${() => setMotion(id)} /> <span>${name}<span class="soft">: ${what}</span></span></label>`)}
+    </fieldset>
+    <div class="buttons end">
+      <button type="submit" class="main">Export</button>
+      <button type="button" onClick=${close}>Cancel</button>
+    </div>
+  </${Dialog}>`;
+}

@@ -1,0 +1,88 @@
+"""What is known of the last minute of a motion."""
+
+from __future__ import annotations
+
+import itertools
+import tracemalloc
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from sambot_viz.session import past_motion
+from sambot_viz.session.past_motion import LONGEST, PERIOD, PastMotion
+
+
+class Clock:
+    """The time that the module under test sees."""
+
+    now = 1000.0
+
+    def monotonic(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Iterator[Clock]:
+    clock = Clock()
+    monkeypatch.setattr(past_motion, "time", clock)
+    yield clock
+
+
+def test_the_steps_begin_where_everything_was_before(clock: Clock) -> None:
+    past = PastMotion()
+    past.clear({"a": 0.5, "b": 0.0})
+    for q in (1.0, 2.0):
+        past.note(["a", "follower"], {"a": q, "b": 0.0}, {})
+        clock.now += 1.0
+    before, steps = past.last_minute()
+    assert before.positions == {"a": 0.5, "b": 0.0}
+    assert [dict(step.positions) for step in steps] == [{"a": 1.0}, {"a": 2.0}]
+    assert [step.time for step in steps] == pytest.approx([PERIOD, 1.0 + PERIOD])
+
+
+def test_what_is_older_than_a_minute_only_says_where_things_were(clock: Clock) -> None:
+    past = PastMotion()
+    past.clear({"a": 0.0})
+    for second in range(100):
+        clock.now += 1.0
+        past.note(["a"], {"a": float(second)}, {})
+    before, steps = past.last_minute()
+    assert before.positions == {"a": 99 - LONGEST - 1}
+    assert [step.positions["a"] for step in steps] == list(range(39, 100))
+    clock.now += LONGEST + 1.0
+    before, steps = past.last_minute()
+    assert (before.positions, steps) == ({"a": 99.0}, [])
+
+
+def test_steps_that_follow_fast_are_one(clock: Clock) -> None:
+    past = PastMotion()
+    past.clear({"a": 0.0, "b": 0.0})
+    past.note(["a"], {"a": 1.0}, {})
+    past.note(["b"], {"a": 1.0, "b": 2.0}, {"odom": np.eye(4)})
+    past.note(["a"], {"a": 3.0, "b": 2.0}, {})
+    _, (step,) = past.last_minute()
+    assert step.positions == {"a": 3.0, "b": 2.0}
+    assert list(step.frames) == ["odom"]
+    clock.now += 1.01 * PERIOD
+    past.note(["a"], {"a": 4.0, "b": 2.0}, {})
+    assert len(past.last_minute()[1]) == 2
+
+
+def test_a_day_of_three_hundred_moving_joints_takes_a_few_megabytes(
+    clock: Clock,
+) -> None:
+    names = [f"joint_{n}" for n in range(300)]
+    past = PastMotion()
+    past.clear(dict.fromkeys(names, 0.0))
+    values = itertools.count()
+    tracemalloc.start()
+    try:
+        for _ in range(4000):
+            clock.now += PERIOD * 1.01
+            past.note(names, dict.fromkeys(names, float(next(values))), {})
+        used, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert used < 4e6
+    assert len(past.last_minute()[1]) > 900
