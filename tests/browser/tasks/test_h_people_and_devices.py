@@ -105,6 +105,8 @@ def test_task_56_a_joint_on_a_phone(
 
 def view(viewer: ViewerPage) -> tuple[float, float, float, float]:
     """Left, top, width and height of the 3D view on the page."""
+    # viser has the whole page until the window is there.
+    viewer.wait_for("document.getElementById('root').style.position === 'fixed'")
     found = viewer.page.evaluate(
         "(r => [r.x, r.y, r.width, r.height])"
         "(__viserMutable.canvas.getBoundingClientRect())"
