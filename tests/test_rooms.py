@@ -124,7 +124,9 @@ ROOMS: Mapping[str, Row] = {
         "PIL segno",
         "signal webbrowser",
     ),
-    "jupyter": Row("bundled cli tokens", "", "signal socket threading"),
+    "jupyter": Row(
+        "bundled cli options tokens", "", "http signal socket ssl threading"
+    ),
     # The hall.
     "__init__": Row("_version checks frames open_config robot rviz visualizer"),
     "__main__": Row("cli"),
@@ -147,7 +149,7 @@ ROOMS: Mapping[str, Row] = {
     "tokens": Row(),
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "visualizer": Row(
-        "displays export frames inputs joints open_config options robot rviz server "
+        "displays export frames inputs joints jupyter options robot rviz server "
         "session",
         "viser",
     ),

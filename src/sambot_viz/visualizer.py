@@ -20,6 +20,8 @@ from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
+from sambot_viz.jupyter.notebook import notebook as here
+from sambot_viz.jupyter.notebook import remember, stop_former
 from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -68,6 +70,9 @@ class Visualizer:
             viz.set_joint_positions({"drivewhl_l_joint": 1.0})
             viz.wait()
 
+    As the last expression of a notebook's cell it shows the page in the notebook. It is
+    stopped with the kernel, and when the cell is run again.
+
     The arguments are the fields of `Options`. With ``session="private"`` the methods
     act on the sessions of all browsers. Copies that browsers have made of a shared
     session are theirs alone.
@@ -84,7 +89,13 @@ class Visualizer:
 
     @_takes_the_keywords_of(Options)
     def __init__(self, options: Options) -> None:
+        notebook = self._notebook = here()
+        if notebook is not None:
+            options = notebook.options(options)
+            stop_former(notebook)
         self._start(Inputs(options), None)
+        if notebook is not None:
+            remember(notebook, self)
 
     @classmethod
     def of_inputs(
@@ -103,6 +114,7 @@ class Visualizer:
             SambotVizError: as the constructor.
         """
         visualizer = cls.__new__(cls)
+        visualizer._notebook = None
         visualizer._start(inputs, listening)
         return visualizer
 
@@ -287,6 +299,10 @@ class Visualizer:
         if self._reloader is not None:
             self._reloader.close()
         self._server.stop()
+
+    def _repr_html_(self) -> str | None:
+        """The page, for the cell of a notebook."""
+        return None if self._notebook is None else self._notebook.frame(self.url)
 
     def __enter__(self) -> Visualizer:
         return self

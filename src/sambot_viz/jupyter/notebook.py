@@ -1,0 +1,160 @@
+"""A visualizer in a notebook: how the browser reaches its page, and when it is stopped.
+
+The browser that shows a notebook is often not on the machine of its kernel. Where the
+Jupyter server has jupyter-server-proxy, the page is shown through it, below the address
+that the notebook itself has. Users of the same machine could open the port too, so the
+page then asks for a token, which the cell's frame has in its address; the cookie that
+takes its place works there, because frame and notebook have one origin. Without that
+proxy the frame shows the port of this machine, and without a token, unless the user
+gave one: browsers send no cookie to a frame of another site.
+"""
+
+from __future__ import annotations
+
+import html
+import http.client
+import json
+import os
+import ssl
+import sys
+from contextlib import closing
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Protocol
+
+from sambot_viz.options import Options
+
+HEIGHT = 600
+"""Of the frame in a cell [CSS pixels]."""
+_ANSWERS_WITHIN = 2.0
+"""The Jupyter server is asked for its proxy for so long at most [s]."""
+_ALL_NETWORKS = ("", "*", "0.0.0.0", "::")
+_WITHOUT_PROXY = (
+    "The page cannot be shown here: your Jupyter server has no jupyter-server-proxy. "
+    'Run pip install "sambot-viz[jupyter]" where it is installed, and start it again.'
+)
+
+
+class Stoppable(Protocol):
+    """What a cell has made."""
+
+    def stop(self) -> None:
+        """End it; a second call does nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Notebook:
+    """The notebook whose kernel this process is.
+
+    Attributes:
+        proxy: the path below which the Jupyter server shows the ports of this machine,
+            such as "/user/ada/proxy/"; None without jupyter-server-proxy.
+        in_hub: whether the Jupyter server belongs to a JupyterHub.
+        cell: the cell that runs; "" when that is not known.
+        run: which run of the cell it is.
+    """
+
+    proxy: str | None
+    in_hub: bool
+    cell: str
+    run: str
+
+    def options(self, options: Options) -> Options:
+        """The options, with a token for a page that goes through the proxy."""
+        if self.proxy is None or options.token is not None:
+            return options
+        return replace(options, token="")
+
+    def frame(self, url: str) -> str:
+        """The page as HTML for the cell.
+
+        Args:
+            url: the address of the page on this machine.
+        """
+        if self.proxy is None and self.in_hub:
+            return f"<p>{html.escape(_WITHOUT_PROXY)}</p>"
+        if self.proxy is not None:
+            origin, _, query = url.partition("?")
+            port = origin.removeprefix("http://").partition("/")[0].rpartition(":")[2]
+            url = f"{self.proxy}{port}/{'?' if query else ''}{query}"
+        url = html.escape(url)
+        return (
+            f'<iframe src="{url}" title="Robot viewer" width="100%" height="{HEIGHT}" '
+            'style="border: 0" allow="fullscreen; clipboard-write"></iframe>'
+            f'<p><a href="{url}" target="_blank">Open in a tab</a></p>'
+        )
+
+
+_made: dict[str, tuple[str, list[Stoppable]]] = {}
+"""Cell → its last run, and what that has made."""
+
+
+def stop_former(notebook: Notebook) -> None:
+    """Stop what the cell has made when it ran before."""
+    run, made = _made.get(notebook.cell, (notebook.run, []))
+    if run != notebook.run:
+        del _made[notebook.cell]
+        for each in made:
+            each.stop()
+
+
+def remember(notebook: Notebook, made: Stoppable) -> None:
+    """Keep what a cell has made, until it runs again."""
+    if notebook.cell:
+        _made.setdefault(notebook.cell, (notebook.run, []))[1].append(made)
+
+
+def notebook() -> Notebook | None:
+    """The notebook whose kernel this process is; None when it is not a kernel."""
+    ipython: Any = sys.modules.get("IPython")
+    shell: Any = None if ipython is None else ipython.get_ipython()
+    if shell is None or getattr(shell, "kernel", None) is None:
+        return None
+    parent: dict[str, Any] = shell.get_parent()
+    cell = str(parent.get("metadata", {}).get("cellId", ""))
+    run = str(parent.get("header", {}).get("msg_id", ""))
+    prefix = os.environ.get("JUPYTERHUB_SERVICE_PREFIX")
+    server = _server_of(shell)
+    if server is None:
+        root = prefix
+    else:
+        root = str(server["base_url"]) if _has_proxy(server) else None
+    proxy = None if root is None else f"{root.rstrip('/')}/proxy/"
+    return Notebook(proxy, prefix is not None, cell, run)
+
+
+def _server_of(shell: Any) -> dict[str, Any] | None:
+    """What the Jupyter server that started this kernel has written about itself.
+
+    It is beside the file by which the kernel is connected; None when it is not there,
+    as for a kernel on another machine, or one that no Jupyter server has started.
+    """
+    connection = shell.config.get("IPKernelApp", {}).get("connection_file", "")
+    number = os.environ.get("JPY_PARENT_PID", "")
+    try:
+        path = Path(str(connection)).with_name(f"jpserver-{number}.json")
+        found: dict[str, Any] = json.loads(path.read_text("utf-8"))
+        return found if "base_url" in found else None
+    except (OSError, ValueError, TypeError):
+        return None
+
+
+def _has_proxy(server: dict[str, Any]) -> bool:
+    """Whether a Jupyter server has jupyter-server-proxy: it knows a page of that."""
+    name, port = str(server.get("hostname", "")), int(server.get("port") or 0)
+    name = "127.0.0.1" if name in _ALL_NETWORKS else name
+    if server.get("secure"):
+        # Its certificate is for the users; nothing is sent, and nothing is read.
+        context = ssl.create_default_context()
+        context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+        asked: http.client.HTTPConnection = http.client.HTTPSConnection(
+            name, port, timeout=_ANSWERS_WITHIN, context=context
+        )
+    else:
+        asked = http.client.HTTPConnection(name, port, timeout=_ANSWERS_WITHIN)
+    try:
+        with closing(asked):
+            asked.request("GET", f"{server['base_url']}server-proxy/servers-info")
+            return asked.getresponse().status < 404
+    except (OSError, http.client.HTTPException):
+        return False
