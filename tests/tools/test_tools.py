@@ -24,6 +24,7 @@ from sambot_viz.session.browser_view import BrowserView
 from sambot_viz.session.pick_rays import INLINE
 from sambot_viz.session.tool_control import ToolControl
 from sambot_viz.tools.picking.hit import Selectable
+from sambot_viz.tools.picking.pick_scene import PickSnapshot
 from sambot_viz.tools.registry import TOOLS
 
 PREFIX = "rviz_default_plugins/"
@@ -580,9 +581,9 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
     assert np.isfinite(browser.view.camera.position).all()
 
 
-def test_a_click_into_a_large_mesh_is_followed_in_a_thread(
-    browser: Browser, tmp_path: Path
-) -> None:
+@pytest.fixture
+def large(browser: Browser, tmp_path: Path) -> Browser:
+    """A browser that sees a mesh of more than a hundred thousand triangles."""
     mesh = tmp_path / "large.stl"
     count = write_flat_mesh(mesh, side=225)
     assert count > INLINE
@@ -595,12 +596,37 @@ def test_a_click_into_a_large_mesh_is_followed_in_a_thread(
     browser.session.show_robot(load_robot(model))
     browser.viz.server.wait_for_meshes(30.0)
     browser.choose("Select")
-    browser.click_down(0.1, 0.2)
-    browser.client.wait_until(lambda: browser.selected == ["base_link"])
+    return browser
+
+
+def test_a_click_into_a_large_mesh_is_followed_in_a_thread(large: Browser) -> None:
+    large.click_down(0.1, 0.2)
+    large.client.wait_until(lambda: large.selected == ["base_link"])
     threads = [thread.name for thread in threading.enumerate()]
     assert any(name.startswith("sambot-viz-rays") for name in threads)
-    browser.click_down(5.0, 5.0)
-    browser.client.wait_until(lambda: browser.selected == [])
+    large.click_down(5.0, 5.0)
+    large.client.wait_until(lambda: large.selected == [])
+
+
+def test_of_many_clicks_that_wait_only_the_last_is_followed(
+    large: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    go_on, followed = threading.Event(), list[float]()
+    first_hit = PickSnapshot.first_hit
+
+    def slow(self: PickSnapshot, origin: Any, *rest: Any) -> Any:
+        followed.append(float(origin[0]))
+        assert go_on.wait(20.0)
+        return first_hit(self, origin, *rest)
+
+    monkeypatch.setattr(PickSnapshot, "first_hit", slow)
+    large.click_down(5.0, 5.0)
+    large.client.wait_until(lambda: len(followed) == 1)
+    for number in range(20):
+        large.click_down(number / 100, 0.2)
+    go_on.set()
+    large.client.wait_until(lambda: large.selected == ["base_link"])
+    assert followed == [5.0, 0.19]
 
 
 def write_flat_mesh(path: Path, side: int) -> int:

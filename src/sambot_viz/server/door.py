@@ -22,6 +22,7 @@ import math
 import time
 import weakref
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, cast
 
@@ -31,6 +32,7 @@ from websockets.asyncio.server import ServerConnection
 from sambot_viz import viser_private
 from sambot_viz.panels import gate
 from sambot_viz.server import outbox
+from sambot_viz.server.backlog import Backlog
 from sambot_viz.server.browser_messages import (
     BrowserMessage,
     CameraMoved,
@@ -39,9 +41,6 @@ from sambot_viz.server.browser_messages import (
     decode,
 )
 from sambot_viz.server.sending import Sending
-
-TakeEdit = Callable[[int, object], None]
-MayEdit = Callable[[int], bool]
 
 LARGEST_MESSAGE = 64 * 1024
 """A connection that sends a longer message is closed [bytes]."""
@@ -62,23 +61,35 @@ _log = logging.getLogger(__name__)
 
 EDITS = "sambot-viz"
 """A value for the widget of this id is an edit of one of our rows."""
-_takers: weakref.WeakKeyDictionary[viser.ViserServer, tuple[TakeEdit, MayEdit]] = (
+
+
+@dataclass(frozen=True, slots=True)
+class Edits:
+    """Who takes what browsers edit; the arguments are numbers of browsers.
+
+    Attributes:
+        take: gets every edit of a row; it checks who may do what. It is called on the
+            event loop.
+        may: whether a browser may set the widgets of a program.
+        behind: runs an action, in any thread, behind all that the browser has caused.
+    """
+
+    take: Callable[[int, object], None]
+    may: Callable[[int], bool]
+    behind: Callable[[int, Callable[[], None]], None]
+
+
+_edits: weakref.WeakKeyDictionary[viser.ViserServer, Edits] = (
     weakref.WeakKeyDictionary()
 )
 
 
-def give_edits(server: viser.ViserServer, take: TakeEdit, may: MayEdit) -> None:
-    """Call `take` with the number of a browser and what it wants to edit.
+def give_edits(server: viser.ViserServer, edits: Edits) -> None:
+    """Give what the browsers of a server edit to a program.
 
-    It is called on the event loop, and viser never sees these messages: it would send
-    them on to the other browsers.
-
-    Args:
-        server: the server.
-        take: gets every edit of a row; it checks who may do what.
-        may: whether a browser may set the widgets of a program.
+    viser never sees these messages: it would send them on to the other browsers.
     """
-    _takers[server] = take, may
+    _edits[server] = edits
 
 
 def guard(server: viser.ViserServer) -> None:
@@ -111,6 +122,7 @@ class Door:
         self._connection = connection
         self._known = False
         self._rate = Rate(MESSAGES_PER_SECOND, BURST)
+        self._backlog = Backlog(self._behind)
         self._recv = connection.recv
         connection.protocol.max_message_size = LARGEST_MESSAGE
         connection.close_timeout = CLOSE_TIME
@@ -121,6 +133,7 @@ class Door:
         while True:
             raw = await self._recv()
             await self._rate.wait()
+            await self._backlog.wait()
             message = decode(raw) if isinstance(raw, bytes) else None
             reason = self._reason_against(message)
             if reason is not None:
@@ -131,9 +144,14 @@ class Door:
                 return cast(bytes, raw)
 
     def _give(self, edit: object) -> None:
-        if self._server in _takers:
-            take, _ = _takers[self._server]
-            take(self._client_id, edit)
+        if self._server in _edits:
+            _edits[self._server].take(self._client_id, edit)
+
+    def _behind(self, action: Callable[[], None]) -> None:
+        if self._server in _edits:
+            _edits[self._server].behind(self._client_id, action)
+        else:
+            action()
 
     def _reason_against(self, message: BrowserMessage | None) -> str | None:
         """Why a message is refused; None when it may be handled."""
@@ -173,9 +191,9 @@ class Door:
 
     def _may_set(self, uuid: str) -> bool:
         """Whether the user may set a widget: one of this browser alone, or any."""
-        _, may = _takers.get(self._server, (None, None))
+        edits = _edits.get(self._server)
         shared = viser_private.is_for_all(self._server, uuid)
-        return may is None or not shared or may(self._client_id)
+        return edits is None or not shared or edits.may(self._client_id)
 
     def _usable(self, uuid: str) -> viser.GuiInputHandle[Any] | None:
         """The widget, if a user of this browser can see and use it."""

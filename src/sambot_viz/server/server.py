@@ -25,7 +25,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import outbox
 from sambot_viz.server.bind import close, listen, url_of
-from sambot_viz.server.door import give_edits, guard
+from sambot_viz.server.door import Edits, give_edits, guard
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.visitors import Visitor, visitor_of
@@ -88,7 +88,7 @@ class Server:
         self._viser = listening or listen(options)
         self._stopped = threading.Event()
         guard(self._viser)
-        give_edits(self._viser, self._take_edit, self._may_edit)
+        give_edits(self._viser, Edits(self._take_edit, self._may_edit, self._behind))
         prepare_page(self._viser)
         outbox.keep_apart(self._viser, self._has_copy)
         self.shared: Session | None = None
@@ -309,6 +309,14 @@ class Server:
     def _may_edit(self, client_id: int) -> bool:
         """Whether a browser may use the widgets of a program, which all have."""
         return self.shared is None or self.shared.roles.may_edit(client_id)
+
+    def _behind(self, client_id: int, action: Callable[[], None]) -> None:
+        """Run an action behind what a browser has caused in its session."""
+        worker = self._workers.get(client_id) or self._workers.get(None)
+        if worker is not None:
+            worker.post(action)
+        else:
+            action()
 
     def _session_of(self, client_id: int) -> Session | None:
         """What a browser sees; None while that is made."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
@@ -29,25 +30,49 @@ class PickRays:
         self._session = session
         self._scene = PickScene(session.context, lambda: session.displays)
         self._thread = ThreadPoolExecutor(1, "sambot-viz-rays")
+        self._lock = threading.Lock()
+        self._waiting: dict[object, Callable[[], None]] = {}
 
     def follow(
-        self, rays: Callable[[PickSnapshot], T], then: Callable[[T], None]
+        self,
+        of: object,
+        rays: Callable[[PickSnapshot], T],
+        then: Callable[[T], None],
     ) -> None:
         """Follow rays through what is drawn now, then act.
 
         A rectangle over millions of triangles takes seconds. A thread of its own does
         that, so that neither browsers nor the session wait.
+
+        Args:
+            of: who asks, for what; of several that wait only the latest is followed.
+            rays: follows them.
+            then: acts, in the session's worker.
         """
         snapshot = self._scene.snapshot()
         if snapshot.triangles <= INLINE:
             then(rays(snapshot))
             return
 
-        def followed(future: Future[T]) -> None:
-            # An exception of the rays is raised, and reported, in the worker.
+        def work() -> None:
+            future: Future[T] = Future()
+            try:
+                future.set_result(rays(snapshot))
+            except Exception as error:
+                # It is raised, and reported, in the worker.
+                future.set_exception(error)
             self._session.worker.post(lambda: then(future.result()))
 
-        self._thread.submit(rays, snapshot).add_done_callback(followed)
+        with self._lock:
+            known = of in self._waiting
+            self._waiting[of] = work
+        if not known:
+            self._thread.submit(self._work, of)
+
+    def _work(self, of: object) -> None:
+        with self._lock:
+            work = self._waiting.pop(of)
+        work()
 
     def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, Corners]:
         """The boxes around the shapes of links and the axes of frames.

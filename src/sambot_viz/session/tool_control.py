@@ -163,7 +163,7 @@ class ToolControl:
             else:
                 self.look_at(hit.point)
 
-        self._follow(click, then)
+        self._follow("focus", click, then)
 
     # What tools may use (tools.tool.ToolContext)
 
@@ -199,9 +199,9 @@ class ToolControl:
 
     # Inside
 
-    def _follow(self, click: Click, then: Callable[[Hit], None]) -> None:
+    def _follow(self, what: str, click: Click, then: Callable[[Hit], None]) -> None:
         ray = click.origin, click.direction, click.pixel
-        self._session.rays.follow(lambda s: s.first_hit(*ray), then)
+        self._session.rays.follow((self, what), lambda s: s.first_hit(*ray), then)
 
     def _follow_mouse(self, tool: Tool) -> None:
         """Give a tool what is under the mouse, once more when it has moved on."""
@@ -218,7 +218,7 @@ class ToolControl:
             if self._mouse != followed:
                 self.hover(self._mouse)
 
-        self._follow(click, then)
+        self._follow("hover", click, then)
 
     def _take_config(self) -> None:
         """The tools of the document, then the others, each with its settings."""
@@ -279,7 +279,7 @@ class ToolControl:
                 if self.current is tool:
                     tool.click(click, hit)
 
-        self._follow(click, then)
+        self._follow("click", click, then)
 
     def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
         worker = self._session.worker
@@ -297,7 +297,7 @@ class ToolControl:
                 if self.current is tool:
                     tool.rectangle(items, modifier)
 
-        self._session.rays.follow(lambda s: s.items_met(rays), then)
+        self._session.rays.follow((self, "box"), lambda s: s.items_met(rays), then)
 
     def _hear(self, event: Event) -> None:
         if event == "config":
