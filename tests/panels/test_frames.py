@@ -12,6 +12,7 @@ from sambot_viz import FrameError, Visualizer, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.static_transform import StaticTransformError
+from sambot_viz.panels import frames
 from sambot_viz.panels.frames import FramesPanel, pasted_arguments
 from sambot_viz.panels.row import Level
 from sambot_viz.session import Session
@@ -135,6 +136,16 @@ def test_a_laser_is_hung_up_moved_and_removed(
     edit(panel, "frames/remove", ["static/base_laser"])
     assert "base_laser" not in viz.frames
     assert "frames/none" in rows_of(panel)
+
+
+def test_there_is_room_for_as_many_frames_as_browsers_can_show(
+    panel: FramesPanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(frames, "MOST_FRAMES", 2)
+    for child in ("a", "b", "b"):
+        edit(panel, "frames/add", [*LASER[:-1], child])
+    with pytest.raises(UsageError, match="2 added frames; remove one first"):
+        edit(panel, "frames/add", [*LASER[:-1], "c"])
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.poses import PosesPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
+from sambot_viz.session.limits import MOST_POSES
 
 LEFT = "drivewhl_l_joint"
 
@@ -104,6 +105,17 @@ def test_a_pose_needs_a_name_that_is_not_too_long(panel: PosesPanel) -> None:
         edit(panel, "poses/save", ["  "])
     with pytest.raises(UsageError, match="at most 60 characters"):
         edit(panel, "poses/save", ["x" * 61])
+
+
+def test_there_is_room_for_a_hundred_poses(panel: PosesPanel, path: Path) -> None:
+    for number in range(MOST_POSES):
+        send(panel, "poses/save", f"p{number}")
+    with pytest.raises(UsageError, match="100 named poses; remove one first"):
+        edit(panel, "poses/save", ["one more"])
+    send(panel, "poses/save", "p0")
+    send(panel, "poses/remove", "p0")
+    send(panel, "poses/save", "one more")
+    assert "one more" in path.read_text()
 
 
 def test_an_unknown_pose_is_refused(panel: PosesPanel) -> None:

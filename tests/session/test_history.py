@@ -16,7 +16,10 @@ from sambot_viz.displays.display import Display
 from sambot_viz.frames import Transform
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
+from sambot_viz.session.drawn_scene import walk
 from sambot_viz.session.history import LIMIT
+from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
+from sambot_viz.session.saved_views import SavedViews
 
 A, B = 1, 2
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -105,6 +108,25 @@ def test_a_new_edit_ends_what_could_be_done_again(session: Session) -> None:
     act(session, A, lambda: session.set_global("Frame Rate", 12))
     assert session.edits.redo_label(A) is None
     assert session.edits.redo(A) is None
+
+
+def test_there_is_room_for_a_hundred_displays_and_views(session: Session) -> None:
+    group = session.add_display("rviz_common/Group")
+    while len(list(walk(session.config.displays))) < MOST_DISPLAYS:
+        session.add_display("rviz_default_plugins/Grid", after=None)
+    for add in (
+        lambda: session.add_display("rviz_default_plugins/Grid"),
+        lambda: session.duplicate_display(group),
+    ):
+        with pytest.raises(UsageError, match="100 displays; remove one first"):
+            add()
+    session.remove_display(named(session, "Grid"))
+    session.duplicate_display(group)
+    views = SavedViews(session)
+    for _ in range(MOST_VIEWS - len(session.config.saved_views)):
+        views.add(session.config.view)
+    with pytest.raises(UsageError, match="100 saved views"):
+        views.add(session.config.view)
 
 
 def test_a_drag_is_one_edit_and_the_next_drag_another(session: Session) -> None:

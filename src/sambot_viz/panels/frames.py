@@ -16,6 +16,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
+from sambot_viz.session.limits import MOST_FRAMES, require_room
 from sambot_viz.session.user_frames import UserFrame
 
 Say = Callable[[str, Level], None]
@@ -222,6 +223,8 @@ class FramesPanel(Panel):
                 f"in the air; {hint}"
             )
         self._check_parent(child)
+        added = self._session.added.all
+        require_room(len({*added, child}), MOST_FRAMES, "added frames")
         self._session.add_frame(parent, child, wanted.transform)
         said = "; ".join((f"{child} is set in {parent}", *wanted.warnings))
         self._say(said, "warn" if wanted.warnings else "ok")

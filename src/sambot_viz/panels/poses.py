@@ -9,6 +9,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Row
 from sambot_viz.session import Session
+from sambot_viz.session.limits import MOST_POSES, require_room
 
 LONGEST_NAME = 60
 """Of a pose [characters]."""
@@ -61,6 +62,7 @@ class PosesPanel(Panel):
         if len(name) > LONGEST_NAME:
             raise UsageError(f"a pose's name has at most {LONGEST_NAME} characters")
         poses = self._session.poses
+        require_room(len({*poses.names, name}), MOST_POSES, "named poses")
         poses.save(name, joints.positions)
         self._remake(self)
         where = f"in {poses.path.absolute()}" if poses.path else "in memory only"

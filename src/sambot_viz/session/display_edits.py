@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -19,6 +19,7 @@ from sambot_viz.rviz.changes import PutBack
 from sambot_viz.rviz.class_name import short_name
 from sambot_viz.rviz.display_list import Removed
 from sambot_viz.session.drawn_scene import walk
+from sambot_viz.session.limits import MOST_DISPLAYS, require_room
 from sambot_viz.session.shown_document import ShownDocument
 
 _COUNTED = re.compile(r"^(.*) \(\d+\)$", re.DOTALL)
@@ -164,8 +165,9 @@ class DisplayEdits(ShownDocument):
             name: its label; by default one after its class that no other display has.
 
         Raises:
-            UsageError: `after` is not in the document.
+            UsageError: `after` is not in the document, or there are too many.
         """
+        self._require_room([])
         if after is not None:
             self._require(after)
         group = after.parent if after is not None else None
@@ -176,13 +178,23 @@ class DisplayEdits(ShownDocument):
         return config
 
     def duplicate_display(self, config: DisplayConfig) -> DisplayConfig:
-        """Add a copy of a display behind it, under a name that no other display has."""
+        """Add a copy of a display behind it, under a name that no other display has.
+
+        Raises:
+            UsageError: it is not in the document, or there are too many.
+        """
         self._require(config)
+        self._require_room(config.displays)
         with self.change():
             copy = self.config.duplicate(config)
             copy.rename(self._free_name(config.name))
             self._added(f"Duplicate {config.name}", copy)
         return copy
+
+    def _require_room(self, members: Sequence[DisplayConfig]) -> None:
+        """Refuse one more display, with its members, when there are too many."""
+        count = 1 + sum(1 for one in (self.config.displays, members) for _ in walk(one))
+        require_room(count, MOST_DISPLAYS, "displays")
 
     def _added(self, label: str, config: DisplayConfig) -> None:
         self.show_config()

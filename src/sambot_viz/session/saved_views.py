@@ -9,6 +9,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.changes import PutBack
 from sambot_viz.rviz.view_list import RemovedView
+from sambot_viz.session.limits import MOST_VIEWS, require_room
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session
@@ -25,7 +26,13 @@ class SavedViews:
         self._session = session
 
     def add(self, view: ViewConfig) -> ViewConfig:
-        """Add a copy of a view to the saved ones, named after its type."""
+        """Add a copy of a view to the saved ones, named after its type.
+
+        Raises:
+            UsageError: there are too many.
+        """
+        config = self._session.config
+        require_room(len(config.saved_views) + 1, MOST_VIEWS, "saved views")
         with self._session.change("config"):
             saved = self._session.config.save_view(view)
         undo, redo = self._removal(saved)
