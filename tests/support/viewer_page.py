@@ -65,9 +65,9 @@ def viewer_url(address: str | int) -> str:
     Without ``fixedDpr`` viser lowers its resolution when the machine is busy.
     """
     url = f"http://127.0.0.1:{address}" if isinstance(address, int) else address
-    return f"{url.rstrip('/')}/{'&' if '?' in url else '?'}fixedDpr=1".replace(
-        "/&", "&"
-    )
+    url, mark, link = url.partition("#")
+    url = f"{url.rstrip('/')}/{'&' if '?' in url else '?'}fixedDpr=1"
+    return f"{url.replace('/&', '&')}{mark}{link}"
 
 
 class ViewerPage:

@@ -8,6 +8,7 @@ import { followConnection } from "./connection.js";
 import { togglePanels } from "./edges.js";
 import { followFile } from "./files.js";
 import { listenToKeys } from "./keys.js";
+import { followLinks } from "./link.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./pointer.js";
 import { followRole } from "./people.js";
@@ -33,6 +34,7 @@ const start = () => {
   followFile();
   followConnection();
   followRole();
+  followLinks();
   followScript();
   connect();
 };

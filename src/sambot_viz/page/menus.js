@@ -7,6 +7,7 @@ import { show } from "./dialogs/dialog.js";
 import { About, Keys } from "./dialogs/help.js";
 import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./files.js";
 import { Icon } from "./icons.js";
+import { copyLink } from "./link.js";
 import { menuKey } from "./menu.js";
 import { useRow } from "./state.js";
 
@@ -36,7 +37,10 @@ const menus = (panels, hideAll) => [
     { name: "Save Image…", does: saveImage },
     { name: "Export Page…", does: exportPage, off: !rows.get("file/page") },
   ] },
-  { name: "Edit", entries: () => [edit("edit/undo", "Ctrl+Z"), edit("edit/redo", "Ctrl+Shift+Z")] },
+  { name: "Edit", entries: () => [
+    edit("edit/undo", "Ctrl+Z"), edit("edit/redo", "Ctrl+Shift+Z"), null,
+    { name: "Copy link to this view", does: copyLink, off: !rows.get("link/copy") },
+  ] },
   { name: "Panels", entries: () => [
     ...panels().map(({ title, shown, toggle }) => ({ name: title, checked: shown, does: toggle })), null,
     { name: "Hide all", keys: "H", does: hideAll },

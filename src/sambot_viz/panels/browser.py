@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from sambot_viz.panels.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.files import AskPage, Files, FilesPanel
 from sambot_viz.panels.frames import FramesPanel
+from sambot_viz.panels.link import LinkPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import OwnRolePanel
 from sambot_viz.panels.publisher import Publisher
@@ -31,6 +32,7 @@ class BrowserPanels:
         files: the disk, for those who may use it.
         ask_page: makes a page of what is seen; None leaves that out.
         displays: the rows of the displays, for everyone.
+        shared_row: finds a row that everyone sees, by its id.
     """
 
     def __init__(
@@ -40,9 +42,11 @@ class BrowserPanels:
         files: Files | None,
         ask_page: AskPage | None,
         displays: DisplaysPanel,
+        shared_row: Callable[[str], Row | None],
     ) -> None:
         self._notices = NoticePanel()
         self._displays = displays
+        self._shared_row = shared_row
         self._browser = browser
         self._publisher = Publisher(
             browser.client,
@@ -66,6 +70,7 @@ class BrowserPanels:
             SelectionPanel(session, browser),
             ToolPropertiesPanel(session, browser),
             FramesPanel(session, browser, self.say),
+            LinkPanel(session, browser, self._shared_row, self._remake),
             FilesPanel(session, browser, files, ask_page, keep, self.say, self._remake),
         ]
 
@@ -98,7 +103,7 @@ class BrowserPanels:
 
     def give(self, answer: Answer) -> None:
         """Say something to the browser's user, and fill the clipboard."""
-        self._notices.say(answer.say, "ok", copy=answer.copy)
+        self._notices.say(answer.say, answer.level, copy=answer.copy)
         self._publisher.remake(self._notices)
 
 

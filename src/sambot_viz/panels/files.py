@@ -117,6 +117,7 @@ class FilesPanel(Panel):
                 "action",
                 "page",
                 takes=(str,),
+                own=True,
                 set=lambda sent: self._page(ask, sent[0]),
             )
         yield Row("file/answer", "", "names", value=self._answer)

@@ -44,10 +44,12 @@ class Answer:
     Attributes:
         say: a sentence for its status bar; with a text to copy, what that is.
         copy: a text for its clipboard.
+        level: how good or bad what is said is.
     """
 
     say: str = ""
     copy: str = ""
+    level: Level = "ok"
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import itertools
 import json
 import weakref
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, cast
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.gate import checked
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Row, own
+from sambot_viz.panels.row import Json, Row, own
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
@@ -63,10 +63,10 @@ class ViewsPanel(Panel):
             "enum",
             "Type",
             value=row_text(view.kind),
-            options=tuple(_KINDS),
+            options=tuple(KINDS),
             help=view.help,
             extra={"apart": True},
-            set=lambda label: self._browser.view.set_kind(_KINDS[label]),
+            set=lambda label: self._browser.view.set_kind(KINDS[label]),
         )
 
     def _current(self) -> Iterator[Row]:
@@ -110,16 +110,10 @@ class ViewsPanel(Panel):
         That is not an edit to undo: the user sees what was there before.
         """
         label, sent = arguments
-        view = self._browser.view
-        with self._session.edits.unrecorded():
-            if label in _KINDS and _KINDS[label] != view.view.kind:
-                view.set_kind(_KINDS[label])
-            values = _read(sent)
-            rows = property_rows(view.view.config, CURRENT, view.set)
-            # Another target turns the numbers that come after it.
-            for row in sorted(rows, key=lambda row: row.kind != "frame"):
-                if row.set is not None and row.id in values:
-                    row.set(checked(row, values[row.id]))
+        values = _read(sent)
+        look_as(
+            self._session, self._browser, KINDS.get(label), lambda r: values.get(r.id)
+        )
 
     # The saved views
 
@@ -176,6 +170,35 @@ class ViewsPanel(Panel):
         )
 
 
+def look_as(
+    session: Session,
+    browser: Browser,
+    kind: str | None,
+    wanted: Callable[[Row], Json],
+) -> None:
+    """Show the view of another page, or of this page at another time; no edit to undo.
+
+    Args:
+        session: what is shown.
+        browser: whose view it is.
+        kind: the type of the view; None keeps it.
+        wanted: the value for each row of the view, not checked yet; None keeps it.
+
+    Raises:
+        UsageError: a value that it cannot have.
+    """
+    view = browser.view
+    with session.edits.unrecorded():
+        if kind is not None and kind != view.view.kind:
+            view.set_kind(kind)
+        rows = property_rows(view.view.config, CURRENT, view.set)
+        # Another target turns the numbers that come after it.
+        for row in sorted(rows, key=lambda row: row.kind != "frame"):
+            value = None if row.set is None else wanted(row)
+            if row.set is not None and value is not None:
+                row.set(checked(row, value))
+
+
 def _read(sent: str) -> dict[str, Any]:
     """The values of rows by their ids; nothing when it is not that."""
     try:
@@ -185,7 +208,7 @@ def _read(sent: str) -> dict[str, Any]:
     return cast("dict[str, Any]", values) if isinstance(values, dict) else {}
 
 
-_KINDS = {row_text(kind): kind for kind in VIEWS}
+KINDS = {row_text(kind): kind for kind in VIEWS}
 """Type of view as it is shown → its name in a file."""
 _UNKNOWN = (
     "The config asks for a type of view that is not known here: shown as Orbit, and "

@@ -90,7 +90,12 @@ class Window:
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:
             self._browsers[browser.client_id] = BrowserPanels(
-                self._session, browser, self._files, self._ask_page, self._displays
+                self._session,
+                browser,
+                self._files,
+                self._ask_page,
+                self._displays,
+                lambda row_id: self._shared.row(row_id),
             )
         else:
             panels = self._browsers.pop(browser.client_id, None)

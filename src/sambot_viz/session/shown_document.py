@@ -15,6 +15,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.drawn_scene import DrawnScene
 from sambot_viz.session.history import EditHistory
 from sambot_viz.session.shared_state import Audience, SharedState
+from sambot_viz.session.switches import first_switches
 from sambot_viz.session.worker import Worker
 
 
@@ -34,6 +35,7 @@ class ShownDocument(SharedState):
         context: what displays draw with.
         drawn: the displays and the background.
         edits: what browsers can undo, and whether the document is saved.
+        first_switches: how the switches of the document were before any edit.
     """
 
     def __init__(
@@ -57,6 +59,7 @@ class ShownDocument(SharedState):
         )
         self.drawn = DrawnScene(self.context, config)
         self.edits = EditHistory(self)
+        self.first_switches = first_switches(config)
 
     @property
     def config(self) -> RvizConfig:

@@ -1,0 +1,225 @@
+"""What one browser shows, as a link that shows the same elsewhere.
+
+A link has the names and values of what differs from the start, as a form that is sent
+has them. Every value is checked as if a user had set it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from typing import Any, cast
+
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.gate import checked
+from sambot_viz.panels.joints import joint_id
+from sambot_viz.panels.link_parts import (
+    OFF,
+    ON,
+    VERSION,
+    LinkParts,
+    Pair,
+    number,
+    read,
+    short,
+    written,
+)
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.property_rows import property_rows
+from sambot_viz.panels.row import Answer, Json, Row, own
+from sambot_viz.panels.views import CURRENT, look_as
+from sambot_viz.rviz import FIXED_FRAME, ConfigItem
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.session.switches import switches
+from sambot_viz.tools.picking.hit import Selectable
+from sambot_viz.views.registry import VIEWS
+
+
+class LinkPanel(Panel):
+    """Makes links, and shows what a link says.
+
+    Args:
+        session: what is shown.
+        browser: whose view and selection it is.
+        row: finds the row of a joint, by its id.
+        remake: called when a link has been made.
+    """
+
+    name = "link"
+
+    def __init__(
+        self,
+        session: Session,
+        browser: Browser,
+        row: Callable[[str], Row | None],
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self._session = session
+        self._browser = browser
+        self._row = row
+        self._remake = remake
+        self._made: Json = None
+        self._count = 0
+
+    def rows(self) -> Sequence[Row]:
+        """The last link that was made, as its parts, and the actions."""
+        return [
+            Row("link/made", "", "names", value=self._made),
+            *own(
+                [
+                    _action("link/copy", lambda _: self._copy()),
+                    _action("link/open", self._open, list, list),
+                ]
+            ),
+        ]
+
+    # Making one
+
+    def _copy(self) -> None:
+        self._count += 1
+        parts = [list(pair) for pair in self._parts()]
+        self._made = {"number": self._count, "parts": parts}
+        self._remake(self)
+
+    def _parts(self) -> Iterator[Pair]:
+        """The names and values of a link; the last one shows that none is missing."""
+        view = self._browser.view.view
+        yield "view", view.kind.rpartition("/")[2]
+        for row in property_rows(view.config, CURRENT, lambda path, value: None):
+            default = _default(view.config, row)
+            if row.set is not None and row.value not in (None, default):
+                yield f"view.{_path(row)}", written(row.value)
+        robot = self._session.robot
+        if robot is not None:
+            yield "robot", robot.name
+        yield from self._moved()
+        for name, switch in switches(self._session).items():
+            if switch.on != switch.first:
+                yield f"show.{name}", ON if switch.on else OFF
+        for item in self._browser.tools.selection:
+            yield "select", f"{item.kind}:{item.name}"
+        yield "v", VERSION
+
+    def _moved(self) -> Iterator[Pair]:
+        joints, first = self._session.joints, self._session.first_positions
+        if joints is None:
+            return
+        for name, q in joints.positions.items():
+            if q != first.get(name):
+                row = self._row(joint_id(name))
+                yield f"j.{name}", repr(q) if row is None else short(row, q)
+
+    # Opening one
+
+    def _open(self, arguments: tuple[list[Any], list[Any]]) -> Answer:
+        link = LinkParts.read(*arguments)
+        robot = self._session.robot
+        link.elsewhere = robot is not None and link.robot not in (None, robot.name)
+        link.watching = not self._session.roles.may_edit(self._browser.client_id)
+        self._look(link)
+        self._move(link)
+        self._switch(link)
+        self._select(link)
+        return link.answer()
+
+    def _look(self, link: LinkParts) -> None:
+        kinds = {kind.rpartition("/")[2]: kind for kind in VIEWS}
+        if link.kind not in kinds:
+            link.missing["view"] += [link.kind]
+            return
+        frames = {FIXED_FRAME, *self._session.tree.frames}
+        used: set[str] = set()
+
+        def wanted(row: Row) -> Json:
+            path = _path(row)
+            used.add(path)
+            given = link.view.get(path)
+            if given is None:
+                return _default(self._browser.view.view.config, row)
+            value = read(row, given)
+            if row.kind == "frame" and value not in frames:
+                link.missing["frame"] += [given]
+                return None
+            try:
+                checked(row, value)
+            except UsageError as error:
+                link.refused.append(str(error))
+                return None
+            return value
+
+        look_as(self._session, self._browser, kinds[link.kind], wanted)
+        link.missing["property of the view"] += [p for p in link.view if p not in used]
+
+    def _move(self, link: LinkParts) -> None:
+        session, joints = self._session, self._session.joints
+        if joints is None:
+            link.missing["joint"] += link.joints
+            return
+        positions: dict[str, float] = {}
+        if not link.elsewhere:
+            # What a link does not name is where it was at first.
+            first = session.first_positions.items()
+            positions = {n: q for n, q in first if n in joints.free}
+        for name, given in link.joints.items():
+            row = self._row(joint_id(name))
+            if row is None or row.kind != "slider":
+                link.missing["joint"] += [name]
+                continue
+            try:
+                positions[name] = checked(row, number(given))
+            except UsageError as error:
+                positions.pop(name, None)
+                link.refused.append(str(error))
+        changed = {n: q for n, q in positions.items() if joints.positions[n] != q}
+        if changed and link.watching:
+            link.kept = True
+        elif changed:
+            session.set_joint_positions(changed, "Open a link")
+
+    def _switch(self, link: LinkParts) -> None:
+        for name in sorted(link.switches.keys() - switches(self._session).keys()):
+            link.missing["display or part of one"] += [name.replace("/=", "/")]
+        # A switch for all links turns each of them: those of the links come after it.
+        for of_entries in (False, True):
+            for name, switch in switches(self._session).items():
+                if ("/=" in name) is not of_entries:
+                    continue
+                as_now = switch.on if link.elsewhere else switch.first
+                on = link.switches.get(name, as_now)
+                if on != switch.on and link.watching:
+                    link.kept = True
+                elif on != switch.on:
+                    try:
+                        switch.set(on)
+                    except UsageError as error:
+                        link.refused.append(str(error))
+
+    def _select(self, link: LinkParts) -> None:
+        robot, frames = self._session.robot, self._session.tree.frames
+        links: Collection[str] = () if robot is None else robot.links
+        items: set[Selectable] = set()
+        for given in link.selected:
+            kind, _, name = given.partition(":")
+            if kind == "link" and name in links:
+                items.add(Selectable("link", name))
+            elif kind == "frame" and name in frames:
+                items.add(Selectable("frame", name))
+            else:
+                link.missing[kind if kind in ("link", "frame") else "thing"] += [name]
+        if items != set(self._browser.tools.selection):
+            self._browser.tools.select(items, None)
+
+
+def _action(row_id: str, act: Callable[[Any], object], *takes: type) -> Row:
+    return Row(row_id, "", "action", "link", takes=takes, set=act)
+
+
+def _path(row: Row) -> str:
+    return row.id.removeprefix(f"{CURRENT}/")
+
+
+def _default(config: ConfigItem, row: Row) -> Json:
+    default = config.declared[_path(row)].property.default
+    if isinstance(default, tuple):
+        return list(cast("tuple[Json, ...]", default))
+    return default

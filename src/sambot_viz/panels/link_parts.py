@@ -1,0 +1,160 @@
+"""A link as names and values: reading one, and writing values short and exact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from sambot_viz.errors import UsageError
+from sambot_viz.panels.row import Answer, Json, Row
+from sambot_viz.session.roles import WATCHING
+from sambot_viz.text import text
+
+VERSION = "1"
+MOST_NAMED = 4
+"""So many names of what a link has and this robot has not are said."""
+ON, OFF = "1", "0"
+
+Pair = tuple[str, str]
+
+
+@dataclass
+class LinkParts:
+    """What a link says, and what of it cannot be shown here.
+
+    Attributes:
+        kind: the type of the view, such as "Orbit".
+        robot: the name of the robot.
+        view: property of the view → value.
+        joints: joint → position [rad or m].
+        switches: those of the displays, by name (see `session.switches`).
+        selected: kind and name of what is selected, such as "link:base_link".
+        elsewhere: whether the robot here is another one.
+        watching: whether this browser may only change what it alone shows.
+        kept: whether joints or switches stay as they are for that reason.
+        missing: what of it is not here.
+        refused: why some of the values cannot be.
+    """
+
+    kind: str = ""
+    robot: str | None = None
+    view: dict[str, str] = field(default_factory=dict[str, str])
+    joints: dict[str, str] = field(default_factory=dict[str, str])
+    switches: dict[str, bool] = field(default_factory=dict[str, bool])
+    selected: list[str] = field(default_factory=list[str])
+    elsewhere: bool = False
+    watching: bool = False
+    kept: bool = False
+    missing: Missing = field(default_factory=lambda: Missing())
+    refused: list[str] = field(default_factory=list[str])
+
+    @classmethod
+    def read(cls, names: list[Any], values: list[Any]) -> LinkParts:
+        """Read the parts of a link.
+
+        Raises:
+            UsageError: a part is missing, or it is no link of this program.
+        """
+        pairs = list(zip(names, values, strict=False))
+        whole = len(names) == len(values) and all(
+            isinstance(part, str) for part in (*names, *values)
+        )
+        if not whole or not pairs or names[-1] != "v":
+            raise UsageError(
+                "this link is not whole, and nothing was changed: copy it again"
+            )
+        if values[-1] != VERSION:
+            raise UsageError(
+                "this link is of another version of sambot-viz, and nothing was changed"
+            )
+        link = cls()
+        for name, value in cast("list[Pair]", pairs[:-1]):
+            link._take(name, value)
+        return link
+
+    def answer(self) -> Answer:
+        """What a user reads: all is as in the link, or what is not."""
+        said = [self.missing.sentence(), *self.refused[:MOST_NAMED]]
+        if self.kept:
+            said.append(f"joints and displays stay as they are: {WATCHING}")
+        trouble = "; ".join(part for part in said if part)
+        if not trouble and not self.elsewhere:
+            return Answer("Opened the link")
+        begin = "Opened the link, but not all of it"
+        if self.elsewhere:
+            begin = f"Opened a link of the robot '{text(self.robot or '', 60)}'"
+        return Answer(f"{begin}: {trouble}" if trouble else begin, level="warn")
+
+    def _take(self, name: str, value: str) -> None:
+        head, _, rest = name.partition(".")
+        if name == "view":
+            self.kind = value
+        elif name == "robot":
+            self.robot = value
+        elif name == "select":
+            self.selected.append(value)
+        elif head == "view":
+            self.view[rest] = value
+        elif head == "j":
+            self.joints[rest] = value
+        elif head == "show" and value in (ON, OFF):
+            self.switches[rest] = value == ON
+        else:
+            self.missing["part of the link"] += [name]
+
+
+class Missing(dict[str, list[str]]):
+    """Kind of thing → the names of those that are not there."""
+
+    def __missing__(self, kind: str) -> list[str]:
+        return []
+
+    def sentence(self) -> str:
+        """What is not there, in words."""
+        parts: list[str] = []
+        for kind, names in self.items():
+            shown = [f"'{text(name, 60)}'" for name in names[:MOST_NAMED]]
+            if len(names) > MOST_NAMED:
+                shown.append(f"{len(names) - MOST_NAMED} more")
+            if names:
+                parts.append(f"no {kind} {', '.join(shown)}")
+        return "; ".join(parts)
+
+
+def written(value: Json) -> str:
+    """A value of a row as a text of a link."""
+    if isinstance(value, bool):
+        return ON if value else OFF
+    if isinstance(value, list | tuple):
+        return ",".join(written(part) for part in cast("Sequence[Json]", value))
+    return f"{value:.7g}" if isinstance(value, float) else str(value)
+
+
+def short(row: Row, position: float) -> str:
+    """A position with few digits, if that is inside the limits too."""
+    rounded = f"{position:.6g}"
+    low, high = row.least, row.most
+    inside = (low is None or low <= float(rounded)) and (
+        high is None or float(rounded) <= high
+    )
+    return rounded if inside else repr(position)
+
+
+def read(row: Row, given: str) -> Json:
+    """A text of a link as the value of a row; the gate checks it."""
+    if row.kind == "bool":
+        return {ON: True, OFF: False}.get(given, given)
+    if row.kind in ("int", "float"):
+        return number(given)
+    if row.kind == "vector":
+        return [number(part) for part in given.split(",")]
+    return given
+
+
+def number(given: str) -> Json:
+    """A number, or the text itself, which no row for numbers takes."""
+    try:
+        return float(given)
+    except ValueError:
+        return given

@@ -1,0 +1,289 @@
+"""Links: what one browser shows, shown in another one, or not, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from inside import session_of
+
+from sambot_viz import UsageError, Visualizer
+from sambot_viz.panels import gate
+from sambot_viz.panels.joints import JointsPanel
+from sambot_viz.panels.link import LinkPanel
+from sambot_viz.panels.row import Answer, Row
+from sambot_viz.session import Session
+from sambot_viz.session.browser import Browser
+from sambot_viz.session.switches import switches
+from sambot_viz.tools.picking.hit import Selectable
+
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+Pairs = list[list[str]]
+Join = Callable[[], Browser]
+ORBIT = [["view", "Orbit"], ["view.Distance", "3"]]
+END = [["v", "1"]]
+
+
+class Links:
+    """The links of one browser: what it copies, and what it is told."""
+
+    def __init__(self, session: Session, browser: Browser) -> None:
+        self.session, self.browser = session, browser
+        joints = JointsPanel(session, lambda panel: None)
+        self.panel = LinkPanel(
+            session,
+            browser,
+            lambda row_id: next((r for r in joints.rows() if r.id == row_id), None),
+            lambda panel: None,
+        )
+
+    def row(self, row_id: str) -> Row:
+        return next(row for row in self.panel.rows() if row.id == row_id)
+
+    def act(self, row_id: str, *sent: Any) -> Any:
+        row = self.row(row_id)
+        with self.session.edits.acting(self.browser.client_id):
+            assert row.set is not None
+            return row.set(gate.checked(row, list(sent)))
+
+    def copy(self) -> Pairs:
+        self.act("link/copy")
+        parts: Pairs = self.row("link/made").value["parts"]
+        return parts
+
+    def open(self, parts: Pairs) -> str:
+        answer = self.act(
+            "link/open", [name for name, _ in parts], [value for _, value in parts]
+        )
+        assert isinstance(answer, Answer)
+        return answer.say
+
+
+@pytest.fixture
+def links(session: Session, browser: Browser) -> Links:
+    return Links(session, browser)
+
+
+def state(links: Links) -> dict[str, Any]:
+    session, view = links.session, links.browser.view
+    assert session.joints is not None
+    return {
+        "joints": dict(session.joints.positions),
+        "kind": view.view.kind,
+        "view": dict(view.values),
+        "switches": {name: switch.on for name, switch in switches(session).items()},
+        "selection": list(links.browser.tools.selection),
+    }
+
+
+def change(links: Links) -> None:
+    """Move, turn, switch and select something."""
+    session, browser = links.session, links.browser
+    session.set_joint_positions({LEFT: 1.25})
+    browser.view.set_kind("rviz_default_plugins/XYOrbit")
+    browser.view.set("Distance", 2.5)
+    browser.view.set("Focal Point", (0.5, -0.25, 0.0))
+    wanted = {
+        "Grid/Enabled": False,
+        "TF/Show Names": False,
+        "RobotModel/Links/=base_link": False,
+    }
+    for name, on in wanted.items():
+        switches(session)[name].set(on)
+    browser.tools.select(
+        {Selectable("link", "base_link"), Selectable("frame", "front_caster")}, None
+    )
+
+
+def test_at_the_start_a_link_is_only_the_view(links: Links) -> None:
+    names = [name for name, _ in links.copy()]
+    assert names[0] == "view" and names[-1] == "v"
+    rest = [name for name in names if not name.startswith("view")]
+    assert rest == ["robot", "v"]
+
+
+def test_a_link_has_what_differs_from_the_start(links: Links) -> None:
+    change(links)
+    parts = dict(links.copy())
+    assert parts["view"] == "XYOrbit"
+    assert parts["view.Distance"] == "2.5"
+    assert parts["view.Focal Point"] == "0.5,-0.25,0"
+    assert parts[f"j.{LEFT}"] == "1.25"
+    shown = {name: value for name, value in parts.items() if name.startswith("show.")}
+    assert shown == {
+        "show.Grid/Enabled": "0",
+        "show.TF/Show Names": "0",
+        "show.RobotModel/Links/=base_link": "0",
+    }
+    assert f"j.{RIGHT}" not in parts
+
+
+def test_a_link_shows_the_same_in_another_program(
+    links: Links, protocol: Callable[..., Any]
+) -> None:
+    change(links)
+    parts, wanted = links.copy(), state(links)
+    with Visualizer(port=0) as other:
+        client = protocol(other.viser.get_port())
+        client.settle(other.viser)
+        session = session_of(other)
+        client.wait_until(lambda: bool(session.browsers))
+        (browser,) = session.browsers.values()
+        there = Links(session, browser)
+        session.set_joint_positions({RIGHT: 0.5})
+        assert there.open(parts) == "Opened the link"
+        assert state(there) == wanted
+
+
+def test_a_link_brings_its_own_program_back_and_is_one_step_to_undo(
+    links: Links,
+) -> None:
+    change(links)
+    parts, wanted = links.copy(), state(links)
+    session = links.session
+    session.center_joints()
+    session.set_joint_positions({RIGHT: 1.0})
+    switches(session)["Grid/Enabled"].set(True)
+    switches(session)["TF/Show Arrows"].set(False)
+    links.browser.tools.select(set(), None)
+    before = state(links)
+    assert links.open(parts) == "Opened the link"
+    assert state(links) == wanted
+    session.edits.undo(links.browser.client_id)
+    kept = ("joints", "switches")
+    assert {k: state(links)[k] for k in kept} == {k: before[k] for k in kept}
+
+
+@pytest.mark.parametrize(
+    ("parts", "said"),
+    [
+        ([], "this link is not whole, and nothing was changed: copy it again"),
+        ([*ORBIT, [f"j.{LEFT}", "1"]], "this link is not whole"),
+        ([*ORBIT, [f"j.{LEFT}", "1"], ["v", "2"]], "of another version of sambot-viz"),
+    ],
+)
+def test_a_link_that_was_cut_changes_nothing(
+    links: Links, parts: Pairs, said: str
+) -> None:
+    before = state(links)
+    with pytest.raises(UsageError, match=said):
+        links.open(parts)
+    assert state(links) == before
+
+
+def test_values_that_cannot_be_are_named_and_the_rest_is_shown(links: Links) -> None:
+    said = links.open(
+        [
+            *ORBIT,
+            ["view.Yaw", "much"],
+            ["view.Focal Point", "1,2"],
+            ["view.Target Frame", "nowhere"],
+            ["view.Colour", "red"],
+            [f"j.{LEFT}", "nan"],
+            [f"j.{RIGHT}", "0.5"],
+            ["show.Grid/Enabled", "maybe"],
+            ["__proto__", "<img onerror=alert(1)>"],
+            *END,
+        ]
+    )
+    assert links.browser.view.values["Distance"] == 3.0
+    assert state(links)["joints"] == {LEFT: 0.0, RIGHT: 0.5}
+    assert "no frame 'nowhere'" in said
+    assert "no property of the view 'Colour'" in said
+    assert "no part of the link 'show.Grid/Enabled', '__proto__'" in said
+    assert "'Yaw' needs a number" in said and "'Focal Point' needs 3 numbers" in said
+    assert f"'{LEFT}' needs a number" in said
+
+
+def test_a_link_of_another_robot_says_what_is_not_here_and_changes_only_what_it_names(
+    links: Links,
+) -> None:
+    links.session.set_joint_positions({LEFT: 1.0})
+    switches(links.session)["TF/Show Names"].set(False)
+    before = state(links)
+    names = [f"joint_{n}" for n in range(6)]
+    said = links.open(
+        [
+            *ORBIT,
+            ["robot", "arm"],
+            *([f"j.{name}", "1"] for name in names),
+            ["show.Grid/Enabled", "0"],
+            ["show.Hand/Enabled", "0"],
+            ["select", "link:gripper"],
+            ["select", "link:base_link"],
+            *END,
+        ]
+    )
+    assert said == (
+        "Opened a link of the robot 'arm': no joint 'joint_0', 'joint_1', 'joint_2', "
+        "'joint_3', 2 more; no display or part of one 'Hand/Enabled'; "
+        "no link 'gripper'"
+    )
+    after = state(links)
+    assert after["joints"] == before["joints"]
+    assert after["switches"] == {**before["switches"], "Grid/Enabled": False}
+    assert after["selection"] == [Selectable("link", "base_link")]
+
+
+def test_a_position_at_a_limit_stays_inside_it(
+    tmp_path: Any, protocol: Callable[..., Any]
+) -> None:
+    model = tmp_path / "arm.urdf"
+    model.write_text(
+        """<robot name="arm"><link name="a"/><link name="b"/>
+        <joint name="elbow" type="revolute"><parent link="a"/><child link="b"/>
+        <limit lower="-1.5707963" upper="1.5707963" effort="1" velocity="1"/></joint>
+        </robot>""",
+        "utf-8",
+    )
+    with Visualizer(model, port=0) as viz:
+        client = protocol(viz.viser.get_port())
+        client.settle(viz.viser)
+        session = session_of(viz)
+        client.wait_until(lambda: bool(session.browsers))
+        (browser,) = session.browsers.values()
+        links = Links(session, browser)
+        session.set_joint_positions({"elbow": 1.5707963})
+        parts = links.copy()
+        assert ["j.elbow", "1.5707963"] in parts
+        session.set_joint_positions({"elbow": 0.1234567})
+        assert ["j.elbow", "0.123457"] in links.copy()
+        assert links.open(parts) == "Opened the link"
+        assert dict(viz.joint_positions) == {"elbow": 1.5707963}
+
+
+def test_two_displays_of_one_name_are_two_in_a_link(links: Links) -> None:
+    session = links.session
+    (grid, *_) = session.config.displays
+    copy = session.duplicate_display(grid)
+    session.rename_display(copy, grid.name)
+    switches(session)["Grid*2/Enabled"].set(False)
+    parts = links.copy()
+    assert ["show.Grid*2/Enabled", "0"] in parts
+    switches(session)["Grid*2/Enabled"].set(True)
+    assert links.open(parts) == "Opened the link"
+    assert grid.enabled and not copy.enabled
+
+
+def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
+    protocol: Callable[..., Any],
+) -> None:
+    with Visualizer(port=0, presenter="who-has-this-drives") as viz:
+        client = protocol(viz.viser.get_port())
+        client.settle(viz.viser)
+        session = session_of(viz)
+        client.wait_until(lambda: bool(session.browsers))
+        (browser,) = session.browsers.values()
+        links = Links(session, browser)
+        assert all(row.own for row in links.panel.rows() if row.kind == "action")
+        only_view = [*ORBIT, *END]
+        assert links.open(only_view) == "Opened the link"
+        before = state(links)
+        said = links.open(
+            [*ORBIT, [f"j.{LEFT}", "1"], ["select", "link:base_link"], *END]
+        )
+        assert "joints and displays stay as they are: you are watching" in said
+        after = state(links)
+        assert after["selection"] == [Selectable("link", "base_link")]
+        assert {**after, "selection": []} == before
