@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import pytest
 from inside import session_of
@@ -113,6 +113,7 @@ def send_everything(client: ProtocolClient, outside: Path) -> None:
         "x" * 300,
         "a/" * 499,
         "second.urdf",
+        "none",
     ]
     kinds = {row_id: row["kind"] for row_id, row in client.rows.items()}
     for action in ("save", "save-as", "list", "open", "download"):
@@ -131,16 +132,21 @@ def send_everything(client: ProtocolClient, outside: Path) -> None:
             client.edit(row_id, True if kind == "bool" else 1)
 
 
-@pytest.mark.parametrize("session", ["shared", "private"])
+@pytest.mark.parametrize("session", ["shared", "private", "copy"])
 def test_a_browser_reaches_nothing_outside_the_opened_folders(
-    disk: Disk, opened: Path, protocol: Connect, session: Literal["shared", "private"]
+    disk: Disk, opened: Path, protocol: Connect, session: str
 ) -> None:
     outside = opened.parent / "outside"
     before = content(opened.parent)
     with Visualizer(
-        opened / "robot.urdf", opened / "mine.rviz", port=0, session=session
+        opened / "robot.urdf",
+        opened / "mine.rviz",
+        port=0,
+        session="private" if session == "private" else "shared",
     ) as viz:
-        client = protocol(viz.viser.get_port())
+        path = "/copy" if session == "copy" else "/"
+        client = protocol(viz.viser.get_port(), path=path)
+        client.wait_until(lambda: "file/state" in client.rows)
         client.settle(viz.viser)
         client.edit(client.id_of(*SOURCE), "File")
         client.settle(viz.viser)
@@ -154,7 +160,7 @@ def test_a_browser_reaches_nothing_outside_the_opened_folders(
     assert not secret & {*disk.read, *disk.written}
     after = content(opened.parent)
     changed = {path for path in after if after[path] != before.get(path)}
-    if session == "private":
+    if session != "shared":
         assert disk.written == []
         assert changed == set()
         return
@@ -163,31 +169,47 @@ def test_a_browser_reaches_nothing_outside_the_opened_folders(
     assert all(path.parent == opened for path in disk.written)
 
 
+def choose_code(viz: Visualizer, client: ProtocolClient, opened: Path) -> None:
+    """Let the RobotModel show a model whose code runs only when it is trusted."""
+    for names, value in ((SOURCE, "File"), (MODEL, str(opened / "code.xacro"))):
+        client.settle(viz.viser)
+        client.edit(client.id_of(*names), value)
+    client.settle(viz.viser)
+    assert client.shown(*MODEL) == str(opened / "code.xacro")
+
+
 def test_a_model_in_a_config_that_a_browser_has_saved_is_not_trusted(
     opened: Path, protocol: Connect
 ) -> None:
     with Visualizer(opened / "robot.urdf", opened / "mine.rviz", port=0) as viz:
         client = protocol(viz.viser.get_port())
-        client.settle(viz.viser)
-
-        def do(row_id: str, *values: Any) -> None:
+        choose_code(viz, client, opened)
+        for row_id, *values in (
+            ("file/save-as", "saved", False, []),
+            ("file/open", "mine.rviz"),
+            ("file/open", "saved.rviz"),
+        ):
             client.act(row_id, *values)
             client.settle(viz.viser)
-
-        client.edit(client.id_of(*SOURCE), "File")
-        client.settle(viz.viser)
-        client.edit(client.id_of(*MODEL), str(opened / "code.xacro"))
-        client.settle(viz.viser)
-        assert client.shown(*MODEL) == str(opened / "code.xacro")
-        do("file/save-as", "saved", False, [])
-        do("file/open", "mine.rviz")
-        do("file/open", "saved.rviz")
         assert client.shown(*MODEL) == str(opened / "code.xacro")
         viz.server.wait_for_meshes(20.0)
         assert "second/RUN" not in session_of(viz).tree.frames
     with Visualizer(opened / "robot.urdf", opened / "saved.rviz", port=0) as viz:
         viz.server.wait_for_meshes(20.0)
         assert "second/RUN" in session_of(viz).tree.frames
+
+
+def test_a_copy_trusts_no_model_that_a_browser_has_named(
+    opened: Path, protocol: Connect
+) -> None:
+    with Visualizer(opened / "robot.urdf", opened / "mine.rviz", port=0) as viz:
+        choose_code(viz, protocol(viz.viser.get_port()), opened)
+        copy = protocol(viz.viser.get_port(), path="/copy")
+        copy.wait_until(lambda: len(viz.server.sessions()) == 2)
+        copy.wait_until(lambda: "file/state" in copy.rows)
+        assert copy.shown(*MODEL) == str(opened / "code.xacro")
+        viz.server.wait_for_meshes(20.0)
+        assert "second/RUN" not in viz.server.sessions()[1].tree.frames
 
 
 def test_the_config_of_the_program_opens_no_other_folder(

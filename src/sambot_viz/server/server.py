@@ -288,6 +288,8 @@ class Server:
             self.options,
             poses,
         )
+        if copy is not None:
+            copy.trust(session)
         session.show_config()
         checks = self._checks[session] = CheckResults(session)
         if self._robot is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.joints.presets import Presets
@@ -23,12 +24,16 @@ class SessionCopy:
         positions: joint → position [rad or m], without those that follow others.
         frames: child → frame that was added.
         poses: the named poses, in memory only.
+        config_file: the .rviz file that the command line opened, or None.
+        trusted_files: the models that it named before a browser could change it.
     """
 
     config: RvizConfig
     positions: Mapping[str, float]
     frames: Mapping[str, UserFrame]
     poses: Presets
+    config_file: Path | None
+    trusted_files: frozenset[str]
 
     @classmethod
     def of(cls, session: Session) -> SessionCopy:
@@ -39,7 +44,17 @@ class SessionCopy:
             {} if joints is None else dict(joints.positions),
             dict(session.added.all),
             session.poses.in_memory(),
+            session.context.config_file,
+            session.context.trusted_files,
         )
+
+    def trust(self, session: Session) -> None:
+        """Let a session, before it draws, trust the models that the first one trusts.
+
+        Its document may name others, which a browser has chosen.
+        """
+        session.context.config_file = self.config_file
+        session.context.trusted_files = self.trusted_files
 
     def give(self, session: Session) -> None:
         """Put joints and frames where they are in the copy."""
