@@ -18,6 +18,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 from a_chromium import a_chromium
@@ -105,11 +106,20 @@ class Started:
         url: what it printed.
         at: when it was started (`time.perf_counter`) [s].
         opened: how long it took until it printed its address [s].
+        process: its number.
+        tell: sends it a line on its standard input.
     """
 
     url: str
     at: float
     opened: float
+    process: int
+    tell: Callable[[str], object]
+
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        return urlsplit(self.url).port or 0
 
 
 @contextmanager
@@ -117,20 +127,29 @@ def start(command: Sequence[str]) -> Generator[Started, None, None]:
     """Run a command until it prints an address on its standard output."""
     at = time.perf_counter()
     process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        bufsize=1,
     )
     try:
+        assert process.stdin is not None
         assert process.stdout is not None
         ready, _, _ = select.select([process.stdout], [], [], LONGEST)
         line = process.stdout.readline() if ready else ""
         found = re.search(r"http://\S+", line)
         assert found is not None, f"{command} printed {line!r}"
-        yield Started(found.group(), at, time.perf_counter() - at)
+        opened = time.perf_counter() - at
+        tell = process.stdin.write
+        yield Started(found.group(), at, opened, process.pid, tell)
     finally:
         process.terminate()
         process.wait(LONGEST)
-        if process.stdout is not None:
-            process.stdout.close()
+        for stream in (process.stdin, process.stdout):
+            if stream is not None:
+                stream.close()
 
 
 @pytest.fixture

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 import statistics
-import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -16,6 +15,7 @@ import pytest
 import robots
 from inside import viser_server
 from protocol_client import ProtocolClient, Received
+from steps import RECORD, Times, delays, drag, report
 from viewer_page import viewer_url
 
 from sambot_viz import Visualizer
@@ -24,13 +24,12 @@ from sambot_viz.export.chromium import Chromium
 RunServer = Callable[[list[str]], AbstractContextManager[Any]]
 Command = Callable[[str], list[str]]
 Join = Callable[[int], ProtocolClient]
-Times = list[tuple[float, float]]
-"""Pairs of a time [s] and the joint's position then, both rising."""
 
 COUNT = 300
 STEPS = 200
 STEP = 0.005
 """Of the joint in each step [rad]."""
+VALUES = [STEP * number for number in range(1, STEPS + 1)]
 PACES = {"single steps": 15.0, "a drag": 60.0}
 """Steps in a second."""
 JOINTS = {
@@ -60,13 +59,6 @@ SEARCH = f"""(async () => {{
   }}
   return times;
 }})()"""
-RECORD = """(() => {
-  const handle = document.querySelector('[data-row="ROW"] input[type=range]');
-  window.benchmarkSeen = [];
-  new MutationObserver(() => benchmarkSeen.push(
-    [(performance.timeOrigin + performance.now()) / 1000, Number(handle.value)],
-  )).observe(handle, { attributes: true });
-})()"""
 THERE = "document.querySelector('#sambot .joints input[type=range]')"
 COUNT_ELEMENTS = """["#sambot", "#sambot .joints", "body"].map(
   part => document.querySelector(part).querySelectorAll("*").length)"""
@@ -123,15 +115,15 @@ def test_a_step_of_one_user_is_soon_in_the_other_browser(
     with run_server(command("chain")) as started:
         port = urlsplit(started.url).port or 0
         sender, receiver = protocol(port), protocol(port)
-        sent, _ = drag(sender, "joint_1", PACES[pace])
+        sent, _ = drag(sender, "joint_1", VALUES, PACES[pace])
         for times_of in (rows_of, poses_of):
             receiver.wait_until(
                 lambda f=times_of: last(f(receiver.messages)) >= sent[-1][1] - STEP / 10
             )
         messages = receiver.messages
     print()
-    row = report(f"{pace}, row", delays(sent, rows_of(messages)))
-    pose = report(f"{pace}, pose", delays(sent, poses_of(messages)))
+    row = report(f"{pace}, row", delays(sent, rows_of(messages), STEP / 10))
+    pose = report(f"{pace}, pose", delays(sent, poses_of(messages), STEP / 10))
     assert max(row, pose) < SOON
 
 
@@ -157,12 +149,12 @@ def test_a_step_of_one_user_in_the_other_page(
         page.wait_for(f"{THERE} && sambotVizLook.lit > 0", timeout=60.0)
         page.evaluate(record)
         client = protocol(urlsplit(started.url).port or 0)
-        _, sent = drag(client, JOINTS[model], PACES[pace])
+        _, sent = drag(client, JOINTS[model], VALUES, PACES[pace])
         page.wait_for(f"benchmarkSeen.at(-1)?.[1] >= {sent[-1][1]}", timeout=60.0)
         seen = [(at, value) for at, value in page.evaluate("benchmarkSeen")]
         page.close()
     print()
-    report(f"{pace}, row in a page, {model}", delays(sent, seen))
+    report(f"{pace}, row in a page, {model}", delays(sent, seen, STEP / 10))
 
 
 @pytest.mark.parametrize("model", ["sam_bot", "chain"])
@@ -201,22 +193,6 @@ def test_elements(
     print(f"\n  {model}: {ours} elements of ours of {everything}, {joints} for joints")
 
 
-def drag(client: ProtocolClient, joint: str, pace: float) -> tuple[Times, Times]:
-    """Move a joint; returns the steps by `perf_counter` and by `time`."""
-    row = f"j/{joint}"
-    # The port is open before the robot is there.
-    client.wait_until(lambda: row in client.rows)
-    by_counter: Times = []
-    by_clock: Times = []
-    start = time.perf_counter()
-    for number in range(1, STEPS + 1):
-        time.sleep(max(0.0, start + number / pace - time.perf_counter()))
-        by_counter.append((time.perf_counter(), STEP * number))
-        by_clock.append((time.time(), STEP * number))
-        client.edit(row, STEP * number, gesture=1)
-    return by_counter, by_clock
-
-
 def rows_of(messages: Sequence[Received]) -> Times:
     """When the row of the first joint changed."""
     found: Times = []
@@ -239,26 +215,6 @@ def poses_of(messages: Sequence[Received]) -> Times:
 
 def last(times: Times) -> float:
     return times[-1][1] if times else 0.0
-
-
-def delays(sent: Times, seen: Times) -> list[float]:
-    """How long each step took until it, or a later one, was seen [s]."""
-    arrived = iter(seen)
-    at, value = next(arrived)
-    found: list[float] = []
-    for start, wanted in sent:
-        while at < start or value < wanted - STEP / 10:
-            at, value = next(arrived)
-        found.append(at - start)
-    return found
-
-
-def report(name: str, times: Sequence[float]) -> float:
-    """Print some times; returns what 95 % of them stay below [s]."""
-    slow = statistics.quantiles(times, n=20)[-1]
-    middle = statistics.median(times)
-    print(f"  {name}: p50 {1000 * middle:.1f} ms, p95 {1000 * slow:.1f} ms")
-    return slow
 
 
 def traffic(messages: Sequence[Received]) -> str:

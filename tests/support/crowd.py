@@ -3,7 +3,7 @@
     with Crowd(port, 30) as crowd:             # all are connected and have the scene
         crowd.joined                           # how long each took until then [s]
         ...                                    # a user moves a joint
-        for light in crowd.look("wheel", 0.5): # all have seen it there
+        for light in crowd.look(0.5):          # all have seen it there
             light.poses, light.bytes
 
 They decode only what they must, so that they do not measure themselves. They note times
@@ -16,11 +16,12 @@ import asyncio
 import math
 import multiprocessing
 import time
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from types import TracebackType
-from typing import Any
+from typing import Any, cast
 
 import msgspec.msgpack
 import viser
@@ -29,7 +30,7 @@ from protocol_client import CAMERA
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
-LONGEST = 120.0
+LONGEST = 60.0
 """How long a crowd may take for anything [s]."""
 
 
@@ -37,7 +38,6 @@ class _Head(msgspec.Struct):
     """What is read of every message."""
 
     type: str
-    name: str = ""
     wxyz: tuple[float, float, float, float] | None = None
 
 
@@ -48,8 +48,8 @@ class _Frame(msgspec.Struct):
 _DECODER = msgspec.msgpack.Decoder(_Frame)
 
 
-Pose = tuple[float, str, float]
-"""When which node was turned to which angle [s, rad]."""
+Pose = tuple[float, float]
+"""When a node was turned to which angle [s, rad]."""
 
 
 @dataclass
@@ -72,7 +72,7 @@ class Light:
 
 
 class Crowd:
-    """Light browsers that join at the same time.
+    """Light browsers that join at the same time, when the block begins.
 
     Args:
         port: of the server.
@@ -96,11 +96,19 @@ class Crowd:
             process.start()
             self._pipes.append(ours)
             self._processes.append(process)
+        self.joined: list[float] = []
         self._ask("ready")
-        self.joined = [light.joined for light in self._ask("join")]
 
     def __enter__(self) -> Crowd:
-        return self
+        with self.joining():
+            return self
+
+    @contextmanager
+    def joining(self) -> Generator[None]:
+        """Join while a block runs."""
+        self._tell("join")
+        yield
+        self.joined = [light.joined for light in self._answers()]
 
     def __exit__(
         self,
@@ -108,29 +116,38 @@ class Crowd:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End all connections."""
         for process in self._processes:
             process.terminate()
             process.join(LONGEST)
 
-    def look(self, name: str = "", angle: float = -math.inf) -> list[Light]:
+    def look(self, angle: float = -math.inf) -> list[Light]:
         """What each has seen since the last look.
 
         Args:
-            name: end of the name of a node.
-            angle: wait until every browser that is connected has seen the node at it,
+            angle: wait until every browser that is connected has seen a node at it,
                 or beyond [rad].
         """
-        return self._ask("look", name, angle)
+        return self._ask("look", angle)
 
     def _ask(self, *words: object) -> list[Light]:
+        self._tell(*words)
+        return self._answers(words)
+
+    def _tell(self, *words: object) -> None:
         for pipe in self._pipes:
             pipe.send(words)
+
+    def _answers(self, words: object = "join") -> list[Light]:
         found: list[Light] = []
         for pipe in self._pipes:
             assert pipe.poll(LONGEST), f"no answer to {words}"
             answer = pipe.recv()
             assert isinstance(answer, list), answer
-            found += answer
+            found += cast(list[Light], answer)
         return found
 
 
@@ -164,12 +181,9 @@ async def _serve(pipe: Connection, port: int, count: int, meshes: int) -> None:
             light.poses, light.bytes = [], 0
 
 
-async def _until_seen(lights: Sequence[Light], name: str, angle: float) -> None:
+async def _until_seen(lights: Sequence[Light], angle: float) -> None:
     def has(light: Light) -> bool:
-        return light.closed or any(
-            node.endswith(name) and seen >= angle
-            for _, node, seen in reversed(light.poses)
-        )
+        return light.closed or any(seen >= angle for _, seen in light.poses)
 
     while angle > -math.inf and not all(map(has, lights)):
         await asyncio.sleep(0.02)
@@ -211,7 +225,7 @@ async def _read(
         for message in _DECODER.decode(content).messages:
             if message.type == "SetOrientationMessage" and message.wxyz:
                 angle = 2.0 * math.acos(max(-1.0, min(1.0, message.wxyz[0])))
-                light.poses.append((now, message.name, angle))
+                light.poses.append((now, angle))
             had += message.type in ("GlbMessage", "MeshMessage")
             replayed = replayed or message.type == "ReplayDoneMessage"
         if replayed and had >= meshes and not joined.is_set():
