@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 import viser
 from protocol_client import decode_frame
@@ -110,3 +111,13 @@ def test_what_is_drawn_can_be_recorded_without_a_server() -> None:
     assert {"FrameMessage", "SetOrientationMessage"} <= set(heard)
     assert "SetCameraPositionMessage" in heard
     assert len(recorder.bytes()) > 100
+
+
+def test_a_node_keeps_the_arrays_that_it_shares(server: viser.ViserServer) -> None:
+    vertices = np.zeros((3, 3), np.float32)
+    faces = np.array([[0, 1, 2]], np.uint32)
+    meshes = [server.scene.add_mesh_simple(f"/{i}", vertices, faces) for i in (1, 2)]
+    assert meshes[0].vertices is not vertices, "viser copies no arrays any more"
+    for mesh in meshes:
+        viser_private.share_arrays(mesh, vertices=vertices, faces=faces)
+        assert mesh.vertices is vertices and mesh.faces is faces

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import struct
+import weakref
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,6 +22,22 @@ _FLOAT, _UINT32, _UINT16 = 5126, 5125, 5123
 _VERTICES, _INDICES = 34962, 34963
 _OPAQUE = 0.9998
 """From this alpha on RViz draws without blending."""
+
+
+_last: weakref.WeakKeyDictionary[MeshPart, tuple[tuple[Rgba | None, float], bytes]] = (
+    weakref.WeakKeyDictionary()
+)
+
+
+def shared_glb(part: MeshPart, rgba: Rgba | None, alpha: float) -> bytes:
+    """`to_glb` of one part: the same object for all who ask for the same one after
+    the other, such as the browsers of a class with a robot each.
+    """
+    key = rgba, alpha
+    known = _last.get(part)
+    if known is None or known[0] != key:
+        known = _last[part] = key, to_glb(part, rgba=rgba, alpha=alpha)
+    return known[1]
 
 
 def to_glb(

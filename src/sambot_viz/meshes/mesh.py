@@ -6,6 +6,7 @@ transforms applied and the scale of the URDF not yet applied.
 
 from __future__ import annotations
 
+import weakref
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -44,9 +45,11 @@ class Texture:
     height: int
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class MeshPart:
-    """All triangles of a file that look the same.
+    """All triangles of a file that look the same; nobody changes the arrays.
+
+    There are no slots, because caches refer to it weakly.
 
     Attributes:
         vertices: (N, 3) float32 [m].
@@ -118,8 +121,13 @@ _FARTHEST = 1e30
 """Corners are stored in 32 bits; what is farther away [m] would be infinite."""
 
 
+_scaled: weakref.WeakKeyDictionary[MeshPart, dict[Vector3, MeshPart]] = (
+    weakref.WeakKeyDictionary()
+)
+
+
 def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
-    """The part enlarged by a URDF scale.
+    """The part enlarged by a URDF scale: the same object for all who ask.
 
     A mirrored part (an odd number of negative factors) is turned inside out by the
     scale, so its triangles are turned back: RViz shows it from outside too.
@@ -130,6 +138,13 @@ def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
     """
     if scale == (1.0, 1.0, 1.0):
         return part
+    known = _scaled.setdefault(part, {})
+    if scale not in known:
+        known[scale] = _scale(part, scale)
+    return known[scale]
+
+
+def _scale(part: MeshPart, scale: Vector3) -> MeshPart:
     factors = np.array(scale, dtype=np.float64)
     normals = part.normals
     if normals is not None:

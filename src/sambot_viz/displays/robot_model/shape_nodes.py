@@ -8,6 +8,7 @@ from typing import TypedDict
 
 import viser
 
+from sambot_viz import viser_private
 from sambot_viz.displays.drawn_shape import DrawnShape, Owner
 from sambot_viz.displays.robot_model.shape_solids import (
     solids_of,
@@ -23,7 +24,7 @@ from sambot_viz.errors import Problem
 from sambot_viz.geometry import Rgba, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
-from sambot_viz.meshes.glb import to_glb
+from sambot_viz.meshes.glb import shared_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.robot.model import (
     Box,
@@ -308,7 +309,7 @@ class ShapeNode:
         if textured:
             handle = self._scene.add_glb(
                 name,
-                to_glb(part, rgba=rgba, alpha=look.alpha),
+                shared_glb(part, rgba, look.alpha),
                 cast_shadow=False,
                 receive_shadow=False,
                 **pose,
@@ -323,6 +324,9 @@ class ShapeNode:
                 cast_shadow=False,
                 receive_shadow=False,
                 **pose,
+            )
+            viser_private.share_arrays(
+                handle, vertices=part.vertices, faces=part.faces
             )
         self._pieces.append(_Piece(handle, color, rgba[3], textured))
 
