@@ -12,6 +12,7 @@ from functools import partial
 
 from sambot_viz import problem_text
 from sambot_viz._version import __version__
+from sambot_viz.commands import large_blocks
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
@@ -55,6 +56,7 @@ def run(words: list[str]) -> int:
     While files are followed, a model or a config with a mistake is served too: the page
     shows the mistake, and the robot once it is fixed.
     """
+    large_blocks.return_when_free()
     report = _Reports()
     given, options = parse(parser(), words, on_reload=report)
     report.model = options.model

@@ -30,8 +30,9 @@ _last: weakref.WeakKeyDictionary[MeshPart, tuple[tuple[Rgba | None, float], byte
 
 
 def shared_glb(part: MeshPart, rgba: Rgba | None, alpha: float) -> bytes:
-    """`to_glb` of one part: the same object for all who ask for the same one after
-    the other, such as the browsers of a class with a robot each.
+    """`to_glb` of one part; who asks for what was asked for last gets the same object.
+
+    So do all browsers of a class with a robot each.
     """
     key = rgba, alpha
     known = _last.get(part)

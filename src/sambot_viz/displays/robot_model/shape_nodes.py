@@ -325,9 +325,7 @@ class ShapeNode:
                 receive_shadow=False,
                 **pose,
             )
-            viser_private.share_arrays(
-                handle, vertices=part.vertices, faces=part.faces
-            )
+            viser_private.share_arrays(handle, vertices=part.vertices, faces=part.faces)
         self._pieces.append(_Piece(handle, color, rgba[3], textured))
 
     def _add_stand_in(self, pose: _Pose) -> None:
