@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer, bundled, viser_private
 
 pytestmark = pytest.mark.browser
 
@@ -61,6 +61,57 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
         user.click("button", "OK")
         user.until(lambda: "connection is back" not in user.see().text)
         assert dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5}
+
+
+CAMERA = "__viserMutable.camera.position.toArray()"
+WITHOUT_FOCUS = """(() => {
+  Document.prototype.hasFocus = () => false;
+  window.dispatchEvent(new Event("blur"));
+})()"""
+
+
+def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    cameras: list[list[float]] = []
+    with Visualizer(port=0) as first:
+        port = first.viser.get_port()
+        pages = [open_viewer(first.url), open_viewer(first.url)]
+        for page, end in zip(pages, ((640.0, 330.0), (500.0, 250.0)), strict=True):
+            page.expects_errors = True
+            page.page.mouse.drag((600.0, 300.0), end)
+            page.wait_until_drawn()
+            cameras.append(page.page.evaluate(CAMERA))
+            page.page.evaluate(WITHOUT_FOCUS)
+    assert cameras[0] != pytest.approx(cameras[1])
+    with Visualizer(port=port) as second:
+        for page in pages:
+            page.user.reads("The connection is back.", 20.0)
+        second.set_joint_positions({LEFT: 1.0})
+        for page, camera in zip(pages, cameras, strict=True):
+            page.user.until(lambda page=page: number(page) == "1")
+            assert page.page.evaluate(CAMERA) == pytest.approx(camera)
+
+
+def test_a_page_that_slept_shows_how_things_are_now(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    with Visualizer(port=0) as viz:
+        viewer = open_viewer(viz.url)
+        viewer.expects_errors = True
+        viewer.page.mouse.drag((600.0, 300.0), (640.0, 330.0))
+        viewer.wait_until_drawn()
+        camera = viewer.page.evaluate(CAMERA)
+        viewer.page.call("Page.setWebLifecycleState", {"state": "frozen"})
+        # The server notices that nobody reads any more.
+        (client,) = viz.viser.get_clients()
+        connection = viser_private.connection_of(viz.viser, client)
+        viz.viser.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+        viewer.user.until(lambda: not viz.viser.get_clients())
+        viz.set_joint_positions({LEFT: 1.0})
+        viewer.page.call("Page.setWebLifecycleState", {"state": "active"})
+        viewer.user.until(lambda: number(viewer) == "1", 20.0)
+        assert viewer.page.evaluate(CAMERA) == pytest.approx(camera)
 
 
 def number(viewer: ViewerPage) -> str:
