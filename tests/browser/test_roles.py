@@ -54,7 +54,7 @@ def test_a_guest_asks_is_given_the_wheel_drives_and_loses_it(
 ) -> None:
     asking, driving = guest.user, teacher.user
     asking.until(lambda: slider_is_off(asking))
-    asking.reads("Watching")
+    asking.reads("Presenter drives, 1 watching")
     driving.reads("You drive, 1 watching")
     asking.click("button", "People")
     asking.reads("Presenter drives; 1 watches.")
@@ -100,6 +100,6 @@ def test_a_copy_of_ones_own_and_back(
     user.until(lambda: len(viz.server.sessions()) == 2)
     teacher.user.reads("You drive, 0 watching")
     people(user, "Back to the shared robot")
-    user.reads("Watching")
+    user.reads("Presenter drives, 1 watching")
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     assert viz.joint_positions[LEFT] == 1.0

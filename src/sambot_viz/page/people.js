@@ -4,6 +4,7 @@
 
 import { html, useRef } from "./vendor/preact.js";
 import { act, rows } from "./channel.js";
+import { shape } from "./edges.js";
 import { Popup } from "./popup.js";
 import { Cell, useRow } from "./state.js";
 
@@ -37,11 +38,12 @@ const listed = (names) => (names.length ? names.join(" and ") : "nobody");
 
 /** In the status bar: who drives, and what can be done about it. */
 export function People() {
+  const narrow = shape.use() === "tall";
   const now = usePeople();
   if (!now) return null;
   const { state, me } = now;
   if (!state.copy && !state.presented && state.browsers < 2) return null;
-  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me)}>${(/** @type {() => void} */ close) =>
+  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me, narrow)}>${(/** @type {() => void} */ close) =>
     html`<div class="people">
       <p>${inWords(state, me)}</p>
       ${state.presented && html`<${Wheel} state=${state} me=${me} close=${close} />`}
@@ -52,12 +54,13 @@ export function People() {
     </div>`}<//>`;
 }
 
-/** @param {State} state @param {Me} me */
-function short(state, me) {
+/** @param {State} state @param {Me} me @param {boolean} narrow whether there is room for a word or two */
+function short(state, me, narrow) {
   if (state.copy) return "My copy";
   if (!state.presented) return `${state.browsers} browsers`;
   if (me.presenter) return state.asks.length ? `${state.asks.length} asking` : `You drive, ${state.watching} watching`;
-  return me.drives ? "You drive" : "Watching";
+  if (me.drives || narrow) return me.drives ? "You drive" : "Watching";
+  return `${listed(state.drive)} ${state.drive.length > 1 ? "drive" : "drives"}, ${state.watching} watching`;
 }
 
 /** @param {State} state @param {Me} me */
