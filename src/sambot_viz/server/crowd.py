@@ -20,10 +20,11 @@ from sambot_viz.server.plain_page import plain_page
 
 MOST_BROWSERS = 200
 """So many pages may be open."""
-MOST_CONNECTIONS = 800
+MOST_CONNECTIONS = 500
 """So many connections, also of those that have not asked for anything yet."""
-_OWN_FILES = 200
-"""Of the system's file numbers, so many are left for files, threads and new sockets."""
+_OWN_FILES = 400
+"""Of the system's file numbers, so many are left: for files, and for connections that
+the event loop accepts, 100 at a time, before they are counted."""
 _AGAIN = 10
 """A page that found no place loads again after so long [s]."""
 
