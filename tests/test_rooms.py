@@ -113,8 +113,7 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent http socket threading",
     ),
     "export": Row(
-        "displays frames joints meshes open_config options page robot rviz server "
-        "session views viser_private",
+        "displays frames joints meshes page robot server session views viser_private",
         "numpy viser websockets",
         "asyncio concurrent signal subprocess threading",
     ),

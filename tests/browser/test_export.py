@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from inside import node_of
+from inside import node_of, session_of
 from recorded_page import open_page
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
+from sambot_viz.export.page_file import Looking, page_file
+from sambot_viz.export.recorded_scene import Shown
 
 pytestmark = pytest.mark.browser
 LEFT_LINK = "drivewhl_l_link"
@@ -58,16 +60,12 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
         viz.export(file)
         live = open_viewer(viz.url, width=800, height=600)
         live.wait_for_nodes(wheel)
-        wanted = live.pixels()
     # Its server has stopped.
     live.expects_errors = True
     viewer = open_file(file, 800, 600 + BAR)
     viewer.wait_for_nodes(wheel)
     assert viewer.page.evaluate("document.title") == "sam_bot"
-    shown = viewer.pixels()
-    assert shown.shape == wanted.shape
-    other = np.abs(shown.astype(int) - wanted).max(axis=-1) > 8
-    assert other.mean() < 0.001
+    assert differing(viewer, live) < 0.001
     user = viewer.user
     still = viewer.pose(wheel)
     user.click("button", "Play")
@@ -86,6 +84,39 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
     assert user.find("slider", "Time").value in ("0", 0)
     viewer.page.keyboard.press(" ")
     user.find("button", "Pause")
+
+
+def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
+    open_viewer: Open, open_file: Open, tmp_path: Path
+) -> None:
+    with Visualizer(port=0, panels=False) as viz:
+        live = open_viewer(viz.url, width=800, height=600)
+        live.expects_errors = True
+        live.wait_for_nodes(node_of(viz, LEFT_LINK))
+        session = session_of(viz)
+        live.user.until(lambda: session.browsers)
+        (browser,) = session.browsers.values()
+        for kind in ("TopDownOrtho", "XYOrbit"):
+            browser.view.set_kind(f"rviz_default_plugins/{kind}")
+            live.wait_for_frames()
+            file = tmp_path / f"{kind}.html"
+            page = page_file(Shown.by(session), Looking.of(browser), "none")
+            file.write_bytes(page)
+            alone = open_file(file, 800, 600 + BAR)
+            alone.user.until(lambda a=alone: differing(a, live) < 0.001)
+            before = alone.page.evaluate(CAMERA)
+            alone.page.mouse.drag((400.0, 300.0), (470.0, 330.0), button="middle")
+            alone.wait_for_frames()
+            moved = np.subtract(alone.page.evaluate(CAMERA), before)
+            # Both move over the ground; viser's "up" is y.
+            assert np.abs(moved).max() > 0.05
+            assert abs(moved[1]) < 0.02
+
+
+def differing(one: ViewerPage, two: ViewerPage) -> float:
+    """The part of the pixels that differ in two pictures of one size."""
+    difference = np.abs(one.pixels().astype(int) - two.pixels()).max(axis=-1)
+    return float((difference > 8).mean())
 
 
 def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(

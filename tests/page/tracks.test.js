@@ -28,6 +28,7 @@ test("a node that comes later goes again, and comes back with what was set of it
   const tracks = unpack([{ ...turning, first: null, since: [200], values: [[0, 1, 0, 0]] }, node]);
   assert.deepEqual(at(tracks, 300).map(({ type }) => type), ["FrameMessage", "SetOrientationMessage"]);
   assert.deepEqual(at(tracks, 0).map(({ type }) => type), ["RemoveSceneNodeMessage"]);
+  assert.deepEqual(at(tracks, 50), []);
   assert.deepEqual(at(tracks, 300).map(({ type }) => type), ["FrameMessage", "SetOrientationMessage"]);
 });
 

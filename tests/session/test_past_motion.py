@@ -55,6 +55,21 @@ def test_what_is_older_than_a_minute_only_says_where_things_were(clock: Clock) -
     assert (before.positions, steps) == ({"a": 99.0}, [])
 
 
+def test_a_frame_begins_where_it_was_when_it_moved_first(clock: Clock) -> None:
+    past = PastMotion()
+    past.clear({})
+    at = [np.diag([1.0, 1.0, 1.0, float(n)]) for n in range(3)]
+    for n in (1, 2):
+        past.begin("odom", at[n - 1])
+        past.note([], {}, {"odom": at[n]})
+        clock.now += 1.0
+    before, steps = past.last_minute()
+    assert before.frames["odom"] is at[0]
+    assert [step.frames["odom"] is at[n] for n, step in enumerate(steps, 1)] == [
+        True
+    ] * 2
+
+
 def test_steps_that_follow_fast_are_one(clock: Clock) -> None:
     past = PastMotion()
     past.clear({"a": 0.0, "b": 0.0})

@@ -15,6 +15,7 @@ from sambot_viz.session import Session
 from sambot_viz.session.browser import Browser
 from sambot_viz.session.document_view import mouse_facts, view_of
 from sambot_viz.session.past_motion import Moved
+from sambot_viz.session.robot_framing import Size, window_of
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
 
@@ -27,6 +28,8 @@ REST = 0.5
 """How long the end of what has moved is shown [s]."""
 USUAL_SIZE = (1280, 720)
 """What a page is made for when nobody looks at it yet [pixels]."""
+STEP = 90
+"""In which it becomes narrower [pixels]."""
 LONGEST_NAME = 200
 """Of a robot, as the title of a page [characters]."""
 
@@ -37,28 +40,36 @@ class Looking:
 
     Attributes:
         camera: where from.
-        height: of the picture [pixels].
+        size: width and height of the picture [pixels]; in a narrower one the camera
+            is farther away.
         mouse: what the page has to know of the view (see `mouse_facts`).
     """
 
     camera: Camera
-    height: int
+    size: Size
     mouse: Mapping[str, Any]
 
     @classmethod
     def of(cls, browser: Browser) -> Looking:
         """As a browser does now."""
-        height = max(1, browser.client.camera.image_height)
-        return cls(browser.view.camera, height, mouse_facts(browser.view.view))
+        view, size = browser.view, window_of(browser.client)
+        return cls(view.camera, size, mouse_facts(view.view))
 
     @classmethod
     def at_first(cls, session: Session) -> Looking:
         """As a page does that was just opened."""
         view = view_of(session.config.detached_view())
-        fits = not view.gives_nearness and session.robot is not None
+        if view.gives_nearness or session.robot is None:
+            return cls(session.camera, USUAL_SIZE, mouse_facts(view))
         width, height = USUAL_SIZE
-        camera = session.camera_on_robot(width, height) if fits else session.camera
-        return cls(camera, height, mouse_facts(view))
+        camera = session.camera_on_robot(width, height)
+        # How narrow a picture may be until the robot is cut at its sides.
+        while width > height / 2:
+            nearer = session.camera_on_robot(width - STEP, height)
+            if nearer.distance > camera.distance + 1e-6:
+                break
+            width -= STEP
+        return cls(camera, (width, height), mouse_facts(view))
 
 
 def page_file(
@@ -79,13 +90,13 @@ def page_file(
     elif motion == "past" and past is not None:
         before, since = past
         shown, steps = shown.before(before), lambda joints: _with_rest(since)
-    scene, tracks, duration = recorded(shown, looking.camera, looking.height, steps)
+    scene, tracks, duration = recorded(shown, looking.camera, looking.size[1], steps)
     robot = "no robot" if shown.robot is None else shown.robot.name
     title = text(robot, LONGEST_NAME) or "robot"
     about = {
         "title": title,
         "duration": duration,
-        "height": looking.height,
+        "size": looking.size,
         "view": dict(looking.mouse),
     }
     return page.standing_alone(page_of_viser(), title, scene, about, tracks.packed())

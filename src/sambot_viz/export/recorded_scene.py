@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -14,15 +14,13 @@ from sambot_viz.export.tracks import Tracks
 from sambot_viz.frames import Transform
 from sambot_viz.joints import JointState
 from sambot_viz.meshes.cache import MeshCache
-from sambot_viz.open_config import declarations
 from sambot_viz.robot.model import Robot
-from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
 from sambot_viz.session.browser_camera import BrowserCamera
 from sambot_viz.session.drive_control import ODOM
 from sambot_viz.session.past_motion import Moved
-from sambot_viz.session.user_frames import UserFrame
+from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Action, Worker
 from sambot_viz.views.camera import Camera
 from sambot_viz.viser_private import Recorder
@@ -33,26 +31,18 @@ LONGEST_READ = 30.0
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """All that a session shows, for another thread.
+    """All that a session shows, for another thread; used once.
 
     Attributes:
         robot: the robot, if there is one.
-        document: the text of its .rviz document.
-        file: where the document came from.
-        trusted: the model files that the document may name.
-        positions: free joint → position [rad or m].
-        added: frame → how it was added.
+        copy: the document, the joints and the added frames.
         trail: where the robot was driven, x, y [m] in odom.
         models: reads further models.
         meshes: mesh files that are read already.
     """
 
     robot: Robot | None
-    document: str
-    file: str | None
-    trusted: frozenset[str]
-    positions: Mapping[str, float]
-    added: Mapping[str, UserFrame]
+    copy: SessionCopy
     trail: tuple[tuple[float, float], ...]
     models: ModelReader | None
     meshes: MeshCache
@@ -61,28 +51,24 @@ class Shown:
     def by(cls, session: Session) -> Shown:
         """What a session shows now."""
         with session.lock:
-            context, joints = session.context, session.joints
             return cls(
                 session.robot,
-                session.config.to_yaml(),
-                session.config.file,
-                context.trusted_files,
-                {} if joints is None else dict(joints.positions),
-                dict(session.added.all),
+                SessionCopy.of(session),
                 session.motion.drive.trail,
-                context.models,
-                context.assets.cache,
+                session.context.models,
+                session.context.assets.cache,
             )
 
     def before(self, moved: Moved) -> Shown:
         """The same, with joints and frames where they were."""
-        added = {
+        frames = {
             child: replace(frame, transform=Transform.trusted(moved.frames[child]))
             if child in moved.frames
             else frame
-            for child, frame in self.added.items()
+            for child, frame in self.copy.frames.items()
         }
-        return replace(self, positions=moved.positions, added=added)
+        copy = replace(self.copy, positions=moved.positions, frames=frames)
+        return replace(self, copy=copy)
 
 
 def recorded(
@@ -121,18 +107,14 @@ def recorded(
 
 
 def _drawn(shown: Shown, recorder: Recorder) -> Session:
-    config = RvizConfig.parse(shown.document, declarations(), file=shown.file)
     models = None if shown.models is None else _Models(shown.models)
     worker, audience = _Nobody(cast(Any, None)), cast(Any, recorder)
-    session = Session(audience, worker, config, shown.meshes, models)
-    # A document that a browser has changed is trusted no more than before.
-    session.context.trusted_files = shown.trusted
+    session = Session(audience, worker, shown.copy.config, shown.meshes, models)
+    shown.copy.trust(session)
     session.show_config()
     if shown.robot is not None:
         session.show_robot(shown.robot)
-    for child, frame in shown.added.items():
-        session.add_frame(frame.parent, child, frame.transform, static=frame.static)
-    session.move(shown.positions, {})
+    shown.copy.give(session)
     session.draw_moved()
     if models is not None:
         models.finish()

@@ -5,8 +5,8 @@ import "./rviz_look.js";
 import "./rviz_mouse.js";
 import { at, read } from "./tracks.js";
 
-/** @typedef {{title: string, duration: number, view: {kind: string}, height: number}} About
- *   height: of the picture that the camera was set for [px] */
+/** @typedef {{title: string, duration: number, view: {kind: string}, size: [number, number]}} About
+ *   size: width and height of the picture that the camera was set for [px] */
 
 /** viser's objects have no types here. @type {any} */
 const globals = window;
@@ -30,9 +30,18 @@ function whenReady(then) {
   if (isReady()) then(); else setTimeout(() => whenReady(then), 50);
 }
 
+/** In a narrower window the camera is farther away, so that as much is seen to the sides. */
+function makeRoom() {
+  const { canvas, cameraControl, requestRender } = globals.__viserMutable;
+  const [width, height] = about.size, narrower = (width / height) / (canvas.clientWidth / canvas.clientHeight);
+  if (about.view.kind === "TopDownOrtho" || about.view.kind === "FPS" || !(narrower > 1)) return;
+  cameraControl.dollyTo(cameraControl.distance * narrower, false);
+  requestRender();
+}
+
 /** As many pixels per metre as before, in a window of another size. */
 function followHeight() {
-  let height = about.height;
+  let [, height] = about.size;
   setInterval(() => {
     const { canvas, cameraControl, requestRender } = globals.__viserMutable;
     const now = canvas.clientHeight;
@@ -133,6 +142,7 @@ async function start() {
   document.body.classList.add("sambot-player");
   const tracks = about.duration > 0 ? await read(written("sambot-motion")) : [];
   whenReady(() => {
+    makeRoom();
     followHeight();
     if (tracks.length) line.append(bar(new Player(tracks)));
     host.dataset.ready = "yes";

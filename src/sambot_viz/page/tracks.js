@@ -53,17 +53,20 @@ function last(times, time) {
 export function at(tracks, time) {
   /** @type {any[]} */
   const messages = [];
+  /** The nodes that are not there at this time. @type {Set<string>} */
+  const gone = new Set();
   // A node comes before what is set of it.
   for (const track of tracks) if (!track.type) step(track);
-  for (const track of tracks) if (track.type) step(track);
+  for (const track of tracks) if (track.type && !gone.has(track.name)) step(track);
   return messages;
 
   /** @param {Track} track */
   function step(track) {
-    const to = last(track.times, time);
+    const to = last(track.times, time), { type, name, prop } = track;
+    const value = to < 0 ? track.first : track.values[to];
+    if (!type && !value) gone.add(name);
     if (to === track.now) return;
     track.now = to;
-    const value = to < 0 ? track.first : track.values[to], { type, name, prop } = track;
     if (!type) {
       for (const other of tracks) if (other.type && other.name === name) other.now = -2;
       messages.push(value || { type: "RemoveSceneNodeMessage", name, owner: "" });

@@ -88,18 +88,19 @@ class PastMotion:
         self._numbers += len(numbers)
         self._forget(now - LONGEST)
 
+    def begin(self, frame: str, T: Matrix) -> None:
+        """A frame is about to move from here, T_parent_child (4, 4)."""
+        self._frames_before.setdefault(frame, T)
+
     def last_minute(self) -> tuple[Moved, list[Moved]]:
         """Where everything was before, and the steps since; none when nothing moved."""
         self._forget(time.monotonic() - LONGEST)
         notes = self._notes
-        # A frame that was added in this time was where it was put at first.
-        frames = dict(self._frames_before)
-        for note in notes:
-            for frame, T in (note.frames or {}).items():
-                frames.setdefault(frame, T)
         # The first step comes after a moment of rest.
         begin = notes[0].time - PERIOD if notes else 0.0
-        return Moved(0.0, dict(self._before), frames), list(self._moved(begin))
+        return Moved(0.0, dict(self._before), dict(self._frames_before)), list(
+            self._moved(begin)
+        )
 
     def _moved(self, begin: float) -> Iterator[Moved]:
         for note in self._notes:

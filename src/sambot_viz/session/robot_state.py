@@ -107,6 +107,8 @@ class RobotState:
         """
         moved, self._moved = self._moved, {}
         poses, self._new_poses = self._new_poses, {}
+        for frame in poses:
+            self.past.begin(frame, self._added[frame].transform.matrix)
         if self.joints is not None and (moved or poses):
             self.past.note(moved, self.joints.positions, poses)
         frames = {**self._joint_frames(moved), **poses}
