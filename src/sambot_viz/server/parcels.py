@@ -79,6 +79,7 @@ class Parcels:
             weakref.WeakValueDictionary()
         )
         self._packing: dict[tuple[int, ...], asyncio.Task[Parcel]] = {}
+        self._one_at_a_time = asyncio.Lock()
 
     async def parcel(self, batch: Batch) -> Parcel:
         """Pack a batch, unless it is there already.
@@ -102,7 +103,9 @@ class Parcels:
         return await asyncio.shield(task)
 
     async def _pack_heavy(self, batch: Batch) -> Parcel:
-        packer = viser_private.Packer()
-        parcel = Parcel(await asyncio.to_thread(packer.pack, batch.messages))
+        # Each takes three times its length while it is packed.
+        async with self._one_at_a_time:
+            pack = viser_private.Packer().pack
+            parcel = Parcel(await asyncio.to_thread(pack, batch.messages))
         self._there[batch.numbers] = parcel
         return parcel
