@@ -7,9 +7,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from recorded_page import open_page
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
+from sambot_viz.export.chromium import Chromium
 
 pytestmark = pytest.mark.browser
 
@@ -40,3 +42,20 @@ def test_axe_finds_nothing_serious(
         viewer.user.find("tabpanel", tab)
         found = json.loads(viewer.page.evaluate(RUN, timeout=60.0))
         assert found == [], tab
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_axe_finds_nothing_serious_in_an_exported_page(
+    viz: Visualizer, chromium: Chromium, tmp_path: Path, dark: bool
+) -> None:
+    if not AXE.is_file():
+        pytest.skip("axe-core is not installed; bash tests/page/check installs it")
+    viz.export(tmp_path / "robot.html")
+    page = open_page(chromium, 800, 600)
+    page.set_dark(dark)
+    page.goto(f"file://{tmp_path}/robot.html")
+    page.wait_for("document.querySelector('#sambot[data-ready]')", 30.0)
+    page.evaluate(AXE.read_text("utf-8") + ";0")
+    found = json.loads(page.evaluate(RUN, timeout=60.0))
+    page.close()
+    assert found == []

@@ -28,13 +28,15 @@ END = [["v", "1"]]
 class Links:
     """The links of one browser: what it copies, and what it is told."""
 
-    def __init__(self, session: Session, browser: Browser) -> None:
+    def __init__(self, session: Session, browser: Browser, joints: bool = True) -> None:
         self.session, self.browser = session, browser
-        joints = JointsPanel(session, lambda panel: None)
+        panel = JointsPanel(session, lambda panel: None)
         self.panel = LinkPanel(
             session,
             browser,
-            lambda row_id: next((r for r in joints.rows() if r.id == row_id), None),
+            lambda row_id: next(
+                (r for r in panel.rows() if joints and r.id == row_id), None
+            ),
             lambda panel: None,
         )
 
@@ -287,3 +289,14 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
         after = state(links)
         assert after["selection"] == [Selectable("link", "base_link")]
         assert {**after, "selection": []} == before
+
+
+def test_a_page_without_the_joints_panel_shows_the_view_and_moves_no_joint(
+    session: Session, browser: Browser
+) -> None:
+    links = Links(session, browser, joints=False)
+    session.set_joint_positions({LEFT: 1.0})
+    said = links.open([*ORBIT, [f"j.{LEFT}", "0.5"], [f"j.{RIGHT}", "1"], *END])
+    assert said.endswith("not all of it: this page has no panel that moves joints")
+    assert state(links)["joints"] == {LEFT: 1.0, RIGHT: 0.0}
+    assert browser.view.values["Distance"] == 3.0

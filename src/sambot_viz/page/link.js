@@ -33,7 +33,9 @@ export function followLinks() {
   let waiting = "";
   let patient = false;
   const open = () => {
-    if (!waiting || !rows.get("link/open") || (patient && !hasJoints())) return;
+    // A page without a Joints panel has nothing to wait for.
+    const early = patient && rows.panels.has("joints_again") && !hasJoints();
+    if (!waiting || !rows.get("link/open") || early) return;
     const parts = partsOf(waiting);
     waiting = "";
     act("link/open", parts);

@@ -140,11 +140,13 @@ async function start() {
   const host = element("div", { id: "sambot" }, line);
   document.body.append(host);
   document.body.classList.add("sambot-player");
-  const tracks = about.duration > 0 ? await read(written("sambot-motion")) : [];
+  // Only browsers before 2023 cannot read it: they show the robot at rest.
+  const tracks = about.duration > 0 ? await read(written("sambot-motion")).catch(() => null) : [];
   whenReady(() => {
     makeRoom();
     followHeight();
-    if (tracks.length) line.append(bar(new Player(tracks)));
+    if (!tracks) line.append(element("p", { role: "status" }, "This browser is too old to play the motion."));
+    else if (tracks.length) line.append(bar(new Player(tracks)));
     host.dataset.ready = "yes";
   });
 }

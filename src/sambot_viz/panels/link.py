@@ -143,7 +143,7 @@ class LinkPanel(Panel):
             try:
                 checked(row, value)
             except UsageError as error:
-                link.refused.append(str(error))
+                link.refuse(str(error))
                 return None
             return value
 
@@ -155,21 +155,24 @@ class LinkPanel(Panel):
         if joints is None:
             link.missing["joint"] += link.joints
             return
+        rows = {name: self._row(joint_id(name)) for name in joints.free}
         positions: dict[str, float] = {}
         if not link.elsewhere:
             # What a link does not name is where it was at first.
             first = session.first_positions.items()
-            positions = {n: q for n, q in first if n in joints.free}
-        for name, given in link.joints.items():
-            row = self._row(joint_id(name))
-            if row is None or row.kind != "slider":
-                link.missing["joint"] += [name]
+            positions = {n: q for n, q in first if rows.get(n) is not None}
+        link.missing["joint"] += [name for name in link.joints if name not in rows]
+        for name, row in rows.items():
+            given = link.joints.get(name)
+            if given is None:
                 continue
             try:
+                if row is None:
+                    raise UsageError("this page has no panel that moves joints")
                 positions[name] = checked(row, number(given))
             except UsageError as error:
                 positions.pop(name, None)
-                link.refused.append(str(error))
+                link.refuse(str(error))
         changed = {n: q for n, q in positions.items() if joints.positions[n] != q}
         if changed and link.watching:
             link.kept = True
@@ -192,7 +195,7 @@ class LinkPanel(Panel):
                     try:
                         switch.set(on)
                     except UsageError as error:
-                        link.refused.append(str(error))
+                        link.refuse(str(error))
 
     def _select(self, link: LinkParts) -> None:
         robot, frames = self._session.robot, self._session.tree.frames

@@ -73,6 +73,11 @@ class LinkParts:
             link._take(name, value)
         return link
 
+    def refuse(self, why: str) -> None:
+        """A value cannot be, or something cannot be done here."""
+        if why not in self.refused:
+            self.refused.append(why)
+
     def answer(self) -> Answer:
         """What a user reads: all is as in the link, or what is not."""
         said = [self.missing.sentence(), *self.refused[:MOST_NAMED]]
