@@ -12,7 +12,7 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content, MeshCache
-from sambot_viz.server import server as server_module
+from sambot_viz.server import sessions as sessions_module
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.session import Session
 
@@ -96,7 +96,7 @@ def opened(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, protocol: Callable[..., object]
 ) -> Iterator[Opened]:
     store = Gated()
-    monkeypatch.setattr(server_module, "MeshCache", lambda: store)
+    monkeypatch.setattr(sessions_module, "MeshCache", lambda: store)
     opened = Opened(tmp_path, store, protocol)
     yield opened
     store.let(1000)

@@ -16,7 +16,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content, MeshCache
 from sambot_viz.options import Options
-from sambot_viz.server import server as server_module
+from sambot_viz.server import sessions as sessions_module
 from sambot_viz.session import Session
 from sambot_viz.session.browser_view import BrowserView
 from sambot_viz.views.camera import FILLED_HEIGHT, FILLED_WIDTH
@@ -206,7 +206,7 @@ def test_the_robot_is_shown_whole_once_its_meshes_are_read_unless_the_camera_was
     moved: bool, tmp_path: Path, protocol: Protocol, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cache = Gated()
-    monkeypatch.setattr(server_module, "MeshCache", lambda: cache)
+    monkeypatch.setattr(sessions_module, "MeshCache", lambda: cache)
     (tmp_path / "m.obj").write_text(
         "v 0 0 0\nv 7 0 0\nv 0 7 0\nv 0 0 7\nf 1 2 3\nf 1 3 4\n"
     )

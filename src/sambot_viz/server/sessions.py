@@ -1,0 +1,372 @@
+"""The sessions that browsers see: one for all, one for each, and copies of it."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import cast
+
+import viser
+
+from sambot_viz import viser_private
+from sambot_viz.errors import Problem, ServerError
+from sambot_viz.joints.presets import Presets
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import MeshCache
+from sambot_viz.options import Options
+from sambot_viz.panels.files import AskPage, Files
+from sambot_viz.panels.window import Window
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.mesh_thread import MeshThread
+from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.visitors import Visitor, visitor_of
+from sambot_viz.session import Audience, Reloaded, Session
+from sambot_viz.session.checks import CheckResults
+from sambot_viz.session.session_copy import SessionCopy
+from sambot_viz.session.worker import Worker
+
+_log = logging.getLogger(__name__)
+
+MakeConfig = Callable[[], RvizConfig]
+
+
+class Sessions:
+    """The sessions of a server, each with a thread and a window of its own.
+
+    Args:
+        server: whose browsers see them.
+        options: what every session begins with.
+        make_config: a fresh .rviz document; called once per session.
+        models: reads other models, for a RobotModel from a file.
+        poses: the named poses; a private session has a copy that writes no file.
+        files: opens and follows .rviz files for the shared session; None leaves Open
+            and Save out.
+        ask_page: makes a page of what is seen; None leaves that out.
+
+    Attributes:
+        shared: the session of all browsers; None when each has its own.
+        meshes: what was read of mesh files, for all of them.
+        robot: what is shown in all of them.
+    """
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        options: Options,
+        make_config: MakeConfig,
+        models: ModelThread | None,
+        poses: Presets | None,
+        files: Files | None,
+        ask_page: AskPage | None,
+    ) -> None:
+        self._server = server
+        self._options = options
+        self._make_config = make_config
+        self._models = models
+        self._poses = poses or Presets()
+        self._files = files
+        self._ask_page = ask_page
+        self.meshes = MeshCache()
+        self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
+        self.robot: Robot | None = None
+        self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
+        self.shared: Session | None = None
+        self._private: dict[int, Session] = {}
+        self._workers: dict[int | None, Worker] = {}
+        self._windows: dict[Session, Window] = {}
+        self._checks: dict[Session, CheckResults] = {}
+        self._lock = threading.RLock()
+        self._joined = threading.Condition()
+        self._closed = False
+
+    def open_shared(self) -> None:
+        """Open the session of all browsers.
+
+        Raises:
+            FrameError: static transforms that form a ring.
+        """
+        self.shared = self._open(self._server, self._worker(None))
+
+    def close(self) -> None:
+        """End all sessions and their threads."""
+        with self._lock:
+            self._closed = True
+        for session in self.all():
+            session.close()
+        for worker in list(self._workers.values()):
+            worker.close()
+        self._mesh_thread.close()
+
+    def all(self, *, copies: bool = True) -> list[Session]:
+        """All sessions there are at the moment.
+
+        Args:
+            copies: also those that browsers have made of the shared one.
+        """
+        with self._lock:
+            private = list(self._private.values())
+        if self.shared is None:
+            return private
+        return [self.shared, *private] if copies else [self.shared]
+
+    def for_each(
+        self, action: Callable[[Session], object], *, copies: bool = True
+    ) -> None:
+        """Call an action with every session; one that fails does not stop the others.
+
+        Args:
+            action: what to do.
+            copies: as for `all`.
+
+        Raises:
+            Exception: the first error of the action, after the last session.
+        """
+        errors: list[Exception] = []
+        for session in self.all(copies=copies):
+            try:
+                action(session)
+            except Exception as error:
+                errors.append(error)
+        if errors:
+            raise errors[0]
+
+    def show_robot(self, robot: Robot) -> None:
+        """Show a robot in every session, present and to come."""
+        with self._lock:
+            self.robot = robot
+        try:
+            self.for_each(lambda session: session.show_robot(robot))
+        finally:
+            self._forget_unused_files()
+            self.for_each(self._check)
+
+    def show_panels(self) -> None:
+        """Add the panels to the shared session, unless it has them or is to have none.
+
+        Call it after `show_robot`: a browser draws what it receives in order, and the
+        panels take it longer than the robot.
+        """
+        if self.shared is not None:
+            self._add_panels(self.shared)
+
+    def _add_panels(self, session: Session) -> None:
+        # A model that is being read may change the displays while panels are made.
+        with session.lock:
+            if self._options.panels and session not in self._windows:
+                # Visitors with a session of their own do not use the server's disk.
+                files = self._files if session is self.shared else None
+                self._windows[session] = Window(
+                    session, self._options.gui, files, self._ask_page
+                )
+
+    def _check(self, session: Session) -> None:
+        checks = self._checks.get(session)
+        if checks is not None:
+            checks.give()
+
+    def refresh(self) -> None:
+        """Draw again what comes from mesh files and textures that have changed."""
+        try:
+            self.for_each(Session.refresh)
+        finally:
+            self._forget_unused_files()
+
+    def _forget_unused_files(self) -> None:
+        """Let go of meshes and textures that no session draws any more."""
+        used = (session.context.assets.used for session in self.all())
+        self.meshes.keep_only(set[Asset]().union(*used))
+
+    def _drawing_failed(self, error: Exception) -> None:
+        """Show that a session could not draw what the mesh thread has read."""
+        message = (
+            f"internal error while drawing meshes: {type(error).__name__}: {error}"
+        )
+        hint = "start the program again, and please report it"
+        problem = Problem("error", "reload-failed", message, hint)
+        self.set_reload_problems("fault", (problem,))
+
+    def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
+        """Show in every session, present and to come, why a save is not shown."""
+        with self._lock:
+            self._reload_problems[of] = tuple(problems)
+        try:
+            self.for_each(lambda s: s.problems.set_saves(of, problems))
+        except Exception:
+            # What was saved is shown to the others all the same.
+            _log.exception("a session could not show the problems of a save")
+
+    def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
+        """The browser that came last, as soon as there is one.
+
+        Raises:
+            ServerError: none came in time.
+        """
+        with self._joined:
+            if not self._joined.wait_for(self._server.get_clients, timeout):
+                raise ServerError(f"no browser opened the page within {timeout:g} s")
+            return list(self._server.get_clients().values())[-1]
+
+    def wait_for_meshes(self, timeout: float) -> None:
+        """Return when every model, mesh file and texture is read and drawn.
+
+        Args:
+            timeout: for each session [s].
+
+        Raises:
+            ServerError: that took longer.
+        """
+        if self._models is not None and not self._models.wait(timeout):
+            raise ServerError(f"a model was not read within {timeout:g} s")
+        for session in self.all():
+            if not session.context.assets.wait(timeout):
+                raise ServerError(f"the meshes were not read within {timeout:g} s")
+
+    def _open(
+        self, audience: object, worker: Worker, copy: SessionCopy | None = None
+    ) -> Session:
+        if copy is not None:
+            config, poses = copy.config, copy.poses
+        else:
+            config, poses = self._make_config(), self._poses
+            poses = poses if audience is self._server else poses.in_memory()
+        session = Session(
+            cast(Audience, audience),
+            worker,
+            config,
+            self.meshes,
+            self._models,
+            self._mesh_thread,
+            self._options,
+            poses,
+        )
+        if copy is not None:
+            copy.trust(session)
+        session.show_config()
+        checks = self._checks[session] = CheckResults(session)
+        if self.robot is not None:
+            session.show_robot(self.robot)
+            worker.post(checks.give)
+        if copy is not None:
+            copy.give(session)
+        for of, problems in self._reload_problems.items():
+            session.problems.set_saves(of, problems)
+        return session
+
+    def take_edit(self, client_id: int, edit: object) -> None:
+        """Give an edit of a browser to the window of its session."""
+        session = self._session_of(client_id)
+        window = None if session is None else self._windows.get(session)
+        if window is not None:
+            window.receive(client_id, edit)
+
+    def may_edit(self, client_id: int) -> bool:
+        """Whether a browser may use the widgets of a program, which all have."""
+        return self.shared is None or self.shared.roles.may_edit(client_id)
+
+    def behind(self, client_id: int, action: Callable[[], None]) -> None:
+        """Run an action behind what a browser has caused in its session."""
+        worker = self._workers.get(client_id) or self._workers.get(None)
+        if worker is not None:
+            worker.post(action)
+        else:
+            action()
+
+    def _session_of(self, client_id: int) -> Session | None:
+        """What a browser sees; None while that is made."""
+        return (
+            self._private.get(client_id) if client_id in self._workers else self.shared
+        )
+
+    def _visitor(self, client_id: int) -> Visitor:
+        try:
+            return visitor_of(viser_private.connection_of(self._server, client_id))
+        except KeyError:
+            # It has left already.
+            return Visitor()
+
+    def has_copy(self, client_id: int) -> bool:
+        """Whether a browser sees a copy, and so nothing of the shared session."""
+        return self.shared is not None and self._visitor(client_id).copy
+
+    async def join(self, client: viser.ClientHandle) -> None:
+        """A browser has opened the page."""
+        viser_private.allow_late_messages(client)
+        shared, visitor = self.shared, self._visitor(client.client_id)
+        if shared is not None and not visitor.copy:
+            shared.worker.post(partial(self._give_view, shared, client, visitor))
+            return
+        with self._lock:
+            if self._closed:
+                return
+            worker = self._worker(client.client_id)
+        if shared is None:
+            worker.post(partial(self._open_private, client, worker))
+        else:
+            shared.worker.post(partial(self._open_copy, shared, client, worker))
+
+    def _worker(self, client_id: int | None) -> Worker:
+        """The thread for one browser's session, or with None for that of all."""
+        worker = self._workers[client_id] = Worker(self._server.get_event_loop())
+        return worker
+
+    def _give_view(
+        self, session: Session, client: viser.ClientHandle, visitor: Visitor
+    ) -> None:
+        session.join_browser(client, presenter=visitor.presenter)
+        with self._joined:
+            self._joined.notify_all()
+
+    def _open_copy(
+        self, shared: Session, client: viser.ClientHandle, worker: Worker
+    ) -> None:
+        """Copy the shared session, which is locked, for one browser."""
+        copy = SessionCopy.of(shared)
+        worker.post(partial(self._open_private, client, worker, copy))
+
+    def _open_private(
+        self,
+        client: viser.ClientHandle,
+        worker: Worker,
+        copy: SessionCopy | None = None,
+    ) -> None:
+        """Draw the session of one browser; its worker runs this and has its lock.
+
+        A robot that is shown in all sessions meanwhile waits for that lock once this
+        session is known, and so comes after what is shown here.
+        """
+        if client.client_id not in self._workers:
+            # It has left already.
+            return
+        session = self._open(client, worker, copy)
+        with self._lock:
+            self._private[client.client_id] = session
+            robot, problems = self.robot, dict(self._reload_problems)
+        if robot is not None and robot is not session.robot:
+            session.show_robot(robot)
+        for of, found in problems.items():
+            session.problems.set_saves(of, found)
+        self._add_panels(session)
+        self._give_view(session, client, Visitor())
+
+    async def leave(self, client: viser.ClientHandle) -> None:
+        """A browser has closed the page: a session of its own ends."""
+        worker = self._workers.pop(client.client_id, None)
+        if worker is not None:
+            worker.post(partial(self._close_private, client.client_id, worker))
+        elif self.shared is not None:
+            leave = partial(self.shared.leave_browser, client.client_id)
+            self.shared.worker.post(leave)
+
+    def _close_private(self, client_id: int, worker: Worker) -> None:
+        with self._lock:
+            session = self._private.pop(client_id, None)
+        if session is not None:
+            self._checks.pop(session, None)
+            window = self._windows.pop(session, None)
+            if window is not None:
+                window.close()
+            session.close()
+        worker.close()
