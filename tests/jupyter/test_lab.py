@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import stat
 from collections.abc import Callable, Iterator, Mapping
@@ -12,7 +13,7 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 import viser
-from a_jupyter import Lab, a_lab, a_place, wait_until
+from a_jupyter import Lab, Place, a_lab, a_place, wait_until
 from recorded_page import RecordedPage
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
@@ -76,6 +77,11 @@ def test_the_tile_shows_the_model_of_the_folder(
     assert page.exceptions == []
 
 
+def viewers(place: Place) -> list[int]:
+    """The processes of viewers."""
+    return [n for n, c in place.processes().items() if "-m sambot_viz.jupyter" in c]
+
+
 def refused(url: str, **settings: Any) -> int:
     """The status with which a websocket is refused."""
     with pytest.raises(InvalidStatus) as error:
@@ -134,10 +140,19 @@ def test_nobody_else_on_the_machine_reaches_the_viewer(lab: Lab) -> None:
         assert b" 401 " in connection.recv(100)
 
 
+def test_a_viewer_that_was_ended_is_started_again(lab: Lab) -> None:
+    assert lab.ask("robot-viewer/")[0] == 200
+    (before,) = viewers(lab.place)
+    os.kill(before, signal.SIGTERM)
+    wait_until(lambda: before not in lab.place.processes())
+    wait_until(lambda: lab.ask("robot-viewer/")[0] == 200)
+    assert len(viewers(lab.place)) == 1
+
+
 def test_the_viewer_ends_with_jupyter_also_when_that_is_killed() -> None:
     with a_place() as place, a_lab(place) as lab:
         assert lab.ask("robot-viewer/")[0] == 200
-        (viewer,) = (n for n, c in place.processes().items() if "sambot_viz" in c)
+        (viewer,) = viewers(place)
         lab.process.kill()
         wait_until(lambda: viewer not in place.processes())
         assert "the bundled sam_bot is shown; no model in the folder" in place.log

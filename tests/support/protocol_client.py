@@ -46,7 +46,7 @@ import threading
 import time
 import weakref
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, cast
@@ -113,6 +113,7 @@ class ProtocolClient:
         *,
         camera: bool = True,
         path: str = "",
+        headers: Mapping[str, str] | None = None,
     ):
         """Connect, wait for the end of the replay, and report a camera pose.
 
@@ -122,6 +123,7 @@ class ProtocolClient:
             camera: viser hands a browser to the program when the first camera pose
                 arrives; False leaves that out.
             path: of the address, such as "/copy" or "/?token=…".
+            headers: what a browser would send too, such as its cookies.
         """
         self._changed = threading.Condition()
         self._messages: list[Received] = []
@@ -136,6 +138,7 @@ class ProtocolClient:
         self._socket = connect(
             f"ws://{host}:{port}{path}",
             subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+            additional_headers=headers,
             max_size=None,
             compression=None,
         )

@@ -18,6 +18,9 @@ from sambot_viz.errors import UsageError
 
 MODEL = "SAMBOT_VIZ_MODEL"
 """The variable that names a model file or a package folder."""
+ENDED = 1
+"""Also of a viewer that was ended by a signal: jupyter-server-proxy starts one again
+that has not ended with 0, and would show an error for ever otherwise."""
 LOOKS_EVERY = 1.0
 """How often it is looked whether the Jupyter server is still there [s]."""
 
@@ -31,7 +34,8 @@ def main(words: Sequence[str]) -> int:
     folder, *flags = words
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
     model = model_of(Path(folder), os.environ.get(MODEL, ""))
-    return cli.main([*flags, *([] if model is None else ["--model", str(model)])])
+    code = cli.main([*flags, *([] if model is None else ["--model", str(model)])])
+    return code or ENDED
 
 
 def model_of(folder: Path, named: str) -> Path | None:
