@@ -276,6 +276,8 @@ class Visualizer:
     def export(self, path: Path | str, *, sweep: bool = True) -> None:
         """Write what is shown as one HTML file that needs no server.
 
+        What a program has added to `viser` is not in it.
+
         Args:
             path: the file, which is written whole or not at all.
             sweep: whether the page has a motion of each joint to its limits and back.

@@ -76,12 +76,14 @@ def state(links: Links) -> dict[str, Any]:
         "view": dict(view.values),
         "switches": {name: switch.on for name, switch in switches(session).items()},
         "selection": list(links.browser.tools.selection),
+        "fixed": session.context.fixed_frame,
     }
 
 
 def change(links: Links) -> None:
     """Move, turn, switch and select something."""
     session, browser = links.session, links.browser
+    session.set_global("Fixed Frame", "base_footprint")
     session.set_joint_positions({LEFT: 1.25})
     browser.view.set_kind("rviz_default_plugins/XYOrbit")
     browser.view.set("Distance", 2.5)
@@ -119,6 +121,7 @@ def test_a_link_has_what_differs_from_the_start(links: Links) -> None:
         "show.RobotModel/Links/=base_link": "0",
     }
     assert f"j.{RIGHT}" not in parts
+    assert parts["fixed"] == "base_footprint"
 
 
 def test_a_link_shows_the_same_in_another_program(
@@ -209,6 +212,7 @@ def test_a_link_of_another_robot_says_what_is_not_here_and_changes_only_what_it_
         [
             *ORBIT,
             ["robot", "arm"],
+            ["fixed", "palm"],
             *([f"j.{name}", "1"] for name in names),
             ["show.Grid/Enabled", "0"],
             ["show.Hand/Enabled", "0"],
@@ -218,7 +222,8 @@ def test_a_link_of_another_robot_says_what_is_not_here_and_changes_only_what_it_
         ]
     )
     assert said == (
-        "Opened a link of the robot 'arm': no joint 'joint_0', 'joint_1', 'joint_2', "
+        "Opened a link of the robot 'arm': no frame 'palm'; "
+        "no joint 'joint_0', 'joint_1', 'joint_2', "
         "'joint_3', 2 more; no display or part of one 'Hand/Enabled'; "
         "no link 'gripper'"
     )
@@ -300,3 +305,13 @@ def test_a_page_without_the_joints_panel_shows_the_view_and_moves_no_joint(
     assert said.endswith("not all of it: this page has no panel that moves joints")
     assert state(links)["joints"] == {LEFT: 1.0, RIGHT: 0.0}
     assert browser.view.values["Distance"] == 3.0
+
+
+def test_another_config_begins_with_its_own_switches(
+    links: Links, session: Session
+) -> None:
+    config = session.config.copy()
+    switches(session)["Grid/Enabled"].set(False)
+    config.displays[0].set_enabled(False)
+    session.set_config(config)
+    assert not [name for name, _ in links.copy() if name.startswith("show.")]

@@ -92,6 +92,9 @@ class LinkPanel(Panel):
         robot = self._session.robot
         if robot is not None:
             yield "robot", robot.name
+        fixed = self._session.context.fixed_frame
+        if fixed != self._session.first_fixed_frame:
+            yield "fixed", fixed
         yield from self._moved()
         for name, switch in switches(self._session).items():
             if switch.on != switch.first:
@@ -116,11 +119,24 @@ class LinkPanel(Panel):
         robot = self._session.robot
         link.elsewhere = robot is not None and link.robot not in (None, robot.name)
         link.watching = not self._session.roles.may_edit(self._browser.client_id)
+        # The camera is in the fixed frame.
+        self._fix(link)
         self._look(link)
         self._move(link)
         self._switch(link)
         self._select(link)
         return link.answer()
+
+    def _fix(self, link: LinkParts) -> None:
+        session, frame = self._session, link.fixed
+        if frame is None or frame == session.context.fixed_frame:
+            return
+        if frame not in session.tree.frames:
+            link.missing["frame"] += [frame]
+        elif link.watching:
+            link.kept = True
+        else:
+            session.set_global("Fixed Frame", frame)
 
     def _look(self, link: LinkParts) -> None:
         kinds = {kind.rpartition("/")[2]: kind for kind in VIEWS}

@@ -26,6 +26,7 @@ class LinkParts:
     Attributes:
         kind: the type of the view, such as "Orbit".
         robot: the name of the robot.
+        fixed: the fixed frame, if it is not that of the config.
         view: property of the view → value.
         joints: joint → position [rad or m].
         switches: those of the displays, by name (see `session.switches`).
@@ -39,6 +40,7 @@ class LinkParts:
 
     kind: str = ""
     robot: str | None = None
+    fixed: str | None = None
     view: dict[str, str] = field(default_factory=dict[str, str])
     joints: dict[str, str] = field(default_factory=dict[str, str])
     switches: dict[str, bool] = field(default_factory=dict[str, bool])
@@ -97,6 +99,8 @@ class LinkParts:
             self.kind = value
         elif name == "robot":
             self.robot = value
+        elif name == "fixed":
+            self.fixed = value
         elif name == "select":
             self.selected.append(value)
         elif head == "view":

@@ -36,6 +36,7 @@ class ShownDocument(SharedState):
         drawn: the displays and the background.
         edits: what browsers can undo, and whether the document is saved.
         first_switches: how the switches of the document were before any edit.
+        first_fixed_frame: which one the document named.
     """
 
     def __init__(
@@ -59,7 +60,7 @@ class ShownDocument(SharedState):
         )
         self.drawn = DrawnScene(self.context, config)
         self.edits = EditHistory(self)
-        self.first_switches = first_switches(config)
+        self._note_start(config)
 
     @property
     def config(self) -> RvizConfig:
@@ -94,10 +95,15 @@ class ShownDocument(SharedState):
         with self.change():
             self.edits.clear()
             self.drawn.take_config(config, trusted)
+            self._note_start(config)
             self._period_changed()
             self.context.nodes.sync(self.tree, self.context.fixed_frame)
             self.show_config()
             self._frames_changed()
+
+    def _note_start(self, config: RvizConfig) -> None:
+        self.first_switches = first_switches(config)
+        self.first_fixed_frame = str(config.global_options.get("Fixed Frame"))
 
     def refresh(self) -> None:
         """Draw what has changed in the files; what has not is not sent again."""
