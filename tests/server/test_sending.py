@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import socket
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
@@ -26,6 +28,9 @@ class Line:
         self.looks += 1
         self.waiting = max(0, self.waiting - self.at_a_look)
         return self.waiting
+
+    def get_extra_info(self, _: str) -> SimpleNamespace:
+        return SimpleNamespace(family=socket.AF_UNIX)
 
     def abort(self) -> None:
         self.aborted = True

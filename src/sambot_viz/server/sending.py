@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+import socket
 from collections.abc import AsyncIterator
 
 from websockets.asyncio.server import ServerConnection
@@ -29,6 +30,7 @@ class Sending:
         self._transport = connection.transport
         self._send = connection.send
         self._given = 0
+        _keep_little_in_the_system(self._transport)
         viser_private.replace_methods(connection, send=self.send)
 
     async def send(self, message: bytes) -> None:
@@ -59,6 +61,19 @@ class Sending:
     def abort(self) -> None:
         """End the connection at once."""
         self._transport.abort()
+
+
+def _keep_little_in_the_system(transport: asyncio.Transport) -> None:
+    """Have the system take no more than a piece that the line cannot take yet.
+
+    It takes megabytes otherwise. On a slow line a question whether the browser is still
+    there then waits behind them for longer than the answer is waited for, and nothing
+    seems to move for as long.
+    """
+    line = transport.get_extra_info("socket")
+    option = getattr(socket, "TCP_NOTSENT_LOWAT", None)
+    if option is not None and line.family in (socket.AF_INET, socket.AF_INET6):
+        line.setsockopt(socket.IPPROTO_TCP, option, PIECE)
 
 
 class StallTimer:
