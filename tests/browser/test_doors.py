@@ -29,6 +29,27 @@ def test_the_link_opens_the_page_and_a_reload_does_without(
         assert viewer.errors() == []
 
 
+def test_below_a_path_the_websocket_is_in_the_folder_of_the_page(
+    chromium: Chromium,
+) -> None:
+    """A proxy such as that of Jupyter knows no websocket at /robot, only at /robot/."""
+    slow = "setTimeout(() => resolve(quick(...given)), 800)"
+    late = (
+        "const quick = WebAssembly.instantiate; WebAssembly.instantiate = "
+        f"(...given) => new Promise((resolve) => {slow});"
+    )
+    with Visualizer(port=0, base_path="/robot") as viz:
+        page = open_page(chromium, 640, 480)
+        # viser unpacks itself before it reads the address; here that takes longer.
+        page.call("Page.addScriptToEvaluateOnNewDocument", {"source": late})
+        page.goto(f"{viz.url}/?fixedDpr=1")
+        page.wait_for("__viserMutable.scene && !location.search.includes('ws')", 30.0)
+        assert page.evaluate("location.href") == f"{viz.url}/?fixedDpr=1"
+        sockets = {url for url in page.requests if url.startswith("ws:")}
+        assert sockets == {f"{viz.url.replace('http', 'ws')}/"}
+        page.close()
+
+
 @pytest.mark.parametrize("query", ["websocket=ws:", "playbackPath=http:"])
 def test_an_address_brings_nothing_from_another_server(
     chromium: Chromium, query: str

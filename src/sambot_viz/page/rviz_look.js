@@ -176,9 +176,10 @@ vec3 sambotEncode(vec3 c) {
     for (const note of notes) {
       if (/^(Software WebGL|Receiv)/.test(note.textContent || "")) note.style.display = "none";
     }
-    // Below a path of a proxy, viser writes the address of its own server behind the page's.
+    // Below a path of a proxy, the address of the server stands behind the page's, from
+    // address.js and from viser. It goes when viser, which unpacks itself first, has read it.
     const query = new URLSearchParams(location.search);
-    if (!query.has("websocket")) return;
+    if (!window.__viserMutable || !query.has("websocket")) return;
     query.delete("websocket");
     history.replaceState(null, "", query.size ? `?${query}` : location.pathname);
   };
