@@ -103,9 +103,11 @@ def test_a_cell_shows_the_page_until_the_kernel_ends(
     second = port_in_cell(page)
     wait_until(lambda: not listens(port))
 
+    # And when the kernel starts again, or ends, nothing is left of it.
     (kernel,) = json.loads(lab.ask("api/kernels")[1])
     before = set(lab.place.processes())
-    assert lab.ask(f"api/kernels/{kernel['id']}", "DELETE")[0] == 204
+    assert lab.ask(f"api/kernels/{kernel['id']}/restart", "POST", {})[0] == 200
     wait_until(lambda: not listens(second))
+    assert lab.ask(f"api/kernels/{kernel['id']}", "DELETE")[0] == 204
     wait_until(lambda: set(lab.place.processes()) == {lab.process.pid}, 10.0)
     assert len(before) > 1
