@@ -321,3 +321,20 @@ def test_a_browser_that_does_not_read_is_disconnected(
 def noise() -> np.ndarray:
     """A picture that cannot be compressed."""
     return np.random.default_rng(0).integers(0, 255, (512, 512, 3), np.uint8)
+
+
+def test_a_flood_is_slowed_down_and_its_rest_keeps_nobody_waiting(
+    protocol: Connect, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(door, "BURST", 1.0)
+    monkeypatch.setattr(door, "MESSAGES_PER_SECOND", 0.5)
+    gone = threading.Event()
+    with Visualizer(port=0) as viz:
+        client = protocol(viz.viser.get_port())
+        viz.server.wait_for_browser(10.0)
+        viz.viser.on_client_disconnect(lambda _: gone.set())
+        for _ in range(100):
+            client.send_camera()
+        client.close()
+        # At the rate of the flood that would be three minutes.
+        assert gone.wait(20.0)

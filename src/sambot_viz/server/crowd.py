@@ -12,10 +12,12 @@ from __future__ import annotations
 
 import asyncio
 import http
+from typing import Any
 
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Response
 
+from sambot_viz.server.frames import limit_frames
 from sambot_viz.server.plain_page import plain_page
 
 MOST_BROWSERS = 200
@@ -39,11 +41,23 @@ class Crowd:
         class Counted(ServerConnection):
             """A connection that is closed at once when there are too many."""
 
+            def __init__(self, *arguments: Any, **settings: Any) -> None:
+                super().__init__(*arguments, **settings)
+                limit_frames(self)
+
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 super().connection_made(transport)
                 here.add(self)
                 if len(here) > most:
                     self.transport.abort()
+
+            def data_received(self, data: bytes) -> None:
+                """Read on, but not for ever from one that was told to close."""
+                end = self.close_deadline
+                if end is not None and self.loop.time() > end:
+                    self.transport.abort()
+                else:
+                    super().data_received(data)
 
             def connection_lost(self, exc: Exception | None) -> None:
                 here.discard(self)

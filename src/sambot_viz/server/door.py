@@ -28,6 +28,7 @@ from typing import Any, cast
 
 import viser
 from websockets.asyncio.server import ServerConnection
+from websockets.protocol import State
 
 from sambot_viz import viser_private
 from sambot_viz.panels import gate
@@ -40,6 +41,7 @@ from sambot_viz.server.browser_messages import (
     SetValue,
     decode,
 )
+from sambot_viz.server.rate import Rate
 from sambot_viz.server.sending import Sending
 
 LARGEST_MESSAGE = 64 * 1024
@@ -132,7 +134,12 @@ class Door:
         """The next message that may be handled."""
         while True:
             raw = await self._recv()
-            await self._rate.wait()
+            pause = self._rate.take()
+            if pause > 0.0:
+                if self._connection.state is not State.OPEN:
+                    # It has left a flood, which nobody has to wait for.
+                    continue
+                await asyncio.sleep(pause)
             await self._backlog.wait()
             message = decode(raw) if isinstance(raw, bytes) else None
             reason = self._reason_against(message)
@@ -225,34 +232,6 @@ def _reason_against_gesture(message: Point) -> str | None:
     else:
         complete = message.ray_origin is not None and message.ray_direction is not None
     return None if complete else "half a click"
-
-
-class Rate:
-    """Lets so many events pass in a second, after a burst, and holds back the rest.
-
-    Args:
-        per_second: events in the long run [1/s].
-        burst: events that may come at once.
-    """
-
-    def __init__(self, per_second: float, burst: float) -> None:
-        self._per_second = per_second
-        self._burst = self._left = burst
-        self._at = time.monotonic()
-
-    def take(self) -> float:
-        """Count one event; returns how long it has to wait [s]."""
-        now = time.monotonic()
-        self._left += (now - self._at) * self._per_second
-        self._left = min(self._left, self._burst) - 1.0
-        self._at = now
-        return max(0.0, -self._left / self._per_second)
-
-    async def wait(self) -> None:
-        """Count one event, and return when it may pass."""
-        pause = self.take()
-        if pause > 0.0:
-            await asyncio.sleep(pause)
 
 
 _next_report = 0.0

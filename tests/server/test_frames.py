@@ -1,0 +1,70 @@
+"""Connections that flood the server with what is not a message."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import pytest
+import viser
+from websockets.exceptions import ConnectionClosed
+from websockets.frames import Close, Frame, Opcode
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+from sambot_viz.options import Options
+from sambot_viz.server import door
+from sambot_viz.server.bind import close, listen
+from sambot_viz.server.frames import BURST
+
+
+@pytest.fixture
+def client(monkeypatch: pytest.MonkeyPatch) -> Iterator[ClientConnection]:
+    monkeypatch.setattr(door, "CLOSE_TIME", 0.1)
+    server = listen(Options())
+    protocol = Subprotocol(f"viser-v{viser.__version__}")
+    with connect(
+        f"ws://127.0.0.1:{server.get_port()}",
+        subprotocols=[protocol],
+        compression=None,
+        max_size=None,
+    ) as client:
+        yield client
+    close(server)
+
+
+FLOODS = {
+    "pings": Frame(Opcode.PING, b"x" * 125),
+    "pongs": Frame(Opcode.PONG, b""),
+    "parts": Frame(Opcode.CONT, b"", fin=False),
+}
+
+
+@pytest.mark.parametrize("name", FLOODS)
+def test_a_flood_of_small_frames_ends_its_connection(
+    client: ClientConnection, name: str
+) -> None:
+    first, part = Frame(Opcode.BINARY, b"", fin=False), FLOODS[name]
+    frames = [first, *[part] * (2 * int(BURST))]
+    data = b"".join(frame.serialize(mask=True) for frame in frames)
+    client.socket.sendall(data)
+    with pytest.raises(ConnectionClosed) as closed:
+        while True:
+            client.recv(timeout=10.0)
+    assert closed.value.rcvd == Close(1002, "too many small frames")
+
+
+def test_who_does_not_stop_sending_is_disconnected(client: ClientConnection) -> None:
+    end = time.monotonic() + 20.0
+    with pytest.raises(OSError):
+        while time.monotonic() < end:
+            client.socket.sendall(Frame(Opcode.PONG, b"").serialize(mask=True) * 1000)
+
+
+def test_a_message_in_large_parts_and_a_few_pings_are_taken(
+    client: ClientConnection,
+) -> None:
+    assert client.ping().wait(10.0)
+    client.send([b"x" * 2000] * 20)
+    for _ in range(20):
+        assert client.ping().wait(10.0)
