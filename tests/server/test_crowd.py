@@ -19,20 +19,21 @@ from sambot_viz.server import crowd
 from sambot_viz.server.bind import close, listen
 
 MOST = 3
+PRESENTER = "teach-the-class"
 
 
 @pytest.fixture
 def port(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     monkeypatch.setattr(crowd, "MOST_BROWSERS", MOST)
     monkeypatch.setattr(crowd, "MOST_CONNECTIONS", 10)
-    server = listen(Options())
+    server = listen(Options(presenter=PRESENTER))
     yield server.get_port()
     close(server)
 
 
-def page(port: int) -> ClientConnection:
+def page(port: int, query: str = "") -> ClientConnection:
     protocol = Subprotocol(f"viser-v{viser.__version__}")
-    return connect(f"ws://127.0.0.1:{port}", subprotocols=[protocol])
+    return connect(f"ws://127.0.0.1:{port}/{query}", subprotocols=[protocol])
 
 
 def test_a_page_too_many_reads_why_and_loads_when_one_has_left(port: int) -> None:
@@ -48,6 +49,8 @@ def test_a_page_too_many_reads_why_and_loads_when_one_has_left(port: int) -> Non
             assert answer.code == 503
             assert answer.headers["Refresh"] == "10"
             assert f"shown in {MOST} pages already" in answer.read().decode()
+        with page(port, f"?token={PRESENTER}"):
+            pass
         first.close()
         with urlopen(address) as answer, page(port):
             assert answer.status == 200

@@ -180,10 +180,11 @@ def checked(
                 return _plain(http.HTTPStatus.SEE_OTHER, "See there.", folder)
             request.path = without_base(request.path, options.base_path)
             request.path, copy = visitors.without_copy(request.path)
-            if crowd.is_full(connection) and page_files.is_page(request):
+            presenter = check_token.is_presenter(request)
+            is_page = page_files.is_page(request) and not presenter
+            if is_page and crowd.is_full(connection):
                 return crowd.refusal()
             if page_files.is_websocket(request):
-                presenter = check_token.is_presenter(request)
                 visitors.note(connection, visitors.Visitor(presenter, copy))
             try:
                 response = page_files.answer(request, options.panels)
