@@ -1,7 +1,7 @@
 """Many browsers, large scenes, bad browsers and long runs, over real connections.
 
     python -m pytest tests/benchmarks/test_load.py -s
-    SAMBOT_VIZ_SOAK=600 python -m pytest tests/benchmarks/test_load.py -s -k minutes
+    SAMBOT_VIZ_SOAK=600 python -m pytest tests/benchmarks/test_load.py -s
 
 The server, the light browsers and those that misbehave have processes of their own, but
 they share the machine: on two cores, a hundred browsers take more than the server does.
@@ -9,6 +9,7 @@ they share the machine: on two cores, a hundred browsers take more than the serv
 
 from __future__ import annotations
 
+import asyncio
 import csv
 import os
 import statistics
@@ -23,8 +24,9 @@ import pytest
 import viser
 from crowd import Crowd, Light
 from protocol_client import ProtocolClient
+from slow_line import slow_line
 from steps import RECORD, Times, delays, drag, p95, report
-from troublemakers import troublemakers
+from troublemakers import load_once, silent_browser, troublemakers
 from usage import forget_peak, usage
 from viewer_page import viewer_url
 
@@ -52,7 +54,10 @@ UPDATES = 1_000_000
 IDS = 30_000_000
 """So many messages are sent for 50 joints at 60 Hz within three hours."""
 SOAK = float(os.environ.get("SAMBOT_VIZ_SOAK", "0"))
-"""How long thirty browsers look on, if at all [s]."""
+"""How long thirty browsers look on; other long ones run then too [s]."""
+
+
+soak = pytest.mark.skipif(not SOAK, reason="SAMBOT_VIZ_SOAK says for how long [s]")
 
 
 def sweep(seconds: float = SECONDS) -> list[float]:
@@ -262,7 +267,74 @@ def test_who_joins_late_starts_as_fast_as_the_first(
     assert result.ratio < 1.5, str(result)
 
 
-@pytest.mark.skipif(not SOAK, reason="SAMBOT_VIZ_SOAK says for how long [s]")
+@soak
+def test_a_phone_gets_50_MB_in_a_minute_and_who_reads_nothing_is_thrown_out(
+    run_server: RunServer, tmp_path: Path
+) -> None:
+    """Twenty browsers read nothing, and ten laptops sleep while a joint moves."""
+    with run_server([*OURS, str(large_scene.write_robot(tmp_path))]) as server:
+        with Crowd(server.port, 1, 1, meshes=large_scene.MESHES):
+            before = usage(server.process)
+        figures = asyncio.run(_phone_and_silent(server.port, server.process))
+    taken, megabytes, peak, gone = figures
+    print(
+        f"\n  the phone had {megabytes:.0f} MB after {taken:.0f} s; 20 that read "
+        f"nothing held {peak - before.memory:.0f} MB and were gone after {gone:.0f} s"
+    )
+    assert megabytes > 40.0
+    assert gone < 30.0
+    assert peak - before.memory < 200.0
+
+
+async def _phone_and_silent(
+    port: int, process: int
+) -> tuple[float, float, float, float]:
+    loop = asyncio.get_running_loop()
+    start = loop.time()
+    files = Path(f"/proc/{process}/fd")
+    there = len(list(files.iterdir()))
+    silent = [await silent_browser(port) for _ in range(20)]
+
+    async def until_gone() -> float:
+        # The phone is still there.
+        while len(list(files.iterdir())) > there + 1:
+            await asyncio.sleep(0.2)
+        return loop.time() - start
+
+    async with slow_line(port, 830_000) as line:
+        gone = asyncio.create_task(until_gone())
+        taken, size = await asyncio.wait_for(load_once(line), 120.0)
+        peak = usage(process).peak
+        late = await asyncio.wait_for(gone, 60.0)
+        for socket in silent:
+            socket.transport.abort()
+        return taken, size / 1e6, peak, late
+
+
+@soak
+def test_laptops_that_sleep_are_let_go_and_the_others_notice_nothing(
+    run_server: RunServer, protocol: Join
+) -> None:
+    with run_server(OURS) as server:
+        user = protocol(server.port)
+        with Crowd(server.port, 10) as awake, Crowd(server.port, 10, 1) as laptops:
+            before = usage(server.process)
+            laptops.sleep()
+            times = move(user, awake, 60.0)
+            laptops.wake()
+            end = time.monotonic() + 10.0
+            while left := [light for light in laptops.look() if not light.closed]:
+                if time.monotonic() > end:
+                    break
+            after = usage(server.process)
+    print()
+    report("while ten laptops sleep", times)
+    print(f"  {len(left)} of them are left; {after.memory - before.memory:.1f} MB more")
+    assert not left
+    assert after.memory - before.memory < 20.0
+
+
+@soak
 def test_thirty_browsers_for_minutes(
     run_server: RunServer, protocol: Join, tmp_path: Path
 ) -> None:

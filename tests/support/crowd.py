@@ -15,6 +15,8 @@ from __future__ import annotations
 import asyncio
 import math
 import multiprocessing
+import os
+import signal
 import time
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
@@ -117,6 +119,16 @@ class Crowd:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+    def sleep(self) -> None:
+        """Do nothing from now on, like a laptop that is closed."""
+        for process in self._processes:
+            os.kill(process.pid, signal.SIGSTOP)
+
+    def wake(self) -> None:
+        """Go on, and find out which connections are left."""
+        for process in self._processes:
+            os.kill(process.pid, signal.SIGCONT)
 
     def close(self) -> None:
         """End all connections."""

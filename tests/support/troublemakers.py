@@ -16,7 +16,7 @@ from contextlib import contextmanager, suppress
 
 import msgspec.msgpack
 import viser
-from protocol_client import CAMERA
+from protocol_client import CAMERA, decode_frame
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
@@ -84,12 +84,30 @@ def _connect(port: int, most: int | None = 16) -> connect:
     )
 
 
+async def silent_browser(port: int) -> ClientConnection:
+    """A browser that reads nothing."""
+    socket = await _connect(port, most=1)
+    await socket.send(FIRST)
+    return socket
+
+
+async def load_once(port: int) -> tuple[float, int]:
+    """Load a page's scene; returns how long it took [s], and its length [bytes]."""
+    loop = asyncio.get_running_loop()
+    start, size = loop.time(), 0
+    async with _connect(port) as socket:
+        await socket.send(FIRST)
+        async for data in socket:
+            size += len(data)
+            heads = decode_frame(data) if isinstance(data, bytes) else []
+            if any(message.type == "ReplayDoneMessage" for message in heads):
+                break
+    return loop.time() - start, size
+
+
 async def _read_nothing(port: int) -> None:
-    while True:
-        with suppress(ConnectionClosed):
-            async with _connect(port, most=1) as socket:
-                await socket.send(FIRST)
-                await socket.wait_closed()
+    socket = await silent_browser(port)
+    await socket.wait_closed()
 
 
 async def _rave(port: int) -> None:
