@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from inside import session_of
+from inside import files_of, session_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
@@ -18,7 +18,7 @@ from sambot_viz.panels.expanded import keep_expanded
 from sambot_viz.panels.files import FilesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
-from sambot_viz.session import Session
+from sambot_viz.session import Session, config_file
 
 CONFIG = """Visualization Manager:
   Displays:
@@ -39,7 +39,7 @@ class Page:
         self.sentences: list[str] = []
         self.unfolded: set[str] = set()
         (browser,) = session.browsers.values()
-        files = viz.server.files if disk else None
+        files = files_of(viz) if disk else None
         self.panel = FilesPanel(
             session,
             browser,
@@ -141,6 +141,18 @@ def test_a_name_that_cannot_be_written_is_refused_with_the_folder(
         page.act("file/save-as", name, False, [])
     assert str(folder) in str(refused.value)
     assert sorted(os.listdir(folder)) == before
+
+
+def test_a_browser_cannot_fill_the_disk_with_configs(
+    page: Page, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(config_file, "MOST_NAMES", 3)
+    page.act("file/save-as", "third", False, [])
+    with pytest.raises(UsageError, match="remove one first"):
+        page.act("file/save-as", "fourth", False, [])
+    assert not (folder / "fourth.rviz").exists()
+    page.act("file/save-as", "third", True, [])
+    page.act("file/save", [])
 
 
 def test_a_file_that_cannot_be_written_is_reported_and_nothing_is_lost(

@@ -1,10 +1,11 @@
-"""The two things inside a Visualizer that its public names do not give to tests."""
+"""What is inside a Visualizer and that its public names do not give to tests."""
 
 from __future__ import annotations
 
 import viser
 
 from sambot_viz import Visualizer
+from sambot_viz.panels.files import Files
 from sambot_viz.session import Session
 
 
@@ -25,3 +26,8 @@ def node_of(viz: Visualizer, frame: str) -> str:
 def session_of(viz: Visualizer) -> Session:
     """The session of all browsers, or of the one that came first."""
     return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+
+
+def files_of(viz: Visualizer) -> Files:
+    """The disk, as the shared session's browsers use it."""
+    return viz._documents  # pyright: ignore[reportPrivateUsage]

@@ -17,6 +17,7 @@ from sambot_viz.files import is_below
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.limits import require_room
 from sambot_viz.session.session import Session
 from sambot_viz.text import text
 
@@ -24,7 +25,7 @@ ENDING = ".rviz"
 LONGEST_NAME = 200
 """Most file systems take 255 bytes; a temporary name beside the file is longer."""
 MOST_NAMES = 1000
-"""So many files of a folder are listed."""
+"""So many files of a folder are listed, and with so many no further one is written."""
 UNNAMED = f"sambot_viz{ENDING}"
 """What a config without a file is called when it is downloaded."""
 _FORBIDDEN = '<>:"|?*'
@@ -165,6 +166,9 @@ class ConfigFile:
             target = path or self.target
             if target is None:
                 raise UsageError("this config has no file of its own yet: save it as …")
+            if not os.path.lexists(target):
+                what = f"configs in {target.absolute().parent}"
+                require_room(len(self.names()), MOST_NAMES, what)
             try:
                 self._session.config.save(target)
             except ConfigError as error:
