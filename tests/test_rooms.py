@@ -90,6 +90,7 @@ ROOMS: Mapping[str, Row] = {
     "drive": Row("joints robot", "numpy"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
+    "viser_private": Row("", "rich viser websockets", "asyncio"),
     "displays": Row("frames meshes robot rviz viser_private", "numpy viser"),
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
@@ -146,7 +147,6 @@ ROOMS: Mapping[str, Row] = {
     "problem_text": Row("problem_groups"),
     "text": Row(),
     "tokens": Row(),
-    "viser_private": Row("", "rich viser websockets", "asyncio"),
     "visualizer": Row(
         "displays export frames inputs joints jupyter options robot rviz server "
         "session",

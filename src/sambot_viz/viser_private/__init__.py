@@ -1,0 +1,63 @@
+"""Every use of a private name of viser, each with its reason and a test.
+
+viser is pinned to a minor version (pyproject.toml); tests/test_viser_private.py fails
+when one of these names has moved.
+"""
+
+from sambot_viz.viser_private.connections import (
+    allow_late_messages,
+    connection_of,
+    larger_messages,
+    on_connection,
+    quiet_websockets,
+    replace_methods,
+    without_banner,
+)
+from sambot_viz.viser_private.outgoing import (
+    Packer,
+    WindowLoop,
+    broadcast_buffer,
+    own_buffer,
+    replace_window_loop,
+)
+from sambot_viz.viser_private.recorder import Recorder
+from sambot_viz.viser_private.scene import (
+    is_removed,
+    node_count,
+    remember_prop_types,
+    set_pose,
+    share_arrays,
+)
+from sambot_viz.viser_private.widgets import (
+    awaits_picture,
+    drawn_by,
+    input_handle,
+    is_for_all,
+    send_value,
+)
+
+__all__ = [
+    "Packer",
+    "Recorder",
+    "WindowLoop",
+    "allow_late_messages",
+    "awaits_picture",
+    "broadcast_buffer",
+    "connection_of",
+    "drawn_by",
+    "input_handle",
+    "is_for_all",
+    "is_removed",
+    "larger_messages",
+    "node_count",
+    "on_connection",
+    "own_buffer",
+    "quiet_websockets",
+    "remember_prop_types",
+    "replace_methods",
+    "replace_window_loop",
+    "send_value",
+    "set_pose",
+    "share_arrays",
+    "without_banner",
+]

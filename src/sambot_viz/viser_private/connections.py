@@ -1,0 +1,104 @@
+"""The connections of browsers, and what viser writes on the terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import weakref
+from collections.abc import (
+    Callable,
+    Generator,
+)
+from typing import Any, cast
+
+import rich
+import viser
+from websockets.asyncio.server import ServerConnection
+
+_prepared: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
+
+
+def on_connection(
+    server: viser.ViserServer, prepare: Callable[[int, ServerConnection], object]
+) -> None:
+    """Call `prepare` with every browser's number and connection before it is read.
+
+    Connections that are open already are prepared too. A second call for the same
+    server does nothing.
+    """
+    if server in _prepared:
+        return
+    _prepared.add(server)
+    websocket = cast(Any, server)._websock_server
+    connections: dict[int, ServerConnection] = websocket._live_connections
+
+    def connected(browser: Any) -> None:
+        prepare(browser.client_id, connections[browser.client_id])
+
+    websocket.on_client_connect(connected)
+    for number, connection in list(connections.items()):
+        prepare(number, connection)
+
+
+def replace_methods(connection: ServerConnection, **methods: Any) -> None:
+    """Have viser call other functions in place of methods of a connection."""
+    vars(connection).update(methods)
+
+
+def connection_of(server: viser.ViserServer, client_id: int) -> ServerConnection:
+    """The connection of a browser.
+
+    Raises:
+        KeyError: it has ended.
+    """
+    return cast(Any, server)._websock_server._live_connections[client_id]
+
+
+@contextlib.contextmanager
+def larger_messages(client: viser.ClientHandle, most: int) -> Generator[None]:
+    """Let a browser send longer messages for a while, for a picture.
+
+    Args:
+        client: the browser.
+        most: length of a message [bytes].
+    """
+    server: Any = cast(Any, client)._viser_server
+    connection = server._websock_server._live_connections.get(client.client_id)
+    before = None if connection is None else connection.protocol.max_message_size
+    if connection is not None:
+        connection.protocol.max_message_size = most
+    try:
+        yield
+    finally:
+        if connection is not None:
+            connection.protocol.max_message_size = before
+
+
+def allow_late_messages(client: viser.ClientHandle) -> None:
+    """Let viser drop messages to a browser that has left without a warning.
+
+    A browser may leave at any moment, also while its session is drawn.
+    """
+    buffer = cast(Any, client)._websock_connection.get_message_buffer()
+    buffer._warned_push_after_done = True
+
+
+@contextlib.contextmanager
+def without_banner() -> Generator[None]:
+    """Keep viser's own lines off the terminal while it starts or stops."""
+    console = rich.get_console()
+    before = console.quiet
+    console.quiet = True
+    try:
+        yield
+    finally:
+        console.quiet = before
+
+
+def quiet_websockets() -> None:
+    """Keep the tracebacks of half-open connections off the terminal.
+
+    Browsers open connections on speculation and drop them; the websockets library
+    logs each as an error with a traceback. A dropped connection does no harm here.
+    """
+    logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
