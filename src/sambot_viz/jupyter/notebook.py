@@ -7,6 +7,10 @@ page then asks for a token, which the cell's frame has in its address; the cooki
 takes its place works there, because frame and notebook have one origin. Without that
 proxy the frame shows the port of this machine, and without a token, unless the user
 gave one: browsers send no cookie to a frame of another site.
+
+What stays weak: jupyter-server-proxy sends the cookies of Jupyter to whatever listens
+on a port. Another user of the machine could listen there when a viewer has ended and
+its page is still open. The viewer of the tile (`jupyter.tile`) has no port.
 """
 
 from __future__ import annotations
