@@ -12,7 +12,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Problem, Visualizer
 from sambot_viz.session import Session
-from sambot_viz.session.drawn_scene import walk
+from sambot_viz.session.document.drawn_scene import walk
 
 pytestmark = pytest.mark.browser
 

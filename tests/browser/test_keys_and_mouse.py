@@ -13,7 +13,7 @@ from user import User
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 pytestmark = pytest.mark.browser
 

@@ -15,8 +15,8 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
-from sambot_viz.session.browser_view import BrowserView
-from sambot_viz.session.tool_control import ToolControl
+from sambot_viz.session.browser.tool_control import ToolControl
+from sambot_viz.session.browser.view import BrowserView
 from sambot_viz.views.view import STEEPEST
 
 pytestmark = pytest.mark.browser

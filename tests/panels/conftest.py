@@ -11,7 +11,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 
 @pytest.fixture

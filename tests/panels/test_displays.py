@@ -13,8 +13,8 @@ from panel_rows import edit, rows_of
 from sambot_viz import SambotVizError, Visualizer
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
-from sambot_viz.panels.displays import DisplaysPanel
-from sambot_viz.panels.new_displays import NewDisplaysPanel
+from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
 from sambot_viz.session import Session

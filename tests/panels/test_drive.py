@@ -18,8 +18,8 @@ from sambot_viz.panels import gate
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.drive_control import DriveControl
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.robot.drive_control import DriveControl
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 IN_ODOM = Answer("The fixed frame is odom now, to show the motion; Undo puts it back")

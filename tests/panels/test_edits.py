@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 from panel_rows import edit, rows_of
 
-from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 GRID = "rviz_default_plugins/Grid"
 

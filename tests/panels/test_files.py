@@ -14,7 +14,7 @@ from protocol_client import ProtocolClient
 from sambot_viz import UsageError, Visualizer, bundled, load_config
 from sambot_viz.export.pages import ask_page
 from sambot_viz.panels import gate
-from sambot_viz.panels.expanded import keep_expanded
+from sambot_viz.panels.displays.expanded import keep_expanded
 from sambot_viz.panels.files import FilesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row

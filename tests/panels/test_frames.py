@@ -12,11 +12,11 @@ from sambot_viz import FrameError, Visualizer, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.static_transform import StaticTransformError
-from sambot_viz.panels import frames
-from sambot_viz.panels.frames import FramesPanel, pasted_arguments
+from sambot_viz.panels.frames import frames
+from sambot_viz.panels.frames.frames import FramesPanel, pasted_arguments
 from sambot_viz.panels.row import Level
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 LEFT = "drivewhl_l_link"
 FLOATS = """<robot name="floats">

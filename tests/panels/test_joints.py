@@ -16,7 +16,7 @@ from panel_rows import edit, row_named, rows_of
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
 from sambot_viz.panels import gate
-from sambot_viz.panels.joints import FOLLOWERS, SKIPPED, JointsPanel
+from sambot_viz.panels.joints.joints import FOLLOWERS, SKIPPED, JointsPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Event, Session
 

@@ -10,8 +10,8 @@ from inside import session_of
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
 from sambot_viz.panels import gate
-from sambot_viz.panels.joints import JointsPanel
-from sambot_viz.panels.joints_again import JointsAgainPanel
+from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.joints.joints_again import JointsAgainPanel
 from sambot_viz.session import Session
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

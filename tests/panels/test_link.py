@@ -10,12 +10,12 @@ from inside import session_of
 
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.panels import gate
-from sambot_viz.panels.joints import JointsPanel
-from sambot_viz.panels.link import LinkPanel
+from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.link.link import LinkPanel
 from sambot_viz.panels.row import Answer, Row
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.switches import switches
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.document.switches import switches
 from sambot_viz.tools.picking.hit import Selectable
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

@@ -13,8 +13,8 @@ from panel_rows import edit, rows_of
 from sambot_viz import Visualizer
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.panels import gate
+from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.poses import PosesPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.limits import MOST_POSES

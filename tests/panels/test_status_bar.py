@@ -6,7 +6,7 @@ from panel_rows import rows_of
 
 from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 
 def test_nothing_is_being_read_at_rest(session: Session, browser: Browser) -> None:

@@ -8,7 +8,7 @@ from panel_rows import edit, rows_of
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.tools.picking.hit import Selectable
 
 TOOLS = ("Interact", "Move Camera", "Select", "Focus Camera", "Measure")

@@ -13,7 +13,7 @@ from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 ORBIT, ABOVE = "Orbit (rviz_default_plugins)", "TopDownOrtho (rviz_default_plugins)"
 

@@ -15,7 +15,7 @@ from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
-from sambot_viz.session.browser_view import BrowserView
+from sambot_viz.session.browser.view import BrowserView
 from sambot_viz.views.camera import FIELD_OF_VIEW
 
 FRESH = (3.0, 3.0, 3.0)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import viser
 
-from sambot_viz.session.browser_camera import BrowserCamera
+from sambot_viz.session.browser.camera import BrowserCamera
 
 
 def a_camera() -> SimpleNamespace:

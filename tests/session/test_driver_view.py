@@ -11,7 +11,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.session import Browser, Session
-from sambot_viz.session.driver_view import DriverView
+from sambot_viz.session.browser.driver_view import DriverView
 from sambot_viz.views.camera import vector
 
 START, AWAY, FARTHER = vector(0, 0, 0.1), vector(5, 2, 0.1), vector(6, 2, 0.1)

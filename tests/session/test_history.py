@@ -16,10 +16,10 @@ from sambot_viz.displays.display import Display
 from sambot_viz.frames import Transform
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
-from sambot_viz.session.drawn_scene import walk
+from sambot_viz.session.browser.saved_views import SavedViews
+from sambot_viz.session.document.drawn_scene import walk
 from sambot_viz.session.history import LIMIT
 from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
-from sambot_viz.session.saved_views import SavedViews
 
 A, B = 1, 2
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

@@ -12,7 +12,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import JointError, Visualizer
 from sambot_viz.session import Session
-from sambot_viz.session.motion import Motion
+from sambot_viz.session.robot.motion import Motion
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 TRANSFORMS = ("SetOrientationMessage", "SetPositionMessage")

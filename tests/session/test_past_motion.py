@@ -9,8 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from sambot_viz.session import past_motion
-from sambot_viz.session.past_motion import LONGEST, PERIOD, PastMotion
+from sambot_viz.session.robot import past_motion
+from sambot_viz.session.robot.past_motion import LONGEST, PERIOD, PastMotion
 
 
 class Clock:

@@ -18,7 +18,7 @@ from sambot_viz.meshes.cache import Content, MeshCache
 from sambot_viz.options import Options
 from sambot_viz.server import sessions as sessions_module
 from sambot_viz.session import Session
-from sambot_viz.session.browser_view import BrowserView
+from sambot_viz.session.browser.view import BrowserView
 from sambot_viz.views.camera import FILLED_HEIGHT, FILLED_WIDTH
 
 FRESH = (3.0, 3.0, 3.0)

@@ -15,7 +15,7 @@ from viewer_page import ViewerPage, viewer_url
 from sambot_viz import Visualizer, bundled
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 MODELS: dict[str, Callable[[], str]] = {
     "T": robots.humanoid,

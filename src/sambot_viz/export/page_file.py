@@ -12,10 +12,10 @@ from sambot_viz.joints import JointState
 from sambot_viz.joints.sweep import sweep
 from sambot_viz.server.page_files import page_of_viser
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.document_view import mouse_facts, view_of
-from sambot_viz.session.past_motion import Moved
-from sambot_viz.session.robot_framing import Size, window_of
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.browser.robot_framing import Size, window_of
+from sambot_viz.session.document.document_view import mouse_facts, view_of
+from sambot_viz.session.robot.past_motion import Moved
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
 

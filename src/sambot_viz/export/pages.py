@@ -12,7 +12,7 @@ from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.export.page_file import Looking, page_file
 from sambot_viz.export.recorded_scene import Shown
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 LARGEST = 100_000_000
 """A page of more bytes is not sent to a browser."""

@@ -17,9 +17,9 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
-from sambot_viz.session.browser_camera import BrowserCamera
-from sambot_viz.session.drive_control import ODOM
-from sambot_viz.session.past_motion import Moved
+from sambot_viz.session.browser.camera import BrowserCamera
+from sambot_viz.session.robot.drive_control import ODOM
+from sambot_viz.session.robot.past_motion import Moved
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Action, Worker
 from sambot_viz.views.camera import Camera

@@ -12,7 +12,7 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.server.server import Server
-from sambot_viz.session.browser_camera import BrowserCamera
+from sambot_viz.session.browser.camera import BrowserCamera
 from sambot_viz.views.camera import Camera
 
 Picture = npt.NDArray[np.uint8]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.files import AskPage, Files, FilesPanel
-from sambot_viz.panels.frames import FramesPanel
-from sambot_viz.panels.link import LinkPanel
+from sambot_viz.panels.frames.frames import FramesPanel
+from sambot_viz.panels.link.link import LinkPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import OwnRolePanel
 from sambot_viz.panels.publisher import Publisher
@@ -17,7 +17,7 @@ from sambot_viz.panels.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Event, Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 _PART = 1000
 """Characters of a part of a text for the clipboard."""

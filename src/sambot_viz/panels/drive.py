@@ -16,8 +16,8 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Kind, Row
 from sambot_viz.session import Session
-from sambot_viz.session.drive_control import ODOM
-from sambot_viz.session.motion import HOLD
+from sambot_viz.session.robot.drive_control import ODOM
+from sambot_viz.session.robot.motion import HOLD
 
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
 """Limits of the speeds [m/s] and [rad/s]."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Json, Row
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 
 class UndoPanel(Panel):

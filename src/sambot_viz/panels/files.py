@@ -10,7 +10,7 @@ from sambot_viz.errors import ConfigError, SambotVizError, UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.config_file import UNNAMED, ConfigFile
 from sambot_viz.session.picture import (
     LONGEST_SIDE,

@@ -9,7 +9,7 @@ import viser
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Row, own
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 
 
 class PeoplePanel(Panel):

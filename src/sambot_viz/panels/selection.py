@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.distance import distance_between
-from sambot_viz.panels.link_facts import Fact, facts_of
+from sambot_viz.panels.frames.link_facts import Fact, facts_of
 from sambot_viz.panels.numbers_text import shown_numbers
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.tools.picking.hit import Selectable
 
 SHOWN = 30

@@ -10,7 +10,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Row, own
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.tools.tool import Tool
 
 _NUMBERS = ((float, int), (float, int))

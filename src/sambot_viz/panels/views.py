@@ -16,8 +16,8 @@ from sambot_viz.panels.row import Json, Row, own
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.document_view import mouse_facts
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.document.document_view import mouse_facts
 from sambot_viz.views.registry import VIEWS
 
 CURRENT = "view"

@@ -7,22 +7,22 @@ from functools import partial
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.panels import gate
 from sambot_viz.panels.browser import BrowserPanels
-from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.new_displays import NewDisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.files import AskPage, Files
-from sambot_viz.panels.joints import JointsPanel
-from sambot_viz.panels.joints_again import JointsAgainPanel
+from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.joints.joints_again import JointsAgainPanel
+from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.names import NamesPanel
-from sambot_viz.panels.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import PeoplePanel
-from sambot_viz.panels.poses import PosesPanel
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer
 from sambot_viz.panels.status_bar import StatusBarPanel
 from sambot_viz.session import Event, Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.roles import WATCHING
 
 

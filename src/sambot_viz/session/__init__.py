@@ -4,8 +4,8 @@
 robot's state, frames that users add, motion and driving, browsers, edits, problems.
 """
 
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.drawn_scene import walk
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.document.drawn_scene import walk
 from sambot_viz.session.problem_list import Reloaded
 from sambot_viz.session.session import Session
 from sambot_viz.session.shared_state import Audience, Event

@@ -16,7 +16,7 @@ from PIL import Image
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.geometry import wxyz_from_matrix
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.session import Session
 from sambot_viz.views.camera import components
 from sambot_viz.viser_private import drawn_by

@@ -22,12 +22,12 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.document_view import target_of, view_of
-from sambot_viz.session.motion import Motion
-from sambot_viz.session.pick_rays import PickRays
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.browser.pick_rays import PickRays
+from sambot_viz.session.document.document_view import target_of, view_of
 from sambot_viz.session.problem_list import ProblemList
-from sambot_viz.session.robot_edits import RobotEdits
+from sambot_viz.session.robot.motion import Motion
+from sambot_viz.session.robot.robot_edits import RobotEdits
 from sambot_viz.session.roles import Roles
 from sambot_viz.session.shared_state import Audience
 from sambot_viz.session.worker import Worker

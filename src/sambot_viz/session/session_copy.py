@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.joints.presets import Presets
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.user_frames import UserFrame
+from sambot_viz.session.robot.user_frames import UserFrame
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session

@@ -18,9 +18,9 @@ from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.changes import PutBack
 from sambot_viz.rviz.class_name import short_name
 from sambot_viz.rviz.display_list import Removed
-from sambot_viz.session.drawn_scene import walk
+from sambot_viz.session.document.drawn_scene import walk
+from sambot_viz.session.document.shown_document import ShownDocument
 from sambot_viz.session.limits import MOST_DISPLAYS, require_room
-from sambot_viz.session.shown_document import ShownDocument
 
 _COUNTED = re.compile(r"^(.*) \(\d+\)$", re.DOTALL)
 """A name that ends with a number, as copies have it."""

@@ -13,7 +13,7 @@ from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.view import WORLD, Target, View
 
 if TYPE_CHECKING:
-    from sambot_viz.session.shown_document import ShownDocument
+    from sambot_viz.session.document.shown_document import ShownDocument
 
 
 def view_of(config: ViewConfig) -> View:

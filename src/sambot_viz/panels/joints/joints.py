@@ -14,12 +14,12 @@ from sambot_viz.joints.values import (
     as_topic_pub,
     as_yaml,
 )
-from sambot_viz.panels.joint_groups import joint_groups
+from sambot_viz.panels.joints.joint_groups import joint_groups
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Row, own
 from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Session
-from sambot_viz.session.joint_arrow import JointArrow
+from sambot_viz.session.robot.joint_arrow import JointArrow
 
 STEP_ANGLE, STEP_LENGTH = 0.01, 0.001
 """What an arrow key adds [rad] and [m]."""

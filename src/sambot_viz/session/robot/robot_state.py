@@ -12,8 +12,8 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.start import StartPose
 from sambot_viz.robot.model import Robot
-from sambot_viz.session.past_motion import PastMotion
-from sambot_viz.session.user_frames import UserFrames
+from sambot_viz.session.robot.past_motion import PastMotion
+from sambot_viz.session.robot.user_frames import UserFrames
 
 
 class RobotState:

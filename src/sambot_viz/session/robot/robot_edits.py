@@ -19,12 +19,12 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.display_edits import DisplayEdits
-from sambot_viz.session.past_motion import PastMotion
-from sambot_viz.session.robot_state import RobotState
+from sambot_viz.session.document.display_edits import DisplayEdits
+from sambot_viz.session.robot.past_motion import PastMotion
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.robot.user_frames import UserFrame, UserFrames
 from sambot_viz.session.shared_state import Audience
 from sambot_viz.session.throttle import Throttle
-from sambot_viz.session.user_frames import UserFrame, UserFrames
 from sambot_viz.session.worker import Worker
 
 

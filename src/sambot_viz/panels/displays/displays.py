@@ -12,8 +12,8 @@ from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.display_actions import DisplayActions
-from sambot_viz.panels.expanded import keep_expanded, mark_expanded
+from sambot_viz.panels.displays.display_actions import DisplayActions
+from sambot_viz.panels.displays.expanded import keep_expanded, mark_expanded
 from sambot_viz.panels.lazy_rows import LazyRows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows

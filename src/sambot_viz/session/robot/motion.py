@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from sambot_viz.joints.animation import turn
-from sambot_viz.session.drive_control import DriveControl
+from sambot_viz.session.robot.drive_control import DriveControl
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session

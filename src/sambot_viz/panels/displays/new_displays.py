@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row
 from sambot_viz.rviz import DisplayConfig

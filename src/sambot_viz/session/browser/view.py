@@ -21,10 +21,10 @@ import viser
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import short_name
-from sambot_viz.session.browser_camera import BrowserCamera, same_picture
-from sambot_viz.session.document_view import target_of, view_of
-from sambot_viz.session.robot_framing import RobotFraming, window_of
-from sambot_viz.session.saved_views import SavedViews
+from sambot_viz.session.browser.camera import BrowserCamera, same_picture
+from sambot_viz.session.browser.robot_framing import RobotFraming, window_of
+from sambot_viz.session.browser.saved_views import SavedViews
+from sambot_viz.session.document.document_view import target_of, view_of
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.tools.picking.pick_scene import Corners
 from sambot_viz.views.camera import Camera, Vector

@@ -14,7 +14,7 @@ import numpy as np
 import viser
 
 from sambot_viz.errors import UsageError
-from sambot_viz.session.pointer_events import click_of, pointed_at, rays_of
+from sambot_viz.session.browser.pointer_events import click_of, pointed_at, rays_of
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.hit import Hit, Selectable
 from sambot_viz.tools.picking.picture import ScreenPoint
@@ -26,7 +26,7 @@ from sambot_viz.tools.tool import Click, Tool
 
 if TYPE_CHECKING:
     from sambot_viz.session import Event, Session
-    from sambot_viz.session.browser import Browser
+    from sambot_viz.session.browser.browser import Browser
 
 MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
 

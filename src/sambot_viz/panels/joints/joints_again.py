@@ -8,7 +8,7 @@ from typing import Any
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.gate import checked
-from sambot_viz.panels.joints import joint_id
+from sambot_viz.panels.joints.joints import joint_id
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Json, Row
 from sambot_viz.session import Session

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import viser
 
-from sambot_viz.session.browser_view import BrowserView
+from sambot_viz.session.browser.tool_control import ToolControl
+from sambot_viz.session.browser.view import BrowserView
 from sambot_viz.session.shared_state import Event, Listener
-from sambot_viz.session.tool_control import ToolControl
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session

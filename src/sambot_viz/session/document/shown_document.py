@@ -12,10 +12,10 @@ from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.frames import FrameTree
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.drawn_scene import DrawnScene
+from sambot_viz.session.document.drawn_scene import DrawnScene
+from sambot_viz.session.document.switches import first_switches
 from sambot_viz.session.history import EditHistory
 from sambot_viz.session.shared_state import Audience, SharedState
-from sambot_viz.session.switches import first_switches
 from sambot_viz.session.worker import Worker
 
 

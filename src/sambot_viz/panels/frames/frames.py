@@ -11,13 +11,13 @@ from sambot_viz.frames import Transform
 from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.static_transform import StaticTransform, parse_static_transform
-from sambot_viz.panels.frame_answer import answer_rows
+from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
+from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.limits import MOST_FRAMES, require_room
-from sambot_viz.session.user_frames import UserFrame
+from sambot_viz.session.robot.user_frames import UserFrame
 
 Say = Callable[[str, Level], None]
 """Shows a sentence to the browser."""

@@ -19,7 +19,7 @@ from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.robot.model import Robot
-from sambot_viz.session.driver_view import DriverView
+from sambot_viz.session.browser.driver_view import DriverView
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.views.camera import Vector
 

@@ -11,8 +11,8 @@ from typing import Any, cast
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.gate import checked
-from sambot_viz.panels.joints import joint_id
-from sambot_viz.panels.link_parts import (
+from sambot_viz.panels.joints.joints import joint_id
+from sambot_viz.panels.link.link_parts import (
     OFF,
     ON,
     VERSION,
@@ -29,8 +29,8 @@ from sambot_viz.panels.row import Answer, Json, Row, own
 from sambot_viz.panels.views import CURRENT, look_as
 from sambot_viz.rviz import FIXED_FRAME, ConfigItem
 from sambot_viz.session import Session
-from sambot_viz.session.browser import Browser
-from sambot_viz.session.switches import switches
+from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.document.switches import switches
 from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.views.registry import VIEWS
 

@@ -1,0 +1,1 @@
+"""The Frames panel, and what is known of a frame."""

@@ -1,0 +1,1 @@
+"""The Joints panel, and the named poses."""

@@ -1,0 +1,1 @@
+"""A link that shows the same in another browser."""

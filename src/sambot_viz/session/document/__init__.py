@@ -1,0 +1,1 @@
+"""The .rviz document of a session, and what is drawn of it."""
