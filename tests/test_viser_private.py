@@ -121,3 +121,6 @@ def test_a_node_keeps_the_arrays_that_it_shares(server: viser.ViserServer) -> No
     for mesh in meshes:
         viser_private.share_arrays(mesh, vertices=vertices, faces=faces)
         assert mesh.vertices is vertices and mesh.faces is faces
+    buffer = viser_private.broadcast_buffer(server)
+    sent = [m for m in buffer.message_from_id.values() if hasattr(m, "props")]
+    assert all(m.props.vertices is vertices for m in sent[-2:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from typing import Any, cast
 
 import viser
@@ -45,11 +46,26 @@ def set_pose(
 def share_arrays(handle: viser.SceneNodeHandle, **arrays: object) -> None:
     """Have a node keep these arrays, which nobody changes, in place of viser's copies.
 
-    A robot with 50 MB of meshes would be in memory once for each private session.
+    A robot with 50 MB of meshes would be in memory once for each private session, and
+    again as long as it waits to be sent.
+
+    Args:
+        handle: a node that was added just now.
+        arrays: by the name of the property.
     """
-    props: Any = handle._impl.props  # pyright: ignore[reportPrivateUsage]
-    for name, array in arrays.items():
-        setattr(props, name, array)
+    state: Any = handle._impl  # pyright: ignore[reportPrivateUsage]
+    buffer: Any = state.api._websock_interface.get_message_buffer()
+    holders = [state.props]
+    with buffer.buffer_lock:
+        # Behind the message that made the node are a few about its pose.
+        for message in itertools.islice(reversed(buffer.message_from_id.values()), 10):
+            if (
+                isinstance(message, _messages.MeshMessage)
+                and message.name == state.name
+            ):
+                holders.append(message.props)
+    for holder, (name, array) in itertools.product(holders, arrays.items()):
+        setattr(holder, name, array)
 
 
 def is_removed(handle: viser.SceneNodeHandle | viser.GuiInputHandle[Any]) -> bool:
