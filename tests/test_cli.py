@@ -38,7 +38,7 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
         assert time.monotonic() - started < 5
 
 
-def test_the_token_may_come_from_a_variable(
+def test_the_secrets_may_come_from_variables(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SAMBOT_VIZ_TOKEN", "of-the-environment")
@@ -46,6 +46,11 @@ def test_the_token_may_come_from_a_variable(
         assert address(process).endswith("/?token=of-the-environment")
     with running("--port", "0", "--token=of-the-line", cwd=tmp_path) as process:
         assert address(process).endswith("/?token=of-the-line")
+    monkeypatch.setenv("SAMBOT_VIZ_PRESENTER", "of-the-teacher")
+    for flags in ((), ("--presenter", "--token")):
+        with running("--port", "0", *flags, cwd=tmp_path) as process:
+            assert address(process).endswith("/?token=of-the-environment")
+            assert address(process).endswith("/?token=of-the-teacher")
 
 
 def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
@@ -220,7 +225,8 @@ def test_poses_that_a_browser_saves_are_kept_beside_the_model(tmp_path: Path) ->
     )
     with running(str(model), "--port", "0", cwd=tmp_path) as process:
         client = ProtocolClient(int(address(process).rsplit(":", 1)[1]))
-        client.wait_until(lambda: "poses/save" in client.rows)
+        # Before it has joined, its own rows are not there, and its edits do nothing.
+        client.wait_until(lambda: {"poses/save", "role/me"} <= client.rows.keys())
         client.act("poses/save", "half")
         client.wait_until(lambda: (tmp_path / "arm.poses.yaml").is_file())
         client.close()

@@ -256,10 +256,13 @@ class Options:
     presenter: str | None = _option(
         None,
         "only who opens a second, secret link moves the robot and the displays; the "
-        "others watch, may ask for the wheel, and may work on a copy of their own",
+        "others watch, may ask for the wheel, and may work on a copy of their own; "
+        "VALUE is the secret, by default that of the variable SAMBOT_VIZ_PRESENTER, or "
+        "made",
         "--presenter",
         metavar="=VALUE",
         optional_value="=",
+        variable="SAMBOT_VIZ_PRESENTER",
     )
     session: SessionMode = _option(
         "shared",

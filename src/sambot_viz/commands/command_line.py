@@ -31,7 +31,8 @@ class Parser(argparse.ArgumentParser):
         rest: as for `argparse.ArgumentParser`.
 
     Attributes:
-        alone: flags whose value, if any, is written in the same word.
+        alone: flags whose value, if any, is written in the same word, and the value
+            without one.
     """
 
     def __init__(self, prog: str, groups: Sequence[Group] = (), **rest: Any) -> None:
@@ -50,7 +51,7 @@ class Parser(argparse.ArgumentParser):
         for option in self.options:
             _add(self, option)
         self.alone = {
-            name
+            name: os.environ.get(flag_of(option).variable, "")
             for option in self.options
             if flag_of(option).optional_value == "="
             for name in flag_of(option).names
@@ -91,7 +92,8 @@ def parse(
             arguments[match[1]] = match[2].strip()
         else:
             # argparse would take the word that follows, such as the model, for a value.
-            rest.append(f"{word}=" if word in parser.alone else word)
+            alone = parser.alone.get(word)
+            rest.append(word if alone is None else f"{word}={alone}")
     launch_model = arguments.pop("model", None)
     by_word = [
         spelled
@@ -143,7 +145,7 @@ def _add(parser: Parser, option: Field[Any]) -> None:
         value = os.environ.get(flag.variable) or default
         given |= {"metavar": flag.metavar, "type": flag.type, "default": value}
         if flag.optional_value:
-            given |= {"nargs": "?", "const": ""}
+            given |= {"nargs": "?", "const": os.environ.get(flag.variable, "")}
         if flag.choices:
             given |= {"choices": flag.choices}
         if flag.read is not None:
