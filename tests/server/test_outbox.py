@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -89,3 +90,24 @@ def test_nothing_goes_out_while_changes_belong_together(
     frames = [m.frame for m in client.since(mark) if m.type == "FrameMessage"]
     assert len(frames) == 10
     assert len(set(frames)) == 1
+
+
+def test_a_thread_that_adds_a_message_touches_nobody_who_waits(
+    server: viser.ViserServer,
+) -> None:
+    """viser's own event raises there when a browser comes or goes at that moment."""
+    buffer = viser_private.broadcast_buffer(server)
+    loop = server.get_event_loop()
+    seen: list[bool] = []
+
+    async def wait() -> None:
+        buffer.message_event.clear()
+        waiting = asyncio.ensure_future(buffer.message_event.wait())
+        await asyncio.sleep(0)
+        await asyncio.to_thread(buffer.message_event.set)
+        seen.append(buffer.message_event.is_set())
+        await asyncio.to_thread(server.scene.add_frame, "/a")
+        seen.append(await asyncio.wait_for(waiting, 10.0))
+
+    asyncio.run_coroutine_threadsafe(wait(), loop).result(20.0)
+    assert seen == [False, True]

@@ -13,6 +13,7 @@ import asyncio
 import math
 import threading
 from collections.abc import AsyncGenerator, Callable, Sequence
+from contextlib import suppress
 from typing import Any, Protocol
 
 import viser
@@ -95,6 +96,10 @@ def _replace(
     last_for: Callable[[int], float] = lambda _: math.inf,
 ) -> None:
     parcels = Parcels()
+    if not isinstance(buffer.message_event, News):
+        before, buffer.message_event = buffer.message_event, News(buffer.event_loop)
+        # A browser that was quicker may wait for the other one.
+        buffer.event_loop.call_soon_threadsafe(before.set)
 
     def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
         connection = viser_private.connection_of(server, client_id)
@@ -104,6 +109,28 @@ def _replace(
         )
 
     viser_private.replace_window_loop(buffer, loop)
+
+
+class News(asyncio.Event):
+    """That there is something new; it is set on the event loop only.
+
+    viser sets it in the thread that adds a message, and on the loop after that. The
+    first goes through those who wait while others come and go, which raises an error in
+    that thread every now and then, and wakes all of them twice.
+
+    Args:
+        loop: the event loop.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        super().__init__()
+        self._home = loop
+
+    def set(self) -> None:
+        """Wake those who wait; in another thread that does nothing."""
+        with suppress(RuntimeError):
+            if asyncio.get_running_loop() is self._home:
+                super().set()
 
 
 class Sender:
