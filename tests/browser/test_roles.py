@@ -63,12 +63,17 @@ def test_a_guest_asks_is_given_the_wheel_drives_and_loses_it(
     asking.keys("Enter")
     driving.reads("Ann <i> asks for the wheel.")
     driving.click("button", "Give the wheel to Ann <i>")
+    asking.reads("You have the wheel")
+    driving.reads("You and Ann <i> drive, 0 watching")
     asking.until(lambda: not slider_is_off(asking))
     asking.enter(asking.row("Joints", LEFT).one("textbox"), "0.5")
     driving.until(lambda: driving.row("Joints", LEFT).one("textbox").value == "0.5")
     people(driving, "Take the wheel back")
+    asking.reads("You are watching again: the presenter has taken the wheel back")
     asking.until(lambda: slider_is_off(asking))
     assert viz.joint_positions[LEFT] == 0.5
+    driving.keys("Escape")
+    driving.until(lambda: not driving.see().all("dialog", "People"))
 
 
 def test_who_watches_turns_the_view_and_is_told_what_needs_the_wheel(
@@ -81,6 +86,9 @@ def test_who_watches_turns_the_view_and_is_told_what_needs_the_wheel(
     user.until(lambda: user.row("Views", "Yaw").text != yaw)
     user.click("button", "Center")
     user.reads("You are watching: ask for the wheel, or work on a copy of your own")
+    user.click("button", "Add")
+    user.reads("You are watching: ask for the wheel, or work on a copy of your own")
+    assert not user.see().all("dialog")
     user.click("button", "Measure", ("toolbar", "Tools"))
     user.until(
         lambda: user.find("button", "Measure", ("toolbar", "Tools")).is_on,

@@ -241,3 +241,40 @@ def test_the_presenters_link_lets_in_too(protocol: Protocol) -> None:
             client.settle(viser_server(viz))
             drives.append(me(client)["drives"])
         assert drives == [False, True]
+
+
+def test_each_hears_what_the_other_does_about_the_wheel(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    settle: Callable[..., None],
+    session: Session,
+) -> None:
+    def heard(client: ProtocolClient) -> str:
+        settle(guest, teacher, guest, teacher)
+        return client.row("notice")["value"]["text"]
+
+    def ask() -> int:
+        guest.act("role/ask", "Ann")
+        settle(guest, teacher)
+        ((number, _),) = teacher.row("people/state")["value"]["asks"]
+        return number
+
+    teacher.act("role/refuse", ask())
+    assert heard(guest) == "Not now, says the presenter"
+    teacher.act("role/give", ask())
+    assert heard(guest).startswith("You have the wheel")
+    teacher.act("role/take")
+    assert heard(guest).endswith("the presenter has taken the wheel back")
+    teacher.act("role/give", ask())
+    settle(teacher)
+    guest.act("role/back")
+    assert heard(guest) == "You are watching again"
+    assert heard(teacher) == "Ann drives no longer"
+
+
+def test_private_sessions_know_nothing_of_people(protocol: Protocol) -> None:
+    with Visualizer(port=0, session="private") as viz:
+        client = protocol(viz.viser.get_port())
+        client.wait_until(lambda: "people/state" in client.rows)
+        state = client.row("people/state")["value"]
+        assert not state["copy"] and not state["presented"]

@@ -105,3 +105,9 @@ def test_the_presenter_cannot_lose_the_wheel(roles: Roles) -> None:
     assert roles.may_edit(TEACHER)
     roles.join(4, presenter=True)
     assert drivers(roles) == ["Presenter", "Presenter 2"]
+
+
+def test_a_presenter_who_loads_the_page_again_is_no_second_one(roles: Roles) -> None:
+    roles.leave(TEACHER)
+    roles.join(5, presenter=True)
+    assert roles.people[5].name == "Presenter"

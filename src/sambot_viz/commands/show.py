@@ -42,7 +42,7 @@ move its joints; --token asks for a link that you give to those who may
 
 
 _PRESENTED = """\
-sambot-viz: the first link is for those who watch; who opens the second one drives
+sambot-viz: the first link is for those who watch; whoever opens the second one drives
 """
 
 _WAITING = """\

@@ -146,7 +146,13 @@ export function sendHeldBack(now = (id) => id) {
 export function act(id, args = []) {
   const row = rows.get(id);
   if (row && !row.off) send(id, args);
-  else if (row && rows.watching && !row.own && !byItself(id)) rows.notify(WATCHING);
+  else if (row && !row.own && !byItself(id)) mayChange();
+}
+
+/** Whether this user may change what others see; one who only watches is told. */
+export function mayChange() {
+  if (rows.watching) rows.notify(WATCHING);
+  return !rows.watching;
 }
 
 /** @type {WeakMap<Node, string>} */

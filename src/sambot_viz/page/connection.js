@@ -95,7 +95,8 @@ function say(again, before, dropped, quiet = false) {
   const lost = lostOf(before), other = otherConfig(before);
   if (dropped) lost.push(dropped > 1 ? `${dropped} changes that you made meanwhile` : "a change that you made meanwhile");
   if (quiet && !lost.length && !other) return said.set(null);
-  const back = { text: `The connection is back. ${again}`.trim(), lost, other, before };
+  // A user who has loaded the page again has lost no connection.
+  const back = { text: quiet ? again : `The connection is back. ${again}`.trim(), lost, other, before };
   said.set(back);
   if (!lost.length && !other) setTimeout(() => { if (said.value === back) said.set(null); }, BACK);
 }

@@ -202,6 +202,6 @@ function Handle({ row, tab, held }) {
 function TurnButton({ row, tab }) {
   const turning = (useRow("joints/turning")?.value || []).includes(row.id);
   const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
-  return html`<button class="flat turn" aria-pressed=${String(turning)} aria-label=${label} title=${label} tabindex=${tab}
+  return html`<button class="flat turn drives" aria-pressed=${String(turning)} aria-label=${label} title=${label} tabindex=${tab}
     onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} /></button>`;
 }

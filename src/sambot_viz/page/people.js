@@ -4,7 +4,6 @@
 
 import { html, useRef } from "./vendor/preact.js";
 import { act, rows } from "./channel.js";
-import { shape } from "./edges.js";
 import { Popup } from "./popup.js";
 import { Cell, useRow } from "./state.js";
 
@@ -21,7 +20,9 @@ const ownName = new Cell("", "name");
 export function followRole() {
   const look = () => {
     const me = /** @type {Me | undefined} */ (rows.value("role/me"));
-    if (me) rows.watch(!me.drives);
+    if (!me) return;
+    rows.watch(!me.drives);
+    document.body.classList.toggle("watching", !me.drives);
   };
   rows.listen("role/me", look);
   look();
@@ -33,17 +34,13 @@ function usePeople() {
   return state && me ? { state, me } : null;
 }
 
-/** @param {string[]} names */
-const listed = (names) => (names.length ? names.join(" and ") : "nobody");
-
 /** In the status bar: who drives, and what can be done about it. */
 export function People() {
-  const narrow = shape.use() === "tall";
   const now = usePeople();
   if (!now) return null;
   const { state, me } = now;
   if (!state.copy && !state.presented && state.browsers < 2) return null;
-  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me, narrow)}>${(/** @type {() => void} */ close) =>
+  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me)}>${(/** @type {() => void} */ close) =>
     html`<div class="people">
       <p>${inWords(state, me)}</p>
       ${state.presented && html`<${Wheel} state=${state} me=${me} close=${close} />`}
@@ -54,23 +51,26 @@ export function People() {
     </div>`}<//>`;
 }
 
-/** @param {State} state @param {Me} me @param {boolean} narrow whether there is room for a word or two */
-function short(state, me, narrow) {
+/** @param {State} state @param {Me} me */
+function short(state, me) {
   if (state.copy) return "My copy";
   if (!state.presented) return `${state.browsers} browsers`;
-  if (me.presenter) return state.asks.length ? `${state.asks.length} asking` : `You drive, ${state.watching} watching`;
-  if (me.drives || narrow) return me.drives ? "You drive" : "Watching";
-  return `${listed(state.drive)} ${state.drive.length > 1 ? "drive" : "drives"}, ${state.watching} watching`;
+  const asking = me.presenter && state.asks.length ? `, ${state.asks.length} asking` : "";
+  return `${whoDrives(state, me)}, ${state.watching} watching${asking}`;
+}
+
+/** @param {State} state @param {Me} me */
+function whoDrives(state, me) {
+  const others = me.drives ? state.drive.filter((name) => name !== me.name) : state.drive;
+  const who = me.drives ? ["You", ...others] : others;
+  return `${who.length ? who.join(" and ") : "Nobody"} ${me.drives || who.length > 1 ? "drive" : "drives"}`;
 }
 
 /** @param {State} state @param {Me} me */
 function inWords(state, me) {
   if (state.copy) return "This is a copy of your own: only you see what you do with it.";
   if (!state.presented) return `${state.browsers} pages show this robot, and each can move it.`;
-  const others = me.drives ? state.drive.filter((name) => name !== me.name) : state.drive;
-  const who = me.drives ? listed(["You", ...others]) : listed(others);
-  const drive = me.drives || others.length > 1 ? "drive" : "drives";
-  return `${who} ${drive}; ${state.watching || "nobody"} ${state.watching === 1 ? "watches" : state.watching ? "watch" : "watches"}.`;
+  return `${whoDrives(state, me)}; ${state.watching || "nobody"} ${state.watching > 1 ? "watch" : "watches"}.`;
 }
 
 /** @param {{state: State, me: Me, close: () => void}} props */

@@ -19,13 +19,16 @@ export function Popup({ label, name, role, title, children }) {
   useLayoutEffect(() => { if (open) place(button.current, panel.current); });
   useLayoutEffect(() => {
     if (!open) return undefined;
-    panel.current.querySelector("button, input")?.focus();
+    (panel.current.querySelector("button, input") || panel.current).focus();
     /** @param {any} event */
     const elsewhere = (event) => {
       if (!panel.current?.contains(event.target) && !button.current.contains(event.target)) setOpen(false);
     };
+    /** What had the focus may be gone. @param {KeyboardEvent} event */
+    const lost = (event) => { if (event.key === "Escape" && document.activeElement === document.body) close(); };
     addEventListener("pointerdown", elsewhere, true);
-    return () => removeEventListener("pointerdown", elsewhere, true);
+    addEventListener("keydown", lost);
+    return () => { removeEventListener("pointerdown", elsewhere, true); removeEventListener("keydown", lost); };
   }, [open]);
   /** @param {any} event */
   const key = (event) => {
@@ -45,7 +48,7 @@ export function Popup({ label, name, role, title, children }) {
   return html`<span class="popup">
     <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${name} title=${title}
       onClick=${() => setOpen(!open)}>${label}</button>
-    ${open && html`<div class="popped" ref=${panel} role=${role} aria-label=${name} onKeyDown=${key}>${children(close)}</div>`}
+    ${open && html`<div class="popped" tabindex="-1" ref=${panel} role=${role} aria-label=${name} onKeyDown=${key}>${children(close)}</div>`}
   </span>`;
 }
 

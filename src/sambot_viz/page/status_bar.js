@@ -18,7 +18,7 @@ export function StatusBar({ problems }) {
   const tool = useRow("tools/hint");
   const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.value) || "";
   return html`<footer class="statusbar" aria-label="Status bar">
-    <button title="Reset (R): draw everything again, with meshes as they are in their files"
+    <button class="drives" title="Reset (R): draw everything again, with meshes as they are in their files"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <${ProblemCount} ...${problems} />
     <${Selected} />

@@ -63,7 +63,7 @@ class BrowserPanels:
         keep = displays.keep_unfolded
         return [
             self._notices,
-            OwnRolePanel(session, browser),
+            OwnRolePanel(session, browser, self.say),
             ToolsPanel(session, browser),
             UndoPanel(session, browser, displays),
             ViewsPanel(session, browser),

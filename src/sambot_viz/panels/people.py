@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 
 import viser
 
+from sambot_viz.errors import UsageError
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Row, own
+from sambot_viz.panels.row import Answer, Level, Row, own
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.roles import Person
 
 
 class PeoplePanel(Panel):
@@ -32,6 +36,7 @@ class PeoplePanel(Panel):
         drive = [person.name for person in people.values() if person.drives]
         asks = [[id, person.name] for id, person in people.items() if person.asks]
         given = any(p.drives and not p.presenter for p in people.values())
+        private = isinstance(self._session.audience, viser.ClientHandle)
         state = {
             "browsers": len(people),
             "presented": roles.presented,
@@ -39,7 +44,7 @@ class PeoplePanel(Panel):
             "watching": len(people) - len(drive),
             "asks": asks,
             "given": given and roles.presented,
-            "copy": isinstance(self._session.audience, viser.ClientHandle),
+            "copy": self._session.options.session == "shared" and private,
         }
         return [Row("people/state", "", "names", value=state)]
 
@@ -50,20 +55,28 @@ class OwnRolePanel(Panel):
     Args:
         session: what it shows.
         browser: the browser.
+        say: shows the user a sentence.
     """
 
     name = "role"
     remade_by = frozenset({"people"})
 
-    def __init__(self, session: Session, browser: Browser) -> None:
+    def __init__(
+        self, session: Session, browser: Browser, say: Callable[[str, Level], None]
+    ) -> None:
         self._session = session
         self._roles, self._id = session.roles, browser.client_id
+        self._say = say
+        self._before: Person | None = None
+        self._helpers: frozenset[str] = frozenset()
+        self._acted = False
 
     def rows(self) -> Sequence[Row]:
         """The user of this browser, then the actions."""
         person = self._roles.people.get(self._id)
         if person is None:
             return []
+        self._say_news(person)
         me = {
             "name": person.name,
             "presenter": person.presenter,
@@ -72,6 +85,27 @@ class OwnRolePanel(Panel):
         }
         return [Row("role/me", "", "names", value=me), *own(self._actions())]
 
+    def _say_news(self, person: Person) -> None:
+        """Say what others have done about the wheel."""
+        before, self._before = self._before, replace(person)
+        helpers, self._helpers = self._helpers, self._guests_who_drive()
+        acted, self._acted = self._acted, False
+        if before is None or not self._roles.presented:
+            return
+        if person.drives and not before.drives:
+            self._say("You have the wheel: what you move, everyone sees move", "ok")
+        elif before.drives and not person.drives:
+            why = "" if acted else ": the presenter has taken the wheel back"
+            self._say(f"You are watching again{why}", "ok" if acted else "warn")
+        elif before.asks and not person.asks and not acted:
+            self._say("Not now, says the presenter", "warn")
+        elif person.presenter and not acted and helpers - self._helpers:
+            self._say(f"{', '.join(helpers - self._helpers)} drives no longer", "ok")
+
+    def _guests_who_drive(self) -> frozenset[str]:
+        people = self._roles.people.values()
+        return frozenset(p.name for p in people if p.drives and not p.presenter)
+
     def _actions(self) -> Iterator[Row]:
         yield Row("role/ask", "", "action", takes=(str,), set=self._ask)
         yield Row("role/back", "", "action", set=lambda _: self._hand_back())
@@ -79,24 +113,36 @@ class OwnRolePanel(Panel):
         yield Row("role/refuse", "", "action", takes=(int,), set=self._refuse)
         yield Row("role/take", "", "action", set=lambda _: self._take())
 
+    @contextmanager
+    def _acting(self) -> Generator[None]:
+        """This user changes something, and so needs no news of it."""
+        self._acted = True
+        try:
+            with self._session.change("people"):
+                yield
+        except UsageError:
+            self._acted = False
+            raise
+
     def _ask(self, arguments: tuple[str]) -> Answer:
-        with self._session.change("people"):
+        with self._acting():
             self._roles.ask(self._id, arguments[0])
         return Answer("Asked for the wheel; the presenter sees it")
 
     def _hand_back(self) -> None:
-        with self._session.change("people"):
+        with self._acting():
             self._roles.hand_back(self._id)
 
     def _give(self, arguments: tuple[int]) -> Answer:
-        with self._session.change("people"):
+        with self._acting():
             person = self._roles.give(self._id, arguments[0])
         return Answer(f"{person.name} has the wheel, and so have you")
 
     def _refuse(self, arguments: tuple[int]) -> None:
-        with self._session.change("people"):
+        with self._acting():
             self._roles.refuse(self._id, arguments[0])
 
-    def _take(self) -> None:
-        with self._session.change("people"):
+    def _take(self) -> Answer:
+        with self._acting():
             self._roles.take(self._id)
+        return Answer("You have the wheel alone")

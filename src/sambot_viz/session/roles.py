@@ -49,7 +49,7 @@ class Roles:
     def __init__(self, presented: bool = False) -> None:
         self.presented = presented
         self._people: dict[int, Person] = {}
-        self._numbers = {True: itertools.count(1), False: itertools.count(1)}
+        self._guests = itertools.count(1)
 
     @property
     def people(self) -> dict[int, Person]:
@@ -58,7 +58,10 @@ class Roles:
 
     def join(self, browser_id: int, presenter: bool) -> None:
         """A browser has opened the page."""
-        number = next(self._numbers[presenter])
+        # One who loads the page again is the presenter as before.
+        taken = {person.number for person in self._people.values() if person.presenter}
+        free = next(n for n in itertools.count(1) if n not in taken)
+        number = free if presenter else next(self._guests)
         name = f"Guest {number}"
         if presenter:
             name = "Presenter" if number == 1 else f"Presenter {number}"

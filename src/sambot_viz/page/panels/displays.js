@@ -2,7 +2,7 @@
 /* The Displays panel: the tree, what can be done with a display, and the help text. */
 
 import { html, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
+import { act, mayChange, rows } from "../channel.js";
 import { AddDisplay } from "../dialogs/add.js";
 import { show } from "../dialogs/dialog.js";
 import { isOpen, selected, useRow } from "../state.js";
@@ -14,7 +14,7 @@ import "./undone.js";
 /** @typedef {import("../rows.js").Row} Row */
 
 const PANEL = "displays";
-const add = () => show(AddDisplay);
+const add = () => { if (mayChange()) show(AddDisplay); };
 
 /** @param {Row} display */
 const duplicate = (display) => makeDisplay("duplicate", [display.id], isOpen(display.id));
@@ -33,7 +33,7 @@ export function DisplaysPanel() {
   const display = row?.display ? row : undefined;
   /** @param {string} id @param {string | null} name null begins */
   const rename = (id, name) => {
-    if (name === null) return setRenaming(id);
+    if (name === null) return mayChange() && setRenaming(id);
     setRenaming("");
     if (name.trim() && name !== rows.get(id)?.name) act("displays/rename", [id, name.trim()]);
   };
@@ -64,10 +64,10 @@ export function DisplaysPanel() {
     <${Tree} panel=${PANEL} label="Displays" hover=${false} onKey=${key} menu=${menu} renaming=${renaming} rename=${rename} drag=${dragDisplay} />
     <div class="help" aria-live="polite">${row && html`<b>${row.name}</b> ${row.help || ""}`}</div>
     <div class="buttons">
-      <button onClick=${add}>Add</button>
-      <button disabled=${!display} onClick=${() => display && duplicate(display)}>Duplicate</button>
-      <button disabled=${!display} onClick=${() => display && remove(display)}>Remove</button>
-      <button disabled=${!display} onClick=${() => display && rename(display.id, null)}>Rename</button>
+      <button class="drives" onClick=${add}>Add</button>
+      <button class="drives" disabled=${!display} onClick=${() => display && duplicate(display)}>Duplicate</button>
+      <button class="drives" disabled=${!display} onClick=${() => display && remove(display)}>Remove</button>
+      <button class="drives" disabled=${!display} onClick=${() => display && rename(display.id, null)}>Rename</button>
     </div>
   </section>`;
 }

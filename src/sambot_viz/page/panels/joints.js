@@ -61,8 +61,8 @@ export function JointsPanel() {
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
-      <button onClick=${() => act("joints/center")} title="All joints to their start values">Center</button>
-      <button onClick=${() => act("joints/randomize")} title="All joints to random values of their ranges">Randomize</button>
+      <button class="drives" onClick=${() => act("joints/center")} title="All joints to their start values">Center</button>
+      <button class="drives" onClick=${() => act("joints/randomize")} title="All joints to random values of their ranges">Randomize</button>
       <${Copy} />
       <${Poses} />
     </div>

@@ -40,14 +40,14 @@ function Form({ close }) {
   }, [names.join("\n")]);
   return html`<div class="poses" ref=${list}>
     ${names.map((name) => html`<div class="pose" key=${name}>
-      <button title=${`Move the joints to '${name}'`} onClick=${() => { act("poses/use", [name]); close(); }}>${name}</button>
+      <button class="drives" title=${`Move the joints to '${name}'`} onClick=${() => { act("poses/use", [name]); close(); }}>${name}</button>
       <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`} onClick=${() => remove(name)}><${Icon} name="trash" /></button>
     </div>`)}
     ${!names.length && html`<p class="empty">No pose is saved yet</p>`}
     <form onSubmit=${save}>
       <input class="search" ref=${field} aria-label="Name of the pose" placeholder="Name of this pose" maxlength="60"
         autocomplete="off" spellcheck=${false} onInput=${(/** @type {any} */ e) => setTyped(e.target.value)} />
-      <button type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}</button>
+      <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}</button>
     </form>
     ${why && html`<p class="why" role="alert">${why}</p>`}
     <p class="place">${row?.help}</p>

@@ -47,8 +47,8 @@ export function ViewsPanel() {
     <div class="buttons">
       <${Save} />
       <button disabled=${!saved} title="Look as the chosen saved view does (Enter)" onClick=${() => saved && use(saved)}>Use</button>
-      <button disabled=${!saved} title="Remove the chosen saved view (Delete)" onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
-      <button disabled=${!saved} title="Give the chosen saved view another name (F2)" onClick=${() => saved && rename(saved.id, null)}>Rename</button>
+      <button class="drives" disabled=${!saved} title="Remove the chosen saved view (Delete)" onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
+      <button class="drives" disabled=${!saved} title="Give the chosen saved view another name (F2)" onClick=${() => saved && rename(saved.id, null)}>Rename</button>
     </div>
   </section>`;
 }
@@ -64,7 +64,7 @@ function Save() {
     before.current = null;
     reveal("views", made, false);
   });
-  return html`<button title="Keep this view in the list below" onClick=${() => { before.current = new Set(saved); act("views/save"); }}>Save</button>`;
+  return html`<button class="drives" title="Keep this view in the list below" onClick=${() => { before.current = new Set(saved); act("views/save"); }}>Save</button>`;
 }
 
 /** Tell the script that handles the mouse which view this is. */
