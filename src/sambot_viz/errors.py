@@ -10,6 +10,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   └── LfsPointerError         a git-LFS pointer in place of the file itself
     ├── TextureError                an image that cannot be used
     ├── PictureError                a browser did not send the picture it was asked for
+    ├── PageError                   a page of what is seen that cannot be made
     ├── FrameError                  a transform that cannot be looked up or set
     │   ├── LookupRefused           no transform between two frames (.tf2_text)
     │   ├── TransformRefused        a transform that tf2 would not take

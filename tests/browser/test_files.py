@@ -274,7 +274,7 @@ def test_a_visitor_downloads_and_is_asked_before_leaving_with_changes(
     user.row("Displays", "Grid")
     user.click("menuitem", "File")
     entries = [entry.name for entry in user.find("menu", "File").all("menuitem")]
-    assert entries == ["Download Config", "Save Image…"]
+    assert entries == ["Download Config", "Save Image…", "Export Page…"]
     user.keys("Escape")
     user.keys("Control+s")
     user.reads("Download Config saves it on your computer")
