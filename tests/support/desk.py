@@ -105,11 +105,14 @@ class Desk:
     def _start(self) -> None:
         self.viz = Visualizer(self.model, port=0, watch=True)
         self.viewer = self.open()
-        # The first view is Orbit's, 10 m away, until the robot is there to be framed.
-        distance = ("Views", "Current View", "Distance")
-        self.user.until(lambda: self.user.row(*distance).one("textbox").value != "10")
+        self._wait_for_robot()
         self._view = dict(self._browser.view.values)
         self._joints = self.viz.joint_positions
+
+    def _wait_for_robot(self) -> None:
+        """Wait until the page shows the robot from near: Orbit begins 10 m away."""
+        distance = ("Views", "Current View", "Distance")
+        self.user.until(lambda: self.user.row(*distance).one("textbox").value != "10")
 
     def tidy(self) -> None:
         """Put everything back as it was, by what the page offers for that.
@@ -140,6 +143,7 @@ class Desk:
         if browser.view.values != self._view:
             for button in ("Zero", "Focus"):
                 user.click("button", button, _TOOLS)
+            self._wait_for_robot()
 
     def choose_tool(self, tool: str) -> None:
         """Press the button of a tool, and wait until it is the current one."""

@@ -248,7 +248,7 @@ def test_task_31_change_ten_times_and_undo_ten_times(s: Desk) -> None:
     def marked() -> bool:
         return "urdf_config.rviz*" in s.user.see().text
 
-    assert not marked()
+    s.user.until(lambda: not marked())
     s.user.unfold("Displays", "Grid")
     size = displays(s)[0]
     for step in range(1, 11):
