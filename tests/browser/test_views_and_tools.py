@@ -298,6 +298,9 @@ def test_tools_work_with_a_finger(
     touch.end()
     until(viewer, lambda: len(tools.selection) > 1)
     assert view_of(session).camera == before
+    # The page has drawn what the rectangle has selected before the next tap.
+    viewer.user.reads(f"Selected: {len(tools.selection)} things")
+    viewer.wait_for_frames()
     viewer.user.click("button", "Measure", tools_bar)
     chosen(session, viewer, "Measure")
     touch.tap(*place(viewer, (0.0, 0.0, 0.09)))
