@@ -84,7 +84,7 @@ ROOMS: Mapping[str, Row] = {
     # From files to numbers.
     "meshes": Row("", "PIL lxml mapbox_earcut numpy trimesh"),
     "robot": Row("meshes", "numpy xacro yourdfpy"),
-    "rviz": Row("", "yaml re2"),
+    "rviz": Row("", "PIL yaml re2"),
     "frames": Row("robot", "numpy"),
     "joints": Row("robot", "numpy yaml"),
     "drive": Row("joints robot", "numpy"),

@@ -1,8 +1,11 @@
 from __future__ import annotations
 
-import pytest
+import zlib
 
-from sambot_viz.rviz.properties.color import NAMED_COLORS, color_text, parse_color
+import pytest
+from PIL import ImageColor
+
+from sambot_viz.rviz.properties.color import color_text, parse_color
 
 
 @pytest.mark.parametrize(
@@ -35,6 +38,24 @@ def test_a_colour_is_written_with_semicolons():
     assert color_text((48, 48, 48)) == "48; 48; 48"
 
 
-def test_the_147_names_of_svg_are_known():
-    assert len(NAMED_COLORS) == 147
-    assert NAMED_COLORS["grey"] == NAMED_COLORS["gray"] == (128, 128, 128)
+@pytest.mark.parametrize(
+    ("name", "color"),
+    [
+        ("aliceblue", (240, 248, 255)),
+        ("gray", (128, 128, 128)),
+        ("grey", (128, 128, 128)),
+        ("green", (0, 128, 0)),
+        ("lightgoldenrodyellow", (250, 250, 210)),
+        ("yellowgreen", (154, 205, 50)),
+    ],
+)
+def test_names_are_those_of_svg(name: str, color: tuple[int, int, int]):
+    assert parse_color(name) == color
+
+
+def test_the_147_names_of_svg_are_known_with_their_values():
+    known = {name: parse_color(name) for name in ImageColor.colormap}
+    assert known.pop("rebeccapurple", None) is None, "a name of CSS 4, not of Qt"
+    assert len(known) == 147
+    # Of the table in the standard.
+    assert zlib.crc32(repr(sorted(known.items())).encode()) == 403863970
