@@ -17,6 +17,8 @@ MANIFESTS = ("package.xml", "manifest.xml", "model.config")
 IGNORE_MARKS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 _SKIPPED = frozenset({"build", "log", "node_modules", "__pycache__", "site-packages"})
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+_PLAUSIBLE = re.compile(r"\w[\w.-]*")
+"""What can be the name of a package. A model may ask for any text, such as "/"."""
 _MAX_FOLDERS = 3000
 _MAX_DEPTH = 6
 _MAX_UP = 6
@@ -83,7 +85,7 @@ class PackageIndex:
         self._folders: list[Path] = []
         for entry in package_path:
             name, equals, folder = str(entry).partition("=")
-            if equals and re.fullmatch(r"[\w.-]+", name):
+            if equals and _PLAUSIBLE.fullmatch(name):
                 self._given[name] = Path(folder).expanduser().absolute()
             else:
                 self._folders.append(Path(entry).expanduser().absolute())
@@ -91,7 +93,13 @@ class PackageIndex:
         self._scans: dict[Path, _Scan] = {}
 
     def find(self, name: str) -> Lookup:
-        """Look a package up; the answer is kept."""
+        """Look a package up; the answer is kept.
+
+        A text that is no name of a package, such as "/" or "../x", is not found and
+        touches no file: as a part of a path it would lead anywhere.
+        """
+        if not _PLAUSIBLE.fullmatch(name):
+            return Lookup(name, None)
         if name not in self._answers:
             self._answers[name] = self._search(name)
         return self._answers[name]

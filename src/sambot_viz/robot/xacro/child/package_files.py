@@ -47,7 +47,8 @@ class XacroFiles:
         self._named = named
         self._roots: list[Path] = []
         if guard is not None:
-            guard.roots = self._roots
+            # Not the packages found: their names come from the model.
+            guard.roots = index.own_roots()
 
     def install(self, xacro: Any) -> None:
         """Patch the imported xacro package."""
@@ -85,7 +86,11 @@ class XacroFiles:
             self._guard.check_path(path)
         if glob.has_magic(path) or os.path.exists(path):
             return path
-        return self._elsewhere(Path(path), xacro.filestack) or path
+        path = self._elsewhere(Path(path), xacro.filestack) or path
+        if self._guard is not None:
+            # What was found instead may be a link out of the folder.
+            self._guard.check_path(path)
+        return path
 
     def _elsewhere(self, path: Path, stack: list[str | None]) -> str | None:
         """The file in a source tree that is laid out unlike the installed package.

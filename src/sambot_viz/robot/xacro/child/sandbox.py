@@ -2,8 +2,8 @@
 
 Expressions are rebuilt from a list of allowed syntax: no attribute of a foreign
 object, no function bodies, no comprehension, no names with two underscores, bounded
-powers and repetitions. Files are read only below the model's own folder and below
-packages that were found, and never by an absolute or a climbing path.
+powers and repetitions. Files are read only below the model's own folder, its package
+and the folders that the user gave, links followed, and never by a climbing path.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Guard:
     """Replaces xacro's evaluator and checks its paths.
 
     Attributes:
-        roots: the package folders that were found so far.
+        roots: the folders, beside the model's own, that files are read from.
     """
 
     def __init__(self, folder: str | None) -> None:
@@ -111,7 +111,7 @@ class Guard:
         """Refuse a file name that leaves the model's folder by the way it is written.
 
         Raises:
-            Refused: it is absolute outside the packages found, or it has "..".
+            Refused: it is absolute outside the allowed folders, or it has "..".
         """
         if ".." in Path(spec.replace("\\", "/")).parts:
             raise Refused(f"the path {spec} climbs out with ..")
@@ -119,7 +119,7 @@ class Guard:
             self.check_path(spec)
 
     def check_path(self, path: str) -> None:
-        """Refuse a file outside the model's folder and the packages found.
+        """Refuse a file outside the model's folder and `roots`.
 
         Raises:
             Refused: the real path, links followed, is elsewhere.

@@ -34,6 +34,13 @@ what was meant."""
 
 _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
+        r"^missing package (?!\w[\w.-]*$)(.*)",
+        "xacro-package-not-found",
+        "“{0}” is not the name of a package{x.trail}",
+        "write the name that its package.xml has: $(find NAME)",
+        r"\$\(\s*find\s+%s",
+    ),
+    (
         r"^missing package (\S+)",
         "xacro-package-not-found",
         "the package {0} was not found (looked in {x.searched}){x.trail}",
