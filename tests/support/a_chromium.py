@@ -13,12 +13,14 @@ from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
 @contextmanager
 def a_chromium(timeout: float) -> Generator[Chromium]:
-    """A running browser; without one on this machine the test is skipped.
+    """A running browser with the scroll bars of a desktop.
+
+    Without one on this machine the test is skipped.
 
     Args:
         timeout: how long any one answer of it may take [s].
     """
     if find_browser() is None:
         pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
-    with Chromium(timeout=timeout) as browser:
+    with Chromium(timeout=timeout, scroll_bars=True) as browser:
         yield browser

@@ -31,7 +31,6 @@ _FLAGS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--force-color-profile=srgb",
-    "--hide-scrollbars",
     # No traffic of the browser's own, and none to other machines.
     "--disable-background-networking",
     "--disable-component-update",
@@ -73,6 +72,7 @@ class Chromium:
         executable: Path | None = None,
         *,
         timeout: float = 30.0,
+        scroll_bars: bool = False,
         flags: Sequence[str] = (),
     ) -> None:
         """Remember what to start; `__enter__` starts it.
@@ -80,11 +80,13 @@ class Chromium:
         Args:
             executable: the browser's program; None to look for one.
             timeout: how long its start, and later each call, may take [s].
+            scroll_bars: show them as on a desktop; a picture has none.
             flags: further command line flags.
         """
         self._executable = executable
         self._timeout = timeout
-        self._flags = tuple(flags)
+        hidden = () if scroll_bars else ("--hide-scrollbars",)
+        self._flags = (*hidden, *flags)
         self._process: BrowserProcess | None = None
         self._profile: Path | None = None
         self._devtools: DevTools | None = None

@@ -227,9 +227,9 @@ function Divider({ panel, ratio }) {
   const set = (to) => splits.set({ ...splits.value, [panel]: Math.min(0.85, Math.max(0.15, to)) });
   /** @param {any} event */
   const drag = (event) => {
-    const box = event.target.parentElement.getBoundingClientRect();
+    const box = event.target.parentElement, { left } = box.getBoundingClientRect();
     event.target.setPointerCapture(event.pointerId);
-    event.target.onpointermove = (/** @type {any} */ e) => set((e.clientX - box.left) / box.width);
+    event.target.onpointermove = (/** @type {any} */ e) => set((e.clientX - left) / box.clientWidth);
     event.target.onpointerup = () => { event.target.onpointermove = null; };
     event.preventDefault();
   };

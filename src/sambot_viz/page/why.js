@@ -8,7 +8,7 @@ export function Why({ text }) {
   const element = useRef(/** @type {any} */ (null));
   useLayoutEffect(() => {
     const why = element.current, at = why.parentElement.getBoundingClientRect();
-    const end = why.closest(".tree, aside")?.getBoundingClientRect().bottom ?? innerHeight;
+    const end = why.closest(".treebox, aside")?.getBoundingClientRect().bottom ?? innerHeight;
     why.classList.toggle("higher", at.bottom + why.offsetHeight > Math.min(end, innerHeight));
   });
   return html`<span class="why over-rows" role="alert" ref=${element}>${text}</span>`;

@@ -116,6 +116,7 @@ export function nearest(all, x, y, indent) {
  */
 export function dragDisplay(down, row, tree) {
   if (!row.display || down.pointerType === "touch") return;
+  const box = /** @type {HTMLElement} */ (tree.parentElement);
   const mark = document.createElement("div");
   /** @type {ReturnType<typeof places>[number] | undefined} */
   let to;
@@ -124,7 +125,7 @@ export function dragDisplay(down, row, tree) {
   const find = (id) => /** @type {HTMLElement | null} */ (tree.querySelector(`[data-row="${CSS.escape(id)}"]`));
   const indent = 14;
   const draw = () => {
-    const origin = tree.getBoundingClientRect();
+    const origin = tree.getBoundingClientRect(), seen = box.getBoundingClientRect();
     const all = places(row.id, (id) => find(id)?.getBoundingClientRect() ?? null);
     to = nearest(all, at.x - origin.left - 16, at.y, indent);
     for (const marked of tree.querySelectorAll(".into")) marked.classList.remove("into");
@@ -132,13 +133,13 @@ export function dragDisplay(down, row, tree) {
     folded?.classList.add("into");
     mark.hidden = !to || Boolean(folded);
     if (!to) return;
-    mark.style.top = `${Math.min(Math.max(to.y, origin.top), origin.bottom) - origin.top - 1}px`;
+    mark.style.top = `${Math.min(Math.max(to.y, seen.top), seen.bottom) - origin.top - 1}px`;
     mark.style.left = `${16 + to.depth * indent}px`;
   };
   const scroll = () => {
-    const { top, bottom } = tree.getBoundingClientRect();
+    const { top, bottom } = box.getBoundingClientRect();
     const by = at.y < top + EDGE ? -6 : at.y > bottom - EDGE ? 6 : 0;
-    if (by) { tree.scrollTop += by; draw(); }
+    if (by) { box.scrollTop += by; draw(); }
     scrolls = requestAnimationFrame(scroll);
   };
   /** @param {PointerEvent} event */
@@ -147,7 +148,7 @@ export function dragDisplay(down, row, tree) {
     if (!mark.isConnected) {
       if (Math.hypot(at.x - down.clientX, at.y - down.clientY) < SLACK) return;
       mark.className = "drop";
-      tree.parentElement?.append(mark);
+      box.append(mark);
       tree.classList.add("dragging");
       find(row.id)?.classList.add("dragged");
       getSelection()?.removeAllRanges();

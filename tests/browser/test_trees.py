@@ -1,0 +1,75 @@
+"""Trees of rows with the scroll bars of a desktop: what is drawn can be clicked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, bundled
+
+pytestmark = pytest.mark.browser
+
+# The scroll bar of each tree, and the controls that do not answer in their middle.
+_LOOK = """(() => {
+  const bars = {}, dead = [];
+  let count = 0;
+  for (const tree of document.querySelectorAll("[role=treegrid]")) {
+    const box = tree.closest(".treebox"), name = tree.ariaLabel;
+    bars[name] = box.offsetWidth - box.clientWidth;
+    for (const row of tree.querySelectorAll("[role=row]")) {
+      row.scrollIntoView({block: "nearest"});
+      const wanted = "input[type=checkbox], input[type=color], .twist:not(.none)";
+      for (const control of row.querySelectorAll(wanted)) {
+        const {left, top, width, height} = control.getBoundingClientRect();
+        const hit = document.elementFromPoint(left + width / 2, top + height / 2);
+        count += 1;
+        if (hit !== control) dead.push(
+          [name, row.textContent, control.className, hit && hit.className].join(": "));
+      }
+    }
+  }
+  return {bars, count, dead};
+})()"""
+
+
+@pytest.fixture(scope="module")
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(bundled.model_path(), port=0) as viz:
+        yield viz
+
+
+def check_all(user: User) -> dict[str, int]:
+    """Check every control of every tree that is shown; how wide each scroll bar is."""
+    answer = user.page.evaluate(_LOOK)
+    assert answer["dead"] == []
+    assert answer["count"] >= 5
+    return answer["bars"]
+
+
+def move_divider(user: User, panel: str, part: float) -> None:
+    """Drag the line between names and values of a tree to a part of its width."""
+    left, top, width, _ = user.box(user.find("treegrid", panel))
+    lines = map(user.box, user.see().all("separator", "Width of the names"))
+    (x,) = (x for x, y, _, _ in lines if left <= x <= left + width and abs(y - top) < 2)
+    user.page.mouse.drag((x + 3, top + 40), (left + part * width, top + 40), steps=5)
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1440, 2400), (1024, 768), (390, 844)])
+def test_the_middle_of_every_box_and_swatch_answers(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage], size: tuple[int, int]
+) -> None:
+    user = open_viewer(viz.url, width=size[0], height=size[1]).user
+    bars: dict[str, int] = {}
+    for tab in ("Views", "Displays") if size[0] < 1100 else ("Frames", "Joints"):
+        user.tab(tab)
+        bars |= check_all(user)
+    for name in ("Grid", "TF", "RobotModel"):
+        user.unfold("Displays", name)
+    for part in (0.2, 0.8, 0.6):
+        move_divider(user, "Displays", part)
+        bars |= check_all(user)
+    # Which sizes have scroll bars is what makes the rest of this test worth anything.
+    assert (bars["Displays"] > 0) == (size[1] < 2000)
