@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import secrets
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,12 +13,36 @@ import pytest
 if TYPE_CHECKING:
     from protocol_client import ProtocolClient
 
+    from sambot_viz.export.chromium import Chromium
+
 ROOT = Path(__file__).resolve().parents[1]
 NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
+TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
+"""The environment variable with the order of the browser tasks."""
+
+
+def pytest_configure() -> None:
+    """Choose the order of the tasks, before workers start that all must have it."""
+    os.environ.setdefault(TASK_SEED, str(secrets.randbelow(10**6)))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Let one worker of pytest-xdist run all tests that need the browser."""
+    for item in items:
+        if "chromium" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.xdist_group("browser"))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Write in one line how many tests were skipped without the collection."""
+    """Write how many tests need the collection, and how to have the same order again.
+
+    With workers only this process writes, and it knows no conftest.py but this one.
+    """
+    reports = (one for some in terminalreporter.stats.values() for one in some)
+    if any("browser/tasks" in getattr(report, "nodeid", "") for report in reports):
+        seed = os.environ[TASK_SEED]
+        terminalreporter.write_line(f"order of the tasks: {TASK_SEED}={seed}")
     skipped = terminalreporter.stats.get("skipped", [])
     count = sum(NEEDS_SHARED in str(report.longrepr) for report in skipped)
     if count:
@@ -36,6 +62,15 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip(NEEDS_SHARED)
     return folder
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Chromium]:
+    """The browser, one for all tests of a worker; pages have storage of their own."""
+    from a_chromium import a_chromium
+
+    with a_chromium(timeout=60.0) as browser:
+        yield browser
 
 
 @pytest.fixture

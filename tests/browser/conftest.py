@@ -13,15 +13,6 @@ if TYPE_CHECKING:
     from sambot_viz.export.chromium import Chromium
 
 
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Chromium]:
-    """The browser, one for all tests; each page has storage of its own."""
-    from a_chromium import a_chromium
-
-    with a_chromium(timeout=60.0) as browser:
-        yield browser
-
-
 @pytest.fixture
 def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     """Open a viewer in a page of its own: ``open_viewer(url_or_port)``.

@@ -20,7 +20,6 @@ radius, and facets are seen where RViz 1 has a smooth shade.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -97,17 +96,6 @@ def names() -> list[str]:
 def _left_out(name: str) -> bool:
     # Views have a file of tests of their own.
     return name in NOT_OURS or name.startswith("view_") or name == "tf_label_one"
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Chromium]:
-    from sambot_viz.export.chromium import Chromium
-    from sambot_viz.export.find_browser import find_browser
-
-    if find_browser() is None:
-        pytest.skip("no Chromium or Chrome on this machine")
-    with Chromium(timeout=60.0) as browser:
-        yield browser
 
 
 def picture(path: Path) -> Image:

@@ -8,7 +8,6 @@ times as many.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,17 +24,6 @@ VISIBLE = 32
 """A channel that differs by more is another colour to the eye (0 to 255)."""
 ALLOWED = 0.004
 """Part of the pixels that may differ so."""
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Chromium]:
-    from sambot_viz.export.chromium import Chromium
-    from sambot_viz.export.find_browser import find_browser
-
-    if find_browser() is None:
-        pytest.skip("no Chromium or Chrome on this machine")
-    with Chromium(timeout=60.0) as browser:
-        yield browser
 
 
 @pytest.mark.parametrize(

@@ -1,20 +1,13 @@
-"""A real Chromium, for the pages of Jupyter."""
+"""Windows of the browser for the pages of Jupyter."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
 import pytest
-from a_chromium import a_chromium
 from recorded_page import RecordedPage, open_page
 
 from sambot_viz.export.chromium import Chromium
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Chromium]:
-    with a_chromium(timeout=60.0) as browser:
-        yield browser
 
 
 @pytest.fixture

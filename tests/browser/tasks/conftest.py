@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import random
-import secrets
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
 
 _HERE = Path(__file__).parent
 _OUTPUT = _HERE.parents[1] / "output"
-_SEED = int(os.environ.get("SAMBOT_VIZ_TASK_SEED", secrets.randbelow(10**6)))
 _FAILED = pytest.StashKey[bool]()
 
 
@@ -26,14 +24,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Shuffle the tasks among their own places: none may depend on another."""
     places = [n for n, item in enumerate(items) if _HERE in item.path.parents]
     tasks = [items[n] for n in places]
-    random.Random(_SEED).shuffle(tasks)
+    random.Random(int(os.environ["SAMBOT_VIZ_TASK_SEED"])).shuffle(tasks)
     for place, task in zip(places, tasks, strict=True):
         items[place] = task
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Write how to have the same order again."""
-    terminalreporter.write_line(f"order of the tasks: SAMBOT_VIZ_TASK_SEED={_SEED}")
 
 
 @pytest.hookimpl(hookwrapper=True)
