@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Collection, Iterator, Sequence
+from collections.abc import (
+    Awaitable,
+    Callable,
+    Collection,
+    Iterator,
+    Mapping,
+    Sequence,
+)
 from pathlib import Path
 from typing import Protocol
 
 from sambot_viz.errors import ConfigError, SambotVizError, UsageError
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.robot.model import Robot
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.config_file import UNNAMED, ConfigFile
@@ -57,7 +65,8 @@ class FilesPanel(Panel):
     """
 
     name = "files"
-    remade_by = frozenset({"config", "edits", "robot"})
+    remade_by = frozenset({"config", "robot"})
+    moved_by = frozenset({"edits"})
 
     def __init__(
         self,
@@ -77,6 +86,9 @@ class FilesPanel(Panel):
         self._say = say
         self._remake = remake
         self._file = ConfigFile(session)
+        self._facts: dict[str, Json] = {}
+        self._files_of: object = None
+        self._robot_of: Robot | None = None
         self._names: Sequence[str] = ()
         self._answer: Json = None
         self._answers = 0
@@ -87,17 +99,36 @@ class FilesPanel(Panel):
         """The name of the file, what can be done, and the last answer."""
         return [*self._rows()]
 
-    def _rows(self) -> Iterator[Row]:
+    def values(self) -> Mapping[str, Json]:
+        """Whether the document is saved: that may change with every edit."""
+        return {"file/state": self._state()}
+
+    def _state(self) -> Json:
+        """What is known of the file; the disk is asked only for another file or robot.
+
+        This is called for every step of a slider, once for each browser.
+        """
+        session = self._session
+        files, robot = (session.config.file, session.context.config_file), session.robot
+        # Comparing two robots would compare all their links.
+        if files != self._files_of or robot is not self._robot_of:
+            self._files_of, self._robot_of = files, robot
+            self._facts = self._look_up()
+        return self._facts | {"modified": session.edits.modified}
+
+    def _look_up(self) -> dict[str, Json]:
         file = self._file
-        state: Json = {
+        facts: dict[str, Json] = {
             "name": file.name,
             "own": file.target is not None,
-            "modified": self._session.edits.modified,
             "private": self._files is None,
         }
         if self._files is not None:
-            state["folder"] = str(file.folder)
-        yield Row("file/state", "", "names", value=state)
+            facts["folder"] = str(file.folder)
+        return facts
+
+    def _rows(self) -> Iterator[Row]:
+        yield Row("file/state", "", "names", value=self._state())
         yield Row(
             "file/download", "", "action", own=True, set=lambda _: self._download()
         )
