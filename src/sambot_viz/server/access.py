@@ -22,6 +22,7 @@ of users and TLS are the job of a proxy.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import http
 import ipaddress
@@ -36,6 +37,7 @@ import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
+from websockets.protocol import State
 
 from sambot_viz.options import Options
 from sambot_viz.server import page_files, visitors
@@ -150,17 +152,24 @@ def _hostname(host: str) -> str:
 
 @contextlib.contextmanager
 def checked(
-    options: Options, listening: socket.socket | None = None
-) -> Generator[None]:
-    """Servers that are started in here check every request before viser answers it.
+    options: Options, listening: socket.socket | None, largest_message: int
+) -> Generator[asyncio.Event]:
+    """Check every request to a server that is started in here before viser does.
 
     viser gives no way to look at a request, so the function with which it starts its
-    server is replaced for the moment of the start.
+    server is replaced for the moment of the start. The port listens before that start
+    is over: what clients send meanwhile is not read.
 
     Args:
         options: where the server listens, and for whom.
-        listening: a socket of the file system that listens, in place of a port.
+        listening: a socket of the file system that listens in place of a port, or None.
+        largest_message: a connection that sends a longer one is closed [bytes].
+
+    Yields:
+        The event after which clients are given to viser, to be set on the event loop
+        of the server when the inbound filter is there.
     """
+    ready = asyncio.Event()
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
     check_token = TokenCheck(options.token, options.presenter, options.base_path)
@@ -202,20 +211,25 @@ def checked(
 
         async def handle(connection: ServerConnection) -> None:
             if connection.subprotocol == _PROTOCOL:
-                await handler(connection)
+                await ready.wait()
+                # One that has left meanwhile has nothing that could be prepared.
+                if connection.state is State.OPEN:
+                    await handler(connection)
             else:
                 # viser would write a line on the terminal for every attempt.
                 await connection.close(_VERSION_MISMATCH, "Version mismatch.")
 
         settings["process_request"] = check
         settings["create_connection"] = crowd.connection
+        # Also for what is sent before the filter reads it.
+        settings["max_size"] = largest_message
         if listening is not None:
             return original(handle, unix=True, sock=listening, **settings)
         return original(handle, *arguments, **settings)
 
     module.serve = serve  # type: ignore[assignment, misc]
     try:
-        yield
+        yield ready
     finally:
         module.serve = original  # type: ignore[assignment, misc]
 

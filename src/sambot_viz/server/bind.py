@@ -19,7 +19,7 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import access, outbox
-from sambot_viz.server.door import guard
+from sambot_viz.server.door import LARGEST_MESSAGE, guard
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
@@ -96,15 +96,19 @@ def listen(options: Options) -> viser.ViserServer:
         listening = _bind_in_file_system(path)
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
-    with viser_private.without_banner(), access.checked(options, listening):
+    checked = access.checked(options, listening, LARGEST_MESSAGE)
+    with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
+    outbox.prepare(server)
+    guard(server)
+    # Clients that were quicker than this wait for it; also those of a server that is
+    # closed at once, which would wait for them.
+    server.get_event_loop().call_soon_threadsafe(ready.set)
     if path is not None:
         _paths[server] = path
     elif port not in (0, server.get_port()):
         close(server)
         raise _taken(host, port)
-    outbox.prepare(server)
-    guard(server)
     return server
 
 

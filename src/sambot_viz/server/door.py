@@ -95,7 +95,7 @@ def give_edits(server: viser.ViserServer, edits: Edits) -> None:
 
 
 def guard(server: viser.ViserServer) -> None:
-    """Check all that the browsers of a server send from now on; once per server."""
+    """Check all that the browsers of a server send; no browser may be there yet."""
     viser_private.on_connection(server, partial(_meet, server))
 
 
@@ -126,7 +126,6 @@ class Door:
         self._rate = Rate(MESSAGES_PER_SECOND, BURST)
         self._backlog = Backlog(self._behind)
         self._recv = connection.recv
-        connection.protocol.max_message_size = LARGEST_MESSAGE
         connection.close_timeout = CLOSE_TIME
         viser_private.replace_methods(connection, recv=self.recv)
 

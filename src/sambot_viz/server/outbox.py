@@ -97,9 +97,7 @@ def _replace(
 ) -> None:
     parcels = Parcels()
     if not isinstance(buffer.message_event, News):
-        before, buffer.message_event = buffer.message_event, News(buffer.event_loop)
-        # A browser that was quicker may wait for the other one.
-        buffer.event_loop.call_soon_threadsafe(before.set)
+        buffer.message_event = News(buffer.event_loop)
 
     def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
         connection = viser_private.connection_of(server, client_id)

@@ -6,6 +6,7 @@ import asyncio
 import math
 import socket
 from collections.abc import AsyncIterator
+from contextlib import suppress
 
 from websockets.asyncio.server import ServerConnection
 
@@ -73,7 +74,9 @@ def _keep_little_in_the_system(transport: asyncio.Transport) -> None:
     line = transport.get_extra_info("socket")
     option = getattr(socket, "TCP_NOTSENT_LOWAT", None)
     if option is not None and line.family in (socket.AF_INET, socket.AF_INET6):
-        line.setsockopt(socket.IPPROTO_TCP, option, PIECE)
+        # A browser that has left already has closed it.
+        with suppress(OSError):
+            line.setsockopt(socket.IPPROTO_TCP, option, PIECE)
 
 
 class StallTimer:

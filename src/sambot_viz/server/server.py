@@ -20,7 +20,7 @@ from sambot_viz.panels.files import AskPage, Files
 from sambot_viz.robot.model import Robot
 from sambot_viz.server import outbox
 from sambot_viz.server.bind import close, listen, url_of
-from sambot_viz.server.door import Edits, give_edits, guard
+from sambot_viz.server.door import Edits, give_edits
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.session import Reloaded, Session
@@ -67,7 +67,6 @@ class Server:
             self._viser, options, make_config, models, poses, files, ask_page
         )
         self._sessions = sessions
-        guard(self._viser)
         edits = Edits(sessions.take_edit, sessions.may_edit, sessions.behind)
         give_edits(self._viser, edits)
         prepare_page(self._viser)

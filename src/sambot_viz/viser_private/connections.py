@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import weakref
 from collections.abc import (
     Callable,
     Generator,
@@ -15,29 +14,20 @@ import rich
 import viser
 from websockets.asyncio.server import ServerConnection
 
-_prepared: weakref.WeakSet[viser.ViserServer] = weakref.WeakSet()
-
 
 def on_connection(
     server: viser.ViserServer, prepare: Callable[[int, ServerConnection], object]
 ) -> None:
-    """Call `prepare` with every browser's number and connection before it is read.
+    """Call `prepare` with the number and connection of every browser to come.
 
-    Connections that are open already are prepared too. A second call for the same
-    server does nothing.
+    viser does so before it reads from the connection or sends anything to it.
     """
-    if server in _prepared:
-        return
-    _prepared.add(server)
     websocket = cast(Any, server)._websock_server
-    connections: dict[int, ServerConnection] = websocket._live_connections
 
     def connected(browser: Any) -> None:
-        prepare(browser.client_id, connections[browser.client_id])
+        prepare(browser.client_id, websocket._live_connections[browser.client_id])
 
     websocket.on_client_connect(connected)
-    for number, connection in list(connections.items()):
-        prepare(number, connection)
 
 
 def replace_methods(connection: ServerConnection, **methods: Any) -> None:
