@@ -69,6 +69,6 @@ def test_names_have_no_box(viz: Visualizer, open_viewer: Open) -> None:
 def test_the_script_names_nothing_of_any_model_and_fetches_nothing(
     repository: Path,
 ) -> None:
-    script = (repository / "src/sambot_viz/page/rviz_look.js").read_text("utf-8")
+    script = (repository / "src/sambot_viz/page/view/rviz_look.js").read_text("utf-8")
     for forbidden in ("http", "fetch(", "XMLHttpRequest", "import(", "eval("):
         assert forbidden not in script

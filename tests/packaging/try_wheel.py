@@ -40,7 +40,7 @@ def find_what_is_bundled() -> None:
     package = Path(sambot_viz.__file__).parent
     expect(package.is_relative_to(ENVIRONMENT), f"imported from {package}")
     expect((package / "py.typed").is_file(), "py.typed is missing")
-    expect((package / "page" / "rviz_look.js").is_file(), "the page script is missing")
+    expect((package / "page/view/rviz_look.js").is_file(), "the page script is missing")
     (tile,) = metadata.entry_points(group="jupyter_serverproxy_servers")
     icon = tile.load()()["launcher_entry"]["icon_path"]
     expect(Path(icon).is_file(), "the icon of the tile in JupyterLab is missing")

@@ -10,7 +10,7 @@ const fails = () => { /* Tried to send, but the websocket is not connected! */ }
 const page = { sendMessage: works };
 Object.assign(globalThis, { window: { __viserMutable: page } });
 
-const { act, connect, CUT, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } = await import("../../src/sambot_viz/page/channel.js");
+const { act, connect, CUT, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } = await import("../../src/sambot_viz/page/wire/channel.js");
 
 rows.take("session", "rows", { base: 0, panels: { p: [
   { id: "a", in: "", kind: "float", value: 0 }, { id: "b", in: "", kind: "float", value: 0 },

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { offers, preselected } from "../../src/sambot_viz/page/combo.js";
+import { offers, preselected } from "../../src/sambot_viz/page/cells/combo.js";
 
 const FRAMES = ["<Fixed Frame>", "base_link", "left_wheel", "right_wheel", "link"];
 /** What Enter takes after a text was typed. @param {string} typed */

@@ -8,7 +8,7 @@ Object.assign(globalThis, {
   addEventListener: () => {},
   document: { addEventListener: () => {}, querySelectorAll: () => [] },
 });
-const { rows } = await import("../../src/sambot_viz/page/channel.js");
+const { rows } = await import("../../src/sambot_viz/page/wire/channel.js");
 const { folds } = await import("../../src/sambot_viz/page/state.js");
 const { members, moveBy, nearest, neighbour, place, places } = await import("../../src/sambot_viz/page/panels/display_order.js");
 

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { isTyping, meaning } from "../../src/sambot_viz/page/keys.js";
+import { isTyping, meaning } from "../../src/sambot_viz/page/window/keys.js";
 
 const TOOLS = [
   { name: "Interact", key: "i" }, { name: "Move Camera", key: "m" }, { name: "Select", key: "s" },

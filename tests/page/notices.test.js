@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { EDITED, rows } from "../../src/sambot_viz/page/channel.js";
-import { notice, refusals, refuse, sayRefused, tell } from "../../src/sambot_viz/page/notices.js";
+import { EDITED, rows } from "../../src/sambot_viz/page/wire/channel.js";
+import { notice, refusals, refuse, sayRefused, tell } from "../../src/sambot_viz/page/window/notices.js";
 
 beforeEach(() => { notice.set(null); refusals.clear(); });
 

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped, writtenNumber } from "../../src/sambot_viz/page/numbers.js";
+import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped, writtenNumber } from "../../src/sambot_viz/page/cells/numbers.js";
 
 /** @param {string} typed @param {number} value @param {string} [unit] */
 function reads(typed, value, unit = "rad") {

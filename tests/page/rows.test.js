@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Rows } from "../../src/sambot_viz/page/rows.js";
+import { Rows } from "../../src/sambot_viz/page/wire/rows.js";
 
 /** @param {string} id @param {any} [more] */
 const row = (id, more = {}) => ({ id, in: "", kind: "float", ...more });

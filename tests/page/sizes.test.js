@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fitted } from "../../src/sambot_viz/page/sizes.js";
+import { fitted } from "../../src/sambot_viz/page/window/sizes.js";
 
 const view = (/** @type {any} */ sizes, /** @type {number} */ width) => (width - sizes.left - sizes.right) / width;
 

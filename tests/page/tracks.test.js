@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { at, read, unpack } from "../../src/sambot_viz/page/tracks.js";
+import { at, read, unpack } from "../../src/sambot_viz/page/player/tracks.js";
 
 const turning = { type: "SetOrientationMessage", prop: "wxyz", name: "/w", first: [1, 0, 0, 0],
   since: [0, 100, 100], values: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] };

@@ -61,7 +61,7 @@ def test_every_script_that_is_imported_is_in_the_page(port: int) -> None:
         seen.add(name)
         imported = re.findall(r'(?:from|import) "([^"]+)"', scripts[name])
         left += [each for each in imported if each not in seen]
-    assert {"sambot/channel.js", "sambot/panels/displays.js"} <= seen
+    assert {"sambot/wire/channel.js", "sambot/panels/displays.js"} <= seen
     # What nobody imports is not part of the page.
     assert seen == set(scripts)
 
@@ -69,7 +69,7 @@ def test_every_script_that_is_imported_is_in_the_page(port: int) -> None:
 def test_a_page_without_panels_has_only_what_the_view_needs() -> None:
     with Visualizer(port=0, panels=False) as viz:
         html = ask(viz.viser.get_port(), "/")[1].decode()
-    assert 'import "sambot/bare.js"' in html
+    assert 'import "sambot/view_only.js"' in html
 
 
 def test_the_page_is_sent_packed_to_who_takes_that(port: int) -> None:

@@ -22,7 +22,8 @@ _PREFIX = "sambot/"
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before viser's own script."""
-_STYLES = ("window.css", "tree.css", "dialogs.css")
+_STYLES = ("window/window.css", "tree/tree.css", "dialogs/dialogs.css")
+_PLAYER_STYLES = ("window/window.css", "player/player.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _ONLY_ITSELF = (
     "default-src 'none'; base-uri 'none'; form-action 'none'; "
@@ -41,7 +42,7 @@ def with_scripts(html: bytes, panels: bool) -> bytes:
         panels: whether there are panels round the view, or the view fills the page.
     """
     own = _FOLDER.joinpath(_FIRST).read_text("utf-8")
-    head = _head("main.js" if panels else "bare.js", _STYLES)
+    head = _head("main.js" if panels else "view_only.js", _STYLES)
     head = f"<script>{own}</script>{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
@@ -75,7 +76,7 @@ def standing_alone(
             b'";window.__VISER_EMBED_CONFIG__={darkMode:true};</script>',
             f'<script type="application/json" id="sambot-about">{data}</script>'
             f'<script type="text/plain" id="sambot-motion">{motion}</script>'
-            f"{_head('player.js', ('window.css', 'player.css'))}</head>".encode(),
+            f"{_head('player/player.js', _PLAYER_STYLES)}</head>".encode(),
             after,
         ]
     )

@@ -6,7 +6,7 @@
  * a redirect, and a websocket follows none. viser takes the address out of the query; it is
  * gone again when the page is there (rviz_look.js). This runs before viser, not as a module. */
 
-// What `link.js` opens: viser would drop it.
+// What `permalink.js` opens: viser would drop it.
 window.sambotLink = location.hash;
 if (location.hash) history.replaceState(null, "", location.pathname + location.search);
 

@@ -1,20 +1,20 @@
 // @ts-check
 /* The page: the view as RViz draws it, and the window round it. */
 
-import "./bare.js";
+import "./view_only.js";
 import { html, render } from "./vendor/preact.js";
-import { act, connect, HOVER, newGesture, rows, send } from "./channel.js";
-import { followConnection } from "./connection.js";
-import { togglePanels } from "./edges.js";
-import { followFile } from "./files.js";
-import { listenToKeys } from "./keys.js";
-import { followLinks } from "./link.js";
+import { act, connect, HOVER, newGesture, rows, send } from "./wire/channel.js";
+import { followConnection } from "./wire/connection.js";
+import { togglePanels } from "./window/splitters.js";
+import { followFile } from "./window/files.js";
+import { listenToKeys } from "./window/keys.js";
+import { followLinks } from "./wire/permalink.js";
 import { tellView } from "./panels/views.js";
-import { cancelPress, followMouse, mousePlace } from "./pointer.js";
-import { followRole } from "./people.js";
-import { followScript } from "./script_panel.js";
-import { toolKeys } from "./toolbar.js";
-import { Window } from "./window.js";
+import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
+import { followRole } from "./window/people.js";
+import { followScript } from "./window/script_panel.js";
+import { toolKeys } from "./window/toolbar.js";
+import { Window } from "./window/window.js";
 
 const start = () => {
   const host = document.createElement("div");

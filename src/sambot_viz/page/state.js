@@ -3,7 +3,7 @@
  * browser's storage where it should survive. */
 
 import { useEffect, useLayoutEffect, useReducer } from "./vendor/preact.js";
-import { rows } from "./channel.js";
+import { rows } from "./wire/channel.js";
 
 const STORAGE = "sambot-viz";
 

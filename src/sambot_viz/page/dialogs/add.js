@@ -2,8 +2,8 @@
 /* Add: the types of displays with a sentence each, and a name. */
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { rows } from "../channel.js";
-import { Icon } from "../icons.js";
+import { rows } from "../wire/channel.js";
+import { Icon } from "../window/icons.js";
 import { makeDisplay } from "../panels/new_display.js";
 import { Dialog } from "./dialog.js";
 

@@ -2,8 +2,8 @@
 /* Export Page: what is seen, in one file that needs no server. */
 
 import { html, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
-import { tell } from "../notices.js";
+import { act, rows } from "../wire/channel.js";
+import { tell } from "../window/notices.js";
 import { Cell } from "../state.js";
 import { Dialog } from "./dialog.js";
 

@@ -2,8 +2,8 @@
 /* Help: the keys, and what this program is. */
 
 import { html } from "../vendor/preact.js";
-import { rows } from "../channel.js";
-import { toolKeys } from "../toolbar.js";
+import { rows } from "../wire/channel.js";
+import { toolKeys } from "../window/toolbar.js";
 import { Dialog } from "./dialog.js";
 
 /** @type {[string, [string, string][]][]} */

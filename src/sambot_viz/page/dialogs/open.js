@@ -2,7 +2,7 @@
 /* Open Config: the .rviz files of the folder; asks first what becomes of unsaved changes. */
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act } from "../channel.js";
+import { act } from "../wire/channel.js";
 import { unfolded, useRow } from "../state.js";
 import { Dialog, show, useAnswer } from "./dialog.js";
 import { SaveAs } from "./save_as.js";

@@ -2,7 +2,7 @@
 /* Save Config As: a name and Enter; a file that exists is replaced after a question. */
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
+import { act, rows } from "../wire/channel.js";
 import { unfolded } from "../state.js";
 import { Dialog, useAnswer } from "./dialog.js";
 

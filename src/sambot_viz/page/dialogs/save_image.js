@@ -2,7 +2,7 @@
 /* Save Image: a picture of the view at a chosen size, without the panels. */
 
 import { html, useRef } from "../vendor/preact.js";
-import { act } from "../channel.js";
+import { act } from "../wire/channel.js";
 import { Cell } from "../state.js";
 import { Dialog } from "./dialog.js";
 

@@ -1,11 +1,11 @@
 // @ts-check
 /* The order of displays: which places there are, and how a hand takes a display there. */
 
-import { act, rows } from "../channel.js";
+import { act, rows } from "../wire/channel.js";
 import { fold, isOpen } from "../state.js";
-import { reveal } from "../tree.js";
+import { reveal } from "../tree/tree.js";
 
-/** @typedef {import("../rows.js").Row} Row */
+/** @typedef {import("../wire/rows.js").Row} Row */
 /**
  * A place between displays.
  * @typedef {{group: string, index: number}} Place

@@ -2,16 +2,16 @@
 /* The Displays panel: the tree, what can be done with a display, and the help text. */
 
 import { html, useState } from "../vendor/preact.js";
-import { act, mayChange, rows } from "../channel.js";
+import { act, mayChange, rows } from "../wire/channel.js";
 import { AddDisplay } from "../dialogs/add.js";
 import { show } from "../dialogs/dialog.js";
 import { isOpen, selected, useRow } from "../state.js";
-import { reveal, Tree } from "../tree.js";
+import { reveal, Tree } from "../tree/tree.js";
 import { makeDisplay } from "./new_display.js";
 import { dragDisplay, moveBy, neighbour, place } from "./display_order.js";
 import "./undone.js";
 
-/** @typedef {import("../rows.js").Row} Row */
+/** @typedef {import("../wire/rows.js").Row} Row */
 
 const PANEL = "displays";
 const add = () => { if (mayChange()) show(AddDisplay); };
@@ -48,7 +48,7 @@ export function DisplaysPanel() {
     else return false;
     return true;
   };
-  /** @param {Row} on @returns {import("../menu.js").Item[]} */
+  /** @param {Row} on @returns {import("../window/menu.js").Item[]} */
   const menu = (on) => {
     const adding = { label: "Add…", act: add };
     if (!on.display) return [adding];

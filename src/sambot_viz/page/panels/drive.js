@@ -2,12 +2,12 @@
 /* The Drive panel: buttons to hold, speeds, and where the robot is. */
 
 import { html, useEffect, useRef } from "../vendor/preact.js";
-import { act } from "../channel.js";
-import { Icon } from "../icons.js";
-import { formatNumber } from "../numbers.js";
+import { act } from "../wire/channel.js";
+import { Icon } from "../window/icons.js";
+import { formatNumber } from "../cells/numbers.js";
 import { Cell, degrees, useRow } from "../state.js";
-import { Tree } from "../tree.js";
-import { shownUnit } from "../units.js";
+import { Tree } from "../tree/tree.js";
+import { shownUnit } from "../cells/units.js";
 
 /** How often a held button says so [ms]. */
 const PERIOD = 100;

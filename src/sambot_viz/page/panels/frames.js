@@ -2,14 +2,14 @@
 /* The Frames panel: where one frame is in another, and static transforms to add. */
 
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
-import { Combo } from "../combo.js";
-import { refusals, refuse, sayRefused } from "../notices.js";
-import { parseNumber } from "../numbers.js";
+import { act, rows } from "../wire/channel.js";
+import { Combo } from "../cells/combo.js";
+import { refusals, refuse, sayRefused } from "../window/notices.js";
+import { parseNumber } from "../cells/numbers.js";
 import { degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
-import { Tree } from "../tree.js";
+import { Tree } from "../tree/tree.js";
 
-/** @typedef {import("../rows.js").Row} Row */
+/** @typedef {import("../wire/rows.js").Row} Row */
 
 export function FramesPanel() {
   const shown = useRow("frames/shown")?.value;

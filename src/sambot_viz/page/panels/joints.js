@@ -2,19 +2,19 @@
 /* The Joints panel: a slider for each joint, and what can be done with all of them. */
 
 import { html, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
-import { focusWhole } from "../field.js";
-import { Icon } from "../icons.js";
-import { refusals } from "../notices.js";
-import { NARROW, NumberCell } from "../number_cells.js";
-import { Popup } from "../popup.js";
+import { act, rows } from "../wire/channel.js";
+import { focusWhole } from "../cells/field.js";
+import { Icon } from "../window/icons.js";
+import { refusals } from "../window/notices.js";
+import { NARROW, NumberCell } from "../cells/number_cells.js";
+import { Popup } from "../window/popup.js";
 import { Cell, degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
-import { Tree } from "../tree.js";
-import { formula, limits } from "../units.js";
-import { Why } from "../why.js";
+import { Tree } from "../tree/tree.js";
+import { formula, limits } from "../cells/units.js";
+import { Why } from "../cells/validation_message.js";
 import { Poses } from "./poses.js";
 
-/** @typedef {import("../rows.js").Row} Row */
+/** @typedef {import("../wire/rows.js").Row} Row */
 
 const SEARCH_FROM = 12;
 /** Left and right of a name, and what is more when there are groups [px]. */

@@ -1,9 +1,9 @@
 // @ts-check
 /* Displays that this page makes: they are selected as soon as they are there. */
 
-import { act, rows } from "../channel.js";
+import { act, rows } from "../wire/channel.js";
 import { fold } from "../state.js";
-import { reveal } from "../tree.js";
+import { reveal } from "../tree/tree.js";
 
 /** How long the server may take [ms]. */
 const PATIENCE = 10000;

@@ -2,10 +2,10 @@
 /* Named poses: choose one, save the present one, remove one. */
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act } from "../channel.js";
-import { Icon } from "../icons.js";
-import { refusals } from "../notices.js";
-import { Popup } from "../popup.js";
+import { act } from "../wire/channel.js";
+import { Icon } from "../window/icons.js";
+import { refusals } from "../window/notices.js";
+import { Popup } from "../window/popup.js";
 import { useRow } from "../state.js";
 
 export function Poses() {

@@ -2,9 +2,9 @@
 /* What is wrong: the list, and the count that opens it. */
 
 import { html, useEffect } from "../vendor/preact.js";
-import { Icon } from "../icons.js";
+import { Icon } from "../window/icons.js";
 import { useRow } from "../state.js";
-import { Tree } from "../tree.js";
+import { Tree } from "../tree/tree.js";
 
 const KINDS = /** @type {const} */ ([["error", "error"], ["warning", "warn"], ["info", "info"]]);
 

@@ -1,8 +1,8 @@
 // @ts-check
 /* After Undo and Redo the display they have touched is selected, in this page alone. */
 
-import { rows } from "../channel.js";
-import { reveal } from "../tree.js";
+import { rows } from "../wire/channel.js";
+import { reveal } from "../tree/tree.js";
 
 const PANEL = "displays";
 /** How long the rows of the displays may take after those of this browser [ms]. */

@@ -2,12 +2,12 @@
 /* The Views panel: the type of view, its numbers, and the saved views. */
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../channel.js";
-import { ValueCell } from "../cells.js";
+import { act, rows } from "../wire/channel.js";
+import { ValueCell } from "../cells/cells.js";
 import { fold, isOpen, selected, useRow } from "../state.js";
-import { reveal, Tree } from "../tree.js";
+import { reveal, Tree } from "../tree/tree.js";
 
-/** @typedef {import("../rows.js").Row} Row */
+/** @typedef {import("../wire/rows.js").Row} Row */
 
 export function ViewsPanel() {
   useRow("panel:views");

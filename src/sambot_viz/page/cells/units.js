@@ -1,0 +1,49 @@
+// @ts-check
+/* Numbers with their units and limits as they are shown: angles in radians or degrees. */
+
+import { rows } from "../wire/channel.js";
+import { writtenNumber } from "./numbers.js";
+import { degrees } from "../state.js";
+
+/** @typedef {import("../wire/rows.js").Row} Row */
+
+const DEGREE = Math.PI / 180;
+
+/** How a row's number is shown: its unit, how much of it is one of the row's, and its step.
+ * @param {Row} row @returns {{unit: string, factor: number, step: number}} */
+export function shownUnit(row, inDegrees = degrees.value) {
+  const step = row.step || 0.01;
+  const turn = inDegrees && (row.unit === "rad" || row.unit === "rad/s");
+  if (!turn) return { unit: row.unit || "", factor: 1, step };
+  // 0.01 rad is about half a degree; people think in whole ones.
+  return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
+}
+
+/** Why a number is outside the limits of its row. @param {Row} row @param {number} value */
+export function outside(row, value) {
+  const { unit, factor } = shownUnit(row);
+  const low = row.min ?? -Infinity, high = row.max ?? Infinity;
+  // A limit typed as it is shown, without all its digits, means the limit.
+  const near = 0.6 * 10 ** -limitDigits(unit) / factor;
+  if (value >= low - near && value <= high + near) return "";
+  return `${writtenNumber(value * factor, limitDigits(unit))} ${unit} is outside ${limits(row)}`;
+}
+
+/** @param {string} unit */
+const limitDigits = (unit) => (unit.startsWith("°") ? 2 : 4);
+/** The limits of a row as they are shown. @param {Row} row */
+export function limits(row) {
+  const { unit, factor } = shownUnit(row);
+  const ends = [row.min ?? -Infinity, row.max ?? Infinity].map((end) =>
+    (Number.isFinite(end) ? writtenNumber(end * factor, limitDigits(unit)) : end < 0 ? "−∞" : "∞"));
+  return `${ends[0]} … ${ends[1]} ${unit}`.trim();
+}
+
+/** How a joint follows another one, in the units that are shown. @param {Row} row @returns {string} */
+export function formula(row) {
+  const leader = rows.get(row.follows);
+  const { factor, unit } = shownUnit(row);
+  const times = writtenNumber(row.times * factor / (leader ? shownUnit(leader).factor : 1), 4);
+  const plus = row.plus ? ` ${row.plus < 0 ? "−" : "+"} ${writtenNumber(Math.abs(row.plus) * factor, 4)} ${unit}` : "";
+  return `= ${times === "1" ? "" : `${times} × `}${leader?.name || ""}${plus}`;
+}

@@ -1,0 +1,30 @@
+// @ts-check
+/* What stands in a row, as text. */
+
+import { formatNumber } from "../cells/numbers.js";
+
+/** @typedef {import("../wire/rows.js").Row} Row */
+
+/** Kinds of rows whose value is not a text. */
+const NO_TEXT = new Set(["action", "names", "display", "group"]);
+
+/** The value of a row as it is shown; "" where there is none. @param {Row} row @returns {string} */
+export function valueText(row) {
+  const { kind, value } = row;
+  if (value === undefined || value === null || NO_TEXT.has(kind)) return "";
+  if (kind === "color") return value.join("; ");
+  if (kind === "vector") return value.map((/** @type {number} */ part) => formatNumber(part, 6)).join("; ");
+  if (kind === "lines" && Array.isArray(value)) return value.map(([, line]) => line).join("\n");
+  if (typeof value === "number") return formatNumber(value, 6);
+  return String(value);
+}
+
+/**
+ * What Ctrl+C on a row copies: a value alone, a status with all that is below it.
+ * @param {Row} row @param {Row[]} below
+ */
+export function copyText(row, below) {
+  if (row.kind === "note" || row.kind === "lines") return [row, ...below].map(valueText).join("\n");
+  if (row.kind === "status") return [row, ...below].map((one) => `${one.name}: ${valueText(one)}`).join("\n");
+  return valueText(row) || row.name || "";
+}

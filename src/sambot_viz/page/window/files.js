@@ -1,0 +1,95 @@
+// @ts-check
+/* The .rviz file: its name, saving and opening it, and pictures of the view. */
+
+import { html, useEffect } from "../vendor/preact.js";
+import { act, rows } from "../wire/channel.js";
+import { show } from "../dialogs/dialog.js";
+import { ExportPage } from "../dialogs/export_page.js";
+import { OpenConfig } from "../dialogs/open.js";
+import { SaveAs } from "../dialogs/save_as.js";
+import { SaveImage } from "../dialogs/save_image.js";
+import { tell } from "./notices.js";
+import { folds, selected, unfolded, useRow } from "../state.js";
+
+/** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
+
+/** @returns {FileState} */
+const state = () => rows.value("file/state") || {};
+
+/** Whether the server's disk may be used: a visitor with a session of their own only downloads. */
+export const hasDisk = () => Boolean(rows.get("file/save"));
+
+/** Take what is being typed: it is accepted as if the field were left. */
+function takeTyped() {
+  const field = document.activeElement;
+  if (!(field instanceof HTMLInputElement)) return;
+  field.blur();
+  field.focus();
+}
+
+const sayNoDisk = () => tell("This config is yours alone: File > Download Config saves it on your computer", "info");
+
+export function save() {
+  if (!hasDisk()) return sayNoDisk();
+  takeTyped();
+  return state().own ? act("file/save", [unfolded()]) : show(SaveAs);
+}
+export function saveAs() {
+  if (!hasDisk()) return sayNoDisk();
+  takeTyped();
+  return show(SaveAs);
+}
+export function open() { if (hasDisk()) { takeTyped(); show(OpenConfig); } }
+export function download() { takeTyped(); act("file/download"); }
+export function saveImage() { show(SaveImage); }
+export function exportPage() { show(ExportPage); }
+
+/** A name of more characters may be cut before its last ones. */
+const LONG = 24, TAIL = 14;
+
+/** The name of the file, with a star after an edit; also the title of the page. */
+export function FileName() {
+  const { name, own, modified } = useRow("file/state")?.value || {};
+  const shown = (name || "no file yet") + (modified ? "*" : "");
+  useEffect(() => { document.title = `${shown} - sambot-viz`; }, [shown]);
+  // Of a long name the middle is left out: its end has the star.
+  const tail = shown.length > LONG ? shown.slice(-TAIL) : "";
+  const where = own ? "" : name ? "This config comes with the program; saving asks for a name." : "";
+  const title = `${name || "no file yet"}: ${modified ? "with changes that are not saved." : "without changes."} ${where}`;
+  return html`<span class="file-name" title=${title}><bdi>${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
+}
+
+/** The keys of the file menu, which also act while a text is typed. */
+function keys() {
+  addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "s") return;
+    // The browser would save the page.
+    event.preventDefault();
+    event.stopPropagation();
+    if (event.repeat || document.querySelector("dialog[open]")) return;
+    if (event.shiftKey) saveAs(); else save();
+  }, true);
+}
+
+/** Follow the file from now on. */
+export function followFile() {
+  keys();
+  // The config of a visitor goes with the page; that of everyone stays on the server.
+  addEventListener("beforeunload", (event) => {
+    if (state().private && state().modified) event.preventDefault();
+  });
+  // A document that was opened or read again is unfolded as its file says, and none of
+  // its rows is selected.
+  const current = () => ({ session: rows.value("names/session")?.id, document: rows.value("names/document") });
+  let shown = current();
+  const look = () => {
+    const now = current();
+    // A program that was started again counts from 0.
+    if (shown.document !== undefined && now.session === shown.session && now.document !== shown.document) {
+      folds.set({});
+      selected.set({ ...selected.value, displays: "", views: "" });
+    }
+    shown = now;
+  };
+  for (const id of ["names/session", "names/document"]) rows.listen(id, look);
+}

@@ -1,0 +1,52 @@
+// @ts-check
+/* Sentences for this browser, from the server or from the page itself, and why values
+ * were refused. */
+
+import { EDITED, NOT_DONE, rows, WATCHING } from "../wire/channel.js";
+import { Cell } from "../state.js";
+
+/** @typedef {{text: string, level: string, row?: string}} Notice row: the one that has refused a value */
+
+/** The sentence that the status bar shows. @type {Cell<Notice | null>} */
+export const notice = new Cell(/** @type {Notice | null} */ (null));
+
+/** Show a sentence in the status bar. @param {string} text @param {string} [level] */
+export function tell(text, level = "ok") { notice.set({ text, level }); }
+
+/** Why the last value was refused, by the id of its row, until the next edit. @type {Map<string, string>} */
+export const refusals = new Map();
+
+/** @param {string} id @param {string} [why] */
+export function refuse(id, why) {
+  const told = [...refusals.keys()];
+  // What was refused before is over.
+  if (notice.value?.row && notice.value.text !== why) notice.set(null);
+  refusals.clear();
+  if (why) {
+    refusals.set(id, why);
+    rows.putBack(id);
+  }
+  for (const other of new Set([...told, id])) rows.notify(other);
+}
+
+/** Say why something was refused, at its place and in the status bar. @param {string} id @param {string} why */
+export function sayRefused(id, why) {
+  notice.set({ text: why, level: "error", row: id });
+  refuse(id, why);
+}
+
+// The next edit is the answer to a refusal; if it is refused too, the server says so again.
+rows.listen(EDITED, () => {
+  const refused = notice.value?.row || [...refusals.keys()][0];
+  if (refused) refuse(refused);
+});
+
+rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
+
+rows.listen(WATCHING, () => tell("You are watching: ask for the wheel, or work on a copy of your own", "warn"));
+
+rows.listen("notice", () => {
+  const said = rows.value("notice");
+  if (!said || said.copy?.length) return;
+  if (said.row) sayRefused(said.row, said.text); else notice.set(said);
+});

@@ -1,0 +1,61 @@
+// @ts-check
+/* A button that opens a small panel below it: a menu, or a form. */
+
+import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+import { act } from "../wire/channel.js";
+import { isTyping, meaning } from "./keys.js";
+
+const EDGE = 4;
+
+/**
+ * @param {{label: any, name: string, role: "menu" | "dialog", title?: string,
+ *   children: (close: () => void) => any}} props
+ *   label: what the button shows; name: what it, and the panel, is called
+ */
+export function Popup({ label, name, role, title, children }) {
+  const [open, setOpen] = useState(false);
+  const button = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
+  const close = () => { setOpen(false); button.current?.focus(); };
+  useLayoutEffect(() => { if (open) place(button.current, panel.current); });
+  useLayoutEffect(() => {
+    if (!open) return undefined;
+    (panel.current.querySelector("button, input") || panel.current).focus();
+    /** @param {any} event */
+    const elsewhere = (event) => {
+      if (!panel.current?.contains(event.target) && !button.current.contains(event.target)) setOpen(false);
+    };
+    /** What had the focus may be gone. @param {KeyboardEvent} event */
+    const lost = (event) => { if (event.key === "Escape" && document.activeElement === document.body) close(); };
+    addEventListener("pointerdown", elsewhere, true);
+    addEventListener("keydown", lost);
+    return () => { removeEventListener("pointerdown", elsewhere, true); removeEventListener("keydown", lost); };
+  }, [open]);
+  /** @param {any} event */
+  const key = (event) => {
+    const by = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1 })[event.key];
+    const does = meaning(event, []);
+    const edits = typeof does === "object" && does.act.startsWith("edit/");
+    if (event.key === "Escape") close();
+    // A field with nothing in it has nothing of its own to undo.
+    else if (edits && !(isTyping(event.target) && event.target.value)) act(does.act);
+    else if (by) {
+      const stops = [...panel.current.querySelectorAll("button:enabled, input")];
+      stops[(stops.indexOf(document.activeElement) + by + stops.length) % stops.length]?.focus();
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return html`<span class="popup">
+    <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${name} title=${title}
+      onClick=${() => setOpen(!open)}>${label}</button>
+    ${open && html`<div class="popped" tabindex="-1" ref=${panel} role=${role} aria-label=${name} onKeyDown=${key}>${children(close)}</div>`}
+  </span>`;
+}
+
+/** Below the button, inside the window. @param {HTMLElement} button @param {HTMLElement} panel */
+function place(button, panel) {
+  const at = button.getBoundingClientRect(), size = panel.getBoundingClientRect();
+  const below = at.bottom + size.height + EDGE < innerHeight;
+  panel.style.left = `${Math.max(EDGE, Math.min(at.left, innerWidth - size.width - EDGE))}px`;
+  panel.style.top = `${below ? at.bottom + 2 : Math.max(EDGE, at.top - size.height - 2)}px`;
+}

@@ -1,0 +1,74 @@
+// @ts-check
+/* The status bar: Reset, the tool's hint, what is being read, what was said last, and
+ * how the page is doing. Its parts have their places, so that nothing jumps. */
+
+import { html, useEffect, useState } from "../vendor/preact.js";
+import { act } from "../wire/channel.js";
+import { notice } from "./notices.js";
+import { ProblemCount } from "../panels/problems.js";
+import { People } from "./people.js";
+import { Driving } from "../panels/drive.js";
+import { useRow } from "../state.js";
+
+/** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
+const SAID = 8000, REFUSED = 20000;
+
+/** @param {{problems: import("../panels/problems.js").Shown}} props */
+export function StatusBar({ problems }) {
+  const tool = useRow("tools/hint");
+  const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.value) || "";
+  return html`<footer class="statusbar" aria-label="Status bar">
+    <button class="drives" title="Reset (R): draw everything again, with meshes as they are in their files"
+      aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
+    <${ProblemCount} ...${problems} />
+    <${Selected} />
+    <span class="hint" role="status" title=${hint}>${hint}</span>
+    <${Said} />
+    <${Driving} />
+    <${Progress} />
+    <${People} />
+    <${FramesPerSecond} />
+  </footer>`;
+}
+
+/** What is selected in the view. */
+function Selected() {
+  const names = useRow("tools/selected")?.value || [];
+  if (!names.length) return null;
+  const words = `Selected: ${names.length === 1 ? names[0] : `${names.length} things`}`;
+  return html`<span class="selected" role="status" title=${words}>${words}</span>`;
+}
+
+/** What was said last. */
+function Said() {
+  const said = notice.use();
+  useEffect(() => {
+    if (!said) return undefined;
+    const timer = setTimeout(() => notice.set(null), said.level === "error" ? REFUSED : SAID);
+    return () => clearTimeout(timer);
+  }, [said]);
+  return html`<span class=${`notice l-${said?.level || "none"}`} role="alert" title=${said?.text || ""}>${said?.text || ""}</span>`;
+}
+
+function Progress() {
+  const read = useRow("statusbar/progress")?.value;
+  if (!read) return null;
+  const words = `Reading meshes and textures: ${read[0]} of ${read[1]}`;
+  return html`<span class="progress" title=${words}>${words}
+    <progress aria-label=${words} value=${read[0]} max=${read[1]}></progress></span>`;
+}
+
+/** Pictures drawn in the last second; none are drawn while nothing changes. */
+function FramesPerSecond() {
+  const [drawn, setDrawn] = useState(0);
+  useEffect(() => {
+    let before = window.sambotVizLook?.frames || 0;
+    const timer = setInterval(() => {
+      const now = window.sambotVizLook?.frames || 0;
+      setDrawn(now - before);
+      before = now;
+    }, 1000);
+    return () => clearInterval(timer);
+  }, []);
+  return html`<span class="fps" title="Pictures drawn in the last second; while nothing moves, none are">${drawn > 1 ? `${drawn} fps` : "at rest"}</span>`;
+}

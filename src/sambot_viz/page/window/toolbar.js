@@ -1,0 +1,84 @@
+// @ts-check
+/* The toolbar: RViz's tools as icon and word, what moves the view, undo and redo. */
+
+import { html, useEffect, useState } from "../vendor/preact.js";
+import { act, rows } from "../wire/channel.js";
+import { Icon } from "./icons.js";
+import { useRow } from "../state.js";
+import { togglePanels } from "./splitters.js";
+
+/** The keys of the tools. @returns {{name: string, key: string}[]} */
+export function toolKeys() {
+  return toolIds().map((id) => rows.get(id)).map((row) => ({ name: row?.name || "", key: row?.key || "" }));
+}
+
+function toolIds() { return rows.children("panel:tools").filter((id) => id.startsWith("tool/")); }
+
+export function Toolbar() {
+  useRow("panel:tools");
+  return html`<header class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
+    ${toolIds().map((id) => html`<${ToolButton} key=${id} id=${id} />`)}
+    <span class="rule"></span>
+    <${Button} icon="focus" name="Focus" keys="F" help="Look at what is selected, or else at the whole robot."
+      onClick=${() => act("tools/focus", [null, null])} />
+    <${Button} icon="zero" name="Zero" keys="Z" help="Bring the view to where its type begins." onClick=${() => act("tools/zero")} />
+    <span class="gap"></span>
+    <${EditButton} id="edit/undo" icon="undo" keys="Ctrl+Z" />
+    <${EditButton} id="edit/redo" icon="redo" keys="Ctrl+Shift+Z" />
+    <${FullScreen} />
+    <${Button} icon="hide" name="Hide panels" keys="H" help="The view fills the window; H brings the panels back." bare
+      onClick=${togglePanels} />
+  </header>`;
+}
+
+/** Arrow keys go from button to button. @param {any} event */
+function move(event) {
+  const by = /** @type {Record<string, number>} */ ({ ArrowRight: 1, ArrowLeft: -1 })[event.key];
+  if (!by || !event.target.matches("button")) return;
+  const buttons = [...event.currentTarget.querySelectorAll("button:enabled")];
+  buttons[(buttons.indexOf(event.target) + by + buttons.length) % buttons.length].focus();
+  event.preventDefault();
+  event.stopPropagation();
+}
+
+/** @param {{id: string}} props */
+function ToolButton({ id }) {
+  const row = useRow(id);
+  if (!row) return null;
+  const key = (row.key || "").toUpperCase();
+  return html`<button class="tool" aria-label=${row.name} aria-pressed=${String(Boolean(row.value))}
+    aria-keyshortcuts=${key} title=${`${row.name} (${key}): ${row.help}`}
+    onClick=${() => act(id)}><${Icon} name=${row.icon} /> <span class="word">${row.name}</span></button>`;
+}
+
+/** @param {{icon: string, name: string, keys: string, help: string, bare?: boolean, onClick: () => void}} props
+ *   bare: without its word, and on a phone only in the menu */
+function Button({ icon, name, keys, help, bare, onClick }) {
+  return html`<button class=${bare ? "tool rare" : "tool view-button"} aria-label=${name} aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
+    onClick=${onClick}><${Icon} name=${icon} />${!bare && html` <span class="word">${name}</span>`}</button>`;
+}
+
+/** @param {{id: string, icon: string, keys: string}} props */
+function EditButton({ id, icon, keys }) {
+  const row = useRow(id);
+  if (!row) return null;
+  const title = row.value ? `${row.name}: ${row.value} (${keys})` : `${row.name} (${keys})`;
+  return html`<button class="tool rare" disabled=${row.off} title=${title} aria-label=${row.name}
+    aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(id)}><${Icon} name=${icon} /></button>`;
+}
+
+export function toggleFullScreen() {
+  if (document.fullscreenElement) document.exitFullscreen();
+  else document.documentElement.requestFullscreen?.().catch(() => undefined);
+}
+
+function FullScreen() {
+  const [full, setFull] = useState(false);
+  useEffect(() => {
+    const changed = () => setFull(Boolean(document.fullscreenElement));
+    document.addEventListener("fullscreenchange", changed);
+    return () => document.removeEventListener("fullscreenchange", changed);
+  }, []);
+  return html`<button class="tool" aria-label="Full screen" aria-pressed=${String(full)}
+    title="Full screen: use the whole screen; Esc leaves it" onClick=${toggleFullScreen}><${Icon} name="full" /></button>`;
+}

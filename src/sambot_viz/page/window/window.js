@@ -1,0 +1,234 @@
+// @ts-check
+/* The window: toolbar, panels at the left, right and bottom, status bar. */
+
+import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
+import { rows } from "../wire/channel.js";
+import { Connection } from "../wire/connection.js";
+import { Dialogs } from "../dialogs/dialog.js";
+import { hidden, shape, Splitter, togglePanels, useSizes } from "./splitters.js";
+import { DisplaysPanel } from "../panels/displays.js";
+import { FramesPanel } from "../panels/frames.js";
+import { DrivePanel, Driving } from "../panels/drive.js";
+import { JointsPanel } from "../panels/joints.js";
+import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
+import { ViewsPanel } from "../panels/views.js";
+import { Asking } from "./people.js";
+import { StatusBar } from "./status_bar.js";
+import { Top } from "./header.js";
+import { Tree } from "../tree/tree.js";
+import { Cell, useRow } from "../state.js";
+import { Icon } from "./icons.js";
+
+/** The chosen tab at the right, or in the sheet of a phone. */
+export const tab = new Cell("joints", "tab");
+
+/**
+ * The panels that are chosen by tabs; a new one is a file and a line here.
+ * @type {Record<string, {title: string, short?: string, content: any}>} short: where there are many tabs
+ */
+const TABS = {
+  joints: { title: "Joints", content: JointsPanel },
+  frames: { title: "Frames", content: FramesPanel },
+  selection: { title: "Selection", content: () => html`<${Tree} panel="selection" label="Selection" />` },
+  drive: { title: "Drive", content: DrivePanel },
+  tool_properties: { title: "Tool Properties", short: "Tool", content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />` },
+};
+const SHEET = {
+  joints: TABS.joints,
+  displays: { title: "Displays", content: DisplaysPanel },
+  views: { title: "Views", content: ViewsPanel },
+  ...TABS,
+  problems: { title: "Problems", content: ProblemsPanel },
+};
+
+/** Show a panel that has a tab. @param {string} name */
+function choose(name) {
+  tab.set(name);
+  if (shape.value !== "wide") hidden.set({ ...hidden.value, side: false });
+}
+
+/** Show the list of problems, or hide it. @param {boolean} on */
+function showProblems(on) {
+  if (shape.value === "wide") hidden.set({ ...hidden.value, problems: !on });
+  else choose(on ? "problems" : "joints");
+}
+
+/** What the menu Panels lists: a tab is shown when it is the chosen one.
+ * @returns {{name: string, title: string, shown: boolean, toggle: () => void}[]} */
+function panelList() {
+  const away = hidden.value;
+  const has = (/** @type {string} */ name) => Boolean(rows.panels.get(name)?.length);
+  const { displays, views, ...others } = SHEET;
+  return Object.entries({ displays, views, ...others }).filter(([name]) => has(name)).map(([name, { title }]) => {
+    const side = name in TABS ? "right" : name === "problems" ? "" : "left";
+    const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
+    const byTab = side === "right" || shape.value !== "wide";
+    const folded = shape.value === "wide" ? away.right : shape.value === "flat" && away.side;
+    const shown = byTab ? current === name && !folded
+      : side ? !away.left && !away[name] : away[name] === false;
+    const toggle = () => {
+      if (byTab && !shown) choose(name);
+      if (shape.value === "wide") hidden.set({ ...hidden.value, [name]: shown, ...(side && !shown ? { [side]: false } : {}) });
+    };
+    return { name, title, shown, toggle };
+  });
+}
+
+/** The names of the tabs that there are. @param {Record<string, any>} of */
+function tabNames(of) {
+  return Object.keys(of).filter((name) => rows.panels.get(name)?.length && !(shape.value === "wide" && hidden.value[name]));
+}
+
+/** @param {Record<string, any>} of */
+function shownTab(of) {
+  const names = tabNames(of);
+  return names.includes(tab.value) ? tab.value : names[0];
+}
+
+export function Window() {
+  tab.use();
+  const form = shape.use(), away = hidden.use(), size = useSizes();
+  const view = useRef(/** @type {any} */ (null));
+  useEffect(() => placeView(view.current), []);
+  const style = `--left:${size.left}px;--right:${size.right}px;--side:${size.side}px;--bottom:${size.bottom}px`;
+  return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
+    ${!away.all && html`<${Top} panels=${panelList} hideAll=${togglePanels} />`}
+    ${form === "wide" && !away.all && html`<${Left} />`}
+    <div class="view" ref=${view}></div>
+    ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
+    ${away.all && html`<${Driving} /><${ProblemCorner} show=${() => { togglePanels(); showProblems(true); }} />`}
+    ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
+    ${form !== "wide" && !away.all && html`<${Sheet} />`}
+    ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems" && !away.side, show: showProblems, byItself: form === "wide" }} />`}
+    <${Connection} />
+    <${Asking} />
+    <${Dialogs} />
+  </div>`;
+}
+
+/** Keep viser's page exactly where the view is. @param {HTMLElement} view */
+function placeView(view) {
+  const root = /** @type {HTMLElement} */ (document.getElementById("root"));
+  const place = () => {
+    const { left, top, width, height } = view.getBoundingClientRect();
+    Object.assign(root.style, { position: "fixed", left: `${left}px`, top: `${top}px`,
+      width: `${width}px`, height: `${height}px` });
+  };
+  const observer = new ResizeObserver(place);
+  observer.observe(view);
+  addEventListener("resize", place);
+  place();
+}
+
+function Left() {
+  const away = hidden.use();
+  useRow("panel:views");
+  const views = rows.children("panel:views").length > 0 && !away.views;
+  if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
+  return html`<aside class="left">
+    ${!away.displays && html`<${DisplaysPanel} />`}
+    ${views && html`<div class="lower" style=${`height:${useSizes().views}px`}>
+      <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`}
+    <${Splitter} side="left" label="Width of the left panels" />
+  </aside>`;
+}
+
+function Right() {
+  const away = hidden.use();
+  tab.use();
+  for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
+  const names = tabNames(TABS), current = shownTab(TABS);
+  if (away.right || !current) return html`<${Tab} side="right" />`;
+  return html`<aside class="right">
+    <${Tabs} names=${names} of=${TABS} current=${current} />
+    <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}><${TABS[current].content} /></div>
+    <${Splitter} side="right" label="Width of the right panels" />
+  </aside>`;
+}
+
+function Sheet() {
+  const beside = shape.use() === "flat", away = hidden.use();
+  tab.use();
+  /** @type {Record<string, {title: string, content: any}>} */
+  const of = SHEET;
+  for (const name of Object.keys(of)) useRow(`panel:${name}`);
+  const names = tabNames(of), current = shownTab(of) || "joints";
+  if (beside && away.side) return html`<${Tab} side="side" />`;
+  return html`<aside class="sheet">
+    <${Tabs} names=${names} of=${of} current=${current} />
+    <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}><${of[current].content} /></div>
+    ${beside && html`<${Splitter} side="side" label="Width of the panels" />`}
+  </aside>`;
+}
+
+/** How much of the tabs fades where there are more beyond the edge [px]. */
+const EDGE = 32;
+
+/** Fade the ends of a strip beyond which there is more. @param {HTMLElement} strip */
+function fadeEdges(strip) {
+  const rest = strip.scrollWidth - strip.clientWidth - strip.scrollLeft;
+  strip.style.setProperty("--before", `${Math.min(EDGE, strip.scrollLeft)}px`);
+  strip.style.setProperty("--after", `${Math.max(0, Math.min(EDGE, rest))}px`);
+}
+
+/** @param {{names: string[], of: Record<string, {title: string, short?: string}>, current: string}} props */
+function Tabs({ names, of, current }) {
+  /** @param {any} event */
+  const key = (event) => {
+    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 1, ArrowLeft: -1 })[event.key];
+    if (!by) return;
+    const next = names[(names.indexOf(current) + by + names.length) % names.length];
+    tab.set(next);
+    event.currentTarget.querySelector(`[data-tab="${next}"]`)?.focus();
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  const element = useRef(/** @type {any} */ (null));
+  const fade = () => fadeEdges(element.current);
+  // The chosen tab is in sight, and so is that there are others beside it.
+  useLayoutEffect(() => {
+    const strip = element.current, { left, right } = strip.getBoundingClientRect();
+    const chosen = strip.querySelector("[aria-selected=true]")?.getBoundingClientRect();
+    if (chosen?.left < left + EDGE) strip.scrollLeft -= left + EDGE - chosen.left;
+    if (chosen?.right > right - EDGE) strip.scrollLeft += chosen.right - right + EDGE;
+  }, [current]);
+  useLayoutEffect(fade);
+  useLayoutEffect(() => {
+    const observer = new ResizeObserver(fade);
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, []);
+  return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key} onScroll=${fade}>
+    ${names.map((name) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
+      aria-controls=${name === current ? "panel-right" : undefined} tabindex=${name === current ? 0 : -1}
+      aria-label=${of[name].title} onClick=${() => tab.set(name)}>${(of !== TABS && of[name].short) || of[name].title}</button>`)}
+  </div>`;
+}
+
+/** What is below the view: the problems, when they are open. */
+function Bottom() {
+  const away = hidden.use();
+  if (away.problems !== false) return null;
+  return html`<section class="panel bottom" aria-label="Problems">
+    <${Splitter} side="bottom" label="Height of Problems" />
+    <header class="title">Problems
+      <button class="flat" aria-label="Close Problems" title="Close" onClick=${() => hidden.set({ ...away, problems: true })}><${Icon} name="close" /></button>
+    </header>
+    <${ProblemsPanel} />
+  </section>`;
+}
+
+/** @param {{side: string}} props */
+function Tab({ side }) {
+  const words = side === "side" ? "Show the panels" : `Show the ${side} panels`;
+  return html`<button class=${`unfold ${side}`} title=${words} aria-label=${words}
+    onClick=${() => unfoldSide(side)}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
+}
+
+/** Show the panels of a side again; when each was hidden by itself, all of them. @param {string} side */
+function unfoldSide(side) {
+  const names = side === "left" ? ["displays", "views"] : side === "right" ? Object.keys(TABS) : [];
+  const next = { ...hidden.value, [side]: false };
+  if (names.every((name) => next[name] || !rows.panels.get(name)?.length)) for (const name of names) delete next[name];
+  hidden.set(next);
+}

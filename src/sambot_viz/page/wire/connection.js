@@ -1,0 +1,171 @@
+// @ts-check
+/* What the page says when it has lost its connection to the server, and when it is back.
+ * viser reconnects by itself, once a second. A browser slows that down after some failures,
+ * until viser never gets through: then the page is loaded again, with view and folds.
+ * So it is when a user comes back to a page that the browser has kept while another address
+ * was shown: it would stay connected, and count as one that is looked at. */
+
+import { html } from "../vendor/preact.js";
+import { act, CUT, disconnect, goOffline, goOnline, heldBack, holdBack, isConnected, rows, sendHeldBack, WAITING } from "./channel.js";
+import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember, showView, withoutRobot } from "./reconnect.js";
+import { hasDisk } from "../window/files.js";
+import { Cell, folds, useRow } from "../state.js";
+
+/** @typedef {import("./reconnect.js").Memory} Memory */
+/** @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is loaded again has kept */
+
+/** How often the page looks [ms]. */
+const PERIOD = 250;
+/** How long the server answers without viser getting through, before a new start [ms]. */
+const STUCK = 6000;
+/** Where the page keeps what it must not forget when it is loaded again. */
+const KEPT = "sambot-viz-again";
+/** How long the page says that the connection is back [ms]. */
+const BACK = 8000;
+
+/** What is said over the view: that the connection is lost, or what came back.
+ * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
+const said = new Cell(/** @type {any} */ (null));
+
+/** Follow the connection from now on. */
+export function followConnection() {
+  let was = false, lost = false, stuck = false;
+  let kept = takeKept();
+  /** How things were before the connection was lost. @type {Memory | null} */
+  let before = kept;
+  /** What waits for the robot, which may come later than the page. */
+  let whenJoints = () => {};
+  const cut = () => {
+    if (lost) return;
+    lost = true;
+    before = remember();
+    goOffline();
+    said.set("lost");
+    startAgainWhenStuck(() => lost, () => { stuck = true; location.reload(); });
+  };
+  rows.listen(CUT, cut);
+  setInterval(() => {
+    const now = isConnected();
+    if (was && !now) cut();
+    was = now;
+  }, PERIOD);
+  // The rows of this browser come after those of everyone.
+  rows.listen("whole:browser", () => {
+    if (!before || !(lost || kept)) return;
+    const then = before, silent = kept && !kept.stuck, again = rows.value("names/session");
+    const loaded = Boolean(kept);
+    lost = false;
+    kept = null;
+    goOnline();
+    showView(then, loaded);
+    if (then.session === again?.id) {
+      sendHeldBack();
+      if (!silent) say("", then, 0);
+      return;
+    }
+    folds.set(foldsNow(then, folds.value));
+    const there = idsNow(then);
+    const flush = () => sendHeldBack((id) => {
+      const now = there(id);
+      if (now && rows.get(now)) return now;
+      return now?.startsWith("j/") && !hasJoints() ? undefined : null;
+    });
+    whenJoints = () => {
+      if (!hasJoints()) return;
+      whenJoints = () => {};
+      const [moved, positions] = jointsToBringBack(then);
+      if (moved.length && rows.value("joints/again")) act("joints/again", [moved, positions]);
+      flush();
+    };
+    whenJoints();
+    say(again?.again || "", then, flush(), Boolean(silent));
+  });
+  rows.listen("panel:joints_again", () => whenJoints());
+  addEventListener("pagehide", (event) => {
+    const now = lost && before ? before : remember();
+    if (kept || now.session) keep(kept || { ...now, folds: folds.value, waiting: heldBack(), stuck, at: location.pathname });
+    if (event.persisted) disconnect();
+  });
+  addEventListener("pageshow", (event) => { if (event.persisted) location.reload(); });
+}
+
+/** Say that the connection is back, and what is not as before.
+ * @param {string} again why @param {Memory} before @param {number} dropped edits @param {boolean} [quiet] when all is as before */
+function say(again, before, dropped, quiet = false) {
+  const lost = lostOf(before), other = otherConfig(before);
+  if (dropped) lost.push(dropped > 1 ? `${dropped} changes that you made meanwhile` : "a change that you made meanwhile");
+  if (quiet && !lost.length && !other) return said.set(null);
+  // A user who has loaded the page again has lost no connection.
+  const back = { text: quiet ? again : `The connection is back. ${again}`.trim(), lost, other, before };
+  said.set(back);
+  if (!lost.length && !other) setTimeout(() => { if (said.value === back) said.set(null); }, BACK);
+}
+
+/** Keep what a page that is loaded again has to know. @param {Kept} kept */
+function keep(kept) {
+  try { sessionStorage.setItem(KEPT, JSON.stringify(kept)); } catch { /* private windows have none */ }
+}
+
+/** @param {() => boolean} lost @param {() => void} startAgain loads the page again */
+function startAgainWhenStuck(lost, startAgain) {
+  let answered = 0;
+  const look = setInterval(async () => {
+    if (!lost()) return clearInterval(look);
+    const there = await fetch("./", { cache: "no-cache" }).then((answer) => answer.ok, () => false);
+    if (!there) answered = 0;
+    else if (!answered) answered = Date.now();
+    else if (lost() && Date.now() - answered > STUCK) startAgain();
+  }, STUCK / 3);
+}
+
+/** What the page has kept, once. @returns {Kept | null} */
+function takeKept() {
+  try {
+    const kept = JSON.parse(sessionStorage.getItem(KEPT) || "null");
+    sessionStorage.removeItem(KEPT);
+    // A copy of one's own is another robot: only the view and the folds go there and back.
+    if (kept && kept.at !== location.pathname) Object.assign(kept, withoutRobot(kept), { waiting: [], stuck: false });
+    if (kept) {
+      folds.set(kept.folds);
+      holdBack(kept.waiting);
+    }
+    return kept;
+  } catch { return null; }
+}
+
+/** Open the config that was open before, with the rows that were unfolded. @param {Memory} before */
+function openAgain(before) {
+  const stop = rows.listen("names/document", () => {
+    stop();
+    folds.set(foldsNow(before, before.folds));
+    showView(before);
+    said.set(null);
+  });
+  act("file/open", [before.file.name]);
+}
+
+/** The sentence over the view. */
+export function Connection() {
+  const now = said.use();
+  return html`<div class="connection" role="status" aria-live="assertive">
+    ${now === "lost" ? html`<${Lost} />` : now && html`<${Back} ...${now} />`}</div>`;
+}
+
+function Lost() {
+  useRow(WAITING);
+  const count = heldBack().length;
+  const waits = count > 1 ? ` ${count} changes wait and are sent then.` : count ? " A change waits and is sent then." : "";
+  return html`<p class="l-error">Connection lost. Trying again…${waits}</p>`;
+}
+
+/** @param {{text: string, lost: string[], other: Memory["file"] | null, before: Memory}} props */
+function Back({ text, lost, other, before }) {
+  const file = useRow("file/state")?.value || {};
+  const same = file.name === other?.name && file.folder === other?.folder;
+  const can = other && !same && other.own && other.folder === file.folder && hasDisk();
+  return html`<p class=${lost.length || other ? "l-warn" : "l-ok"}>${text}
+    ${lost.length > 0 && ` Lost: ${listed(lost)}.`}
+    ${other && !same && ` The config ${file.name || "without a file"} is open now; before, it was ${other.name}.`}
+    ${can && html`<button onClick=${() => openAgain(before)}>Open ${other.name}</button>`}
+    ${(lost.length > 0 || other) && html`<button onClick=${() => said.set(null)}>OK</button>`}</p>`;
+}

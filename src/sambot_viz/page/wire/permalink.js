@@ -1,0 +1,65 @@
+// @ts-check
+/* Links to what is seen: the joints, the view, the switches and the selection in the part of
+ * an address that no browser sends to a server. */
+
+import { act, rows } from "./channel.js";
+import { copy } from "../window/clipboard.js";
+import { hasJoints } from "./reconnect.js";
+
+/** What the part after the "#" of a link begins with. */
+const BEGIN = "view=";
+/** A robot that is not there after this time [ms] is not waited for. */
+const PATIENCE = 15_000;
+
+/** What a link says, from the address. @param {string} hash @returns {[string[], string[]]} */
+export function partsOf(hash) {
+  const pairs = [...new URLSearchParams(hash.replace(/^#/, ""))];
+  return [pairs.map(([name]) => name), pairs.map(([, value]) => value)];
+}
+
+/** The address of a page that shows this. @param {string[][]} parts @param {{origin: string, pathname: string}} of */
+export function addressOf(parts, { origin, pathname }) {
+  const written = new URLSearchParams(parts).toString();
+  // These need no code there, and the names of joints and links are read more easily.
+  return `${origin}${pathname}#${written.replace(/%(2F|3A|2C)/g, decodeURIComponent)}`;
+}
+
+/** Copy a link to what this browser sees. */
+export function copyLink() { act("link/copy"); }
+
+/** Open links from now on: that of the page's own address, and those that come later. */
+export function followLinks() {
+  /** What is still to be opened. @type {string} */
+  let waiting = "";
+  let patient = false;
+  const open = () => {
+    // A page without a Joints panel has nothing to wait for.
+    const early = patient && rows.panels.has("joints_again") && !hasJoints();
+    if (!waiting || !rows.get("link/open") || early) return;
+    const parts = partsOf(waiting);
+    waiting = "";
+    act("link/open", parts);
+  };
+  const take = () => {
+    const hash = window.sambotLink || location.hash;
+    window.sambotLink = undefined;
+    if (!hash.startsWith(`#${BEGIN}`)) return;
+    waiting = hash;
+    // A page that is loaded again shows what is there then.
+    if (location.hash) history.replaceState(null, "", location.pathname + location.search);
+    patient = true;
+    setTimeout(() => { patient = false; open(); }, PATIENCE);
+    open();
+  };
+  let made = 0;
+  rows.listen("link/made", () => {
+    const now = rows.value("link/made");
+    if (!now || now.number === made) return;
+    made = now.number;
+    void copy(addressOf(now.parts, location), "a link to this view");
+  });
+  rows.listen("whole:browser", open);
+  rows.listen("panel:joints_again", open);
+  addEventListener("hashchange", take);
+  take();
+}
