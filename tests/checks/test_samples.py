@@ -12,7 +12,7 @@ from problem_page import PAGE, problem_page
 from problem_samples import Sample, all_samples
 
 import sambot_viz
-from sambot_viz.robot.xml.diagnose.tokens import LexicalErrorKind
+from sambot_viz.robot.xml.diagnose.lexer import LexicalErrorKind
 
 
 @pytest.mark.parametrize("sample", all_samples(), ids=lambda sample: sample.code)

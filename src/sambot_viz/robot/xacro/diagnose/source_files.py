@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from sambot_viz.errors import Place
+from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
-from sambot_viz.robot.xml.diagnose.tokens import Token
 
 _LARGEST = 4_000_000
 _MOST_NEIGHBOURS = 200

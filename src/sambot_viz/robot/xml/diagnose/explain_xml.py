@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.diagnose.lexer import MOST_ERRORS
+from sambot_viz.robot.xml.diagnose.lexer import LexicalErrorKind
 from sambot_viz.robot.xml.diagnose.lexical import lexical_problem
 from sambot_viz.robot.xml.diagnose.prolog import other_file_problem, prolog_problems
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 from sambot_viz.robot.xml.diagnose.structure import structure_problems
-from sambot_viz.robot.xml.diagnose.tokens import LexicalErrorKind, Token
 
 _MOST = 12
 """Most problems reported: further ones usually follow from the first."""
@@ -44,12 +43,16 @@ def explain_xml(text: str, file: str, fault: XmlFault) -> list[Problem]:
     if len(text) > _LARGEST:
         return [_plain(fault, file)]
     source = SourceText(text.replace("\r\n", "\n"))
-    errors = source.lexical_errors
-    problems = prolog_problems(source, file) + _lexical_problems(source, file)
-    unclear = any(error.kind in _MISLEADING for error in errors)
-    if not unclear and len(errors) < MOST_ERRORS:
+    problems = prolog_problems(source, file)
+    is_clear = source.read.complete
+    for error in source.read.errors[:_MOST]:
+        problems.append(lexical_problem(source, file, error))
+        if error.kind in _MISLEADING:
+            is_clear = False
+            break
+    if is_clear:
         problems += structure_problems(source, file)
-    problems += _prefix_problems(source, file)
+        problems += _prefix_problems(source, file)
     if not problems:
         problems = [_plain(fault, file)]
     return sorted(problems, key=lambda p: p.line or 0)[:_MOST]
@@ -106,54 +109,31 @@ _UNKNOWN = (
     "",
     "xml-not-well-formed",
     "this is not XML from line {1} on ({0})",
-    "look at this line and the one before it: every tag closed, every value in quotes",
+    "look at this line and the one before it: every tag closed, every attribute with a "
+    "value in quotes, nothing outside <robot>",
 )
-
-
-def _lexical_problems(source: SourceText, file: str) -> list[Problem]:
-    problems: list[Problem] = []
-    for error in source.lexical_errors[:_MOST]:
-        problems.append(lexical_problem(source, file, error))
-        if error.kind in _MISLEADING:
-            break
-    return problems
 
 
 def _prefix_problems(source: SourceText, file: str) -> list[Problem]:
     """Report prefixes that are used but not declared."""
     opened = [tag for tag in source.tags if not tag.closes]
-    robots = [tag.closes for tag in source.tags if tag.name == "robot"]
-    if not opened or (robots and all(robots)):
-        # Declarations are lost with the root tag, which is reported elsewhere.
-        return []
     known = {"xml", "xmlns"} | {
         a.name[6:] for t in opened for a in t.attributes if a.name.startswith("xmlns:")
     }
-    root = opened[0]
     problems: list[Problem] = []
     for token in opened:
         for name in (token.name, *(a.name for a in token.attributes)):
             prefix = name.partition(":")[0] if ":" in name else ""
-            if prefix and prefix not in known:
-                known.add(prefix)
-                problems.append(_prefix_problem(source, file, root, token, name))
+            if not prefix or prefix in known:
+                continue
+            known.add(prefix)
+            address = _KNOWN_PREFIXES.get(prefix, f"http://example.org/{prefix}")
+            root, line = opened[0], source.line(opened[0].start)
+            message = (
+                f"the prefix {prefix}: is used (first by {name} on line "
+                f"{source.line(token.start)}) but not declared on <{root.name}>"
+            )
+            hint = f'add xmlns:{prefix}="{address}" to <{root.name}> on line {line}'
+            code = "xml-prefix-undeclared"
+            problems.append(source.error(file, code, root.start, message, hint))
     return problems
-
-
-def _prefix_problem(
-    source: SourceText, file: str, root: Token, token: Token, name: str
-) -> Problem:
-    prefix = name.partition(":")[0]
-    address = _KNOWN_PREFIXES.get(prefix, f"http://example.org/{prefix}")
-    line = source.line(root.start)
-    where = source.line(token.start)
-    return Problem(
-        "error",
-        "xml-prefix-undeclared",
-        f"the prefix {prefix}: is used (first by {name} on line {where}) but not "
-        f"declared on <{root.name}>",
-        f'add xmlns:{prefix}="{address}" to <{root.name}> on line {line}',
-        file,
-        line,
-        source.column(root.start),
-    )

@@ -1,120 +1,195 @@
 """A tolerant reader of XML text: tokens with offsets, and lexical errors.
 
-expat stops at the first error and names the symptom. This reader records the error,
-guesses what was meant and continues, so that `explain_xml` can name the cause and
-`explain_xacro` can find lines in source files. Only expat decides whether a text is
-XML.
+expat stops at the first error and names the symptom. This reader records the usual
+slips, guesses what was meant and continues, so that `explain_xml` can name the cause
+and `explain_xacro` can find lines in source files. Only expat decides whether a text
+is XML. Reading ends where the text is none of the slips that are known here.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from itertools import islice
+from typing import Literal
 
-from sambot_viz.robot.xml.diagnose.tokens import (
-    Attribute,
-    LexicalError,
-    LexicalErrorKind,
-    Token,
-    TokenKind,
-)
+TokenKind = Literal[
+    "open", "close", "empty", "text", "comment", "instruction", "doctype", "cdata"
+]
+LexicalErrorKind = Literal[
+    "ampersand",
+    "attribute-twice",
+    "attributes-run-together",
+    "comment-double-hyphen",
+    "comment-nested",
+    "comment-not-closed",
+    "less-than",
+    "quote-not-closed",
+    "quotes-curly",
+    "quotes-missing",
+    "tag-not-ended",
+]
 
-NAME = r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?"
 CURLY = "“”„‟″‘’‚‛′«»"
+MOST_ERRORS = 50
+"""Reading ends after so many errors, because such a text is not XML at all."""
 
-_NAME = re.compile(NAME)
-_ATTRIBUTE = re.compile(rf"\s+({NAME})\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')")
+_NAME_PATTERN = r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?"
+_NAME = re.compile(_NAME_PATTERN)
+_ATTRIBUTE = re.compile(rf"\s+({_NAME_PATTERN})\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')")
 _GOOD_TAG = re.compile(
-    rf"<({NAME})((?:\s+{NAME}\s*=\s*(?:\"[^\"<]*\"|'[^'<]*'))*)\s*(/?)>"
+    rf"<({_NAME_PATTERN})((?:\s+{_NAME_PATTERN}\s*=\s*(?:\"[^\"<]*\"|'[^'<]*'))*)"
+    r"\s*(/?)>"
 )
-_CLOSE_TAG = re.compile(rf"</({NAME})\s*>")
-_LOOSE_CLOSE_TAG = re.compile(rf"(?:</\s*|<\\\s*|<\s+/\s*)({NAME})[^<>]*>?")
-_LOOSE_OPEN_TAG = re.compile(rf"<\s+({NAME})(?=[\s/>])")
+_CLOSE_TAG = re.compile(rf"</({_NAME_PATTERN})\s*>")
 _BARE_AMPERSAND = re.compile(r"&(?!(?:[^\W\d][\w.\-]*|#\d+|#x[0-9A-Fa-f]+);)")
-_ENTITY = re.compile(r"&([^\W\d][\w.\-]*);")
-_NEXT_ATTRIBUTE = re.compile(rf"\s({NAME})\s*=\s*$")
+_NEXT_ATTRIBUTE = re.compile(rf"\s({_NAME_PATTERN})\s*=\s*$")
 _CURLY_END = re.compile(f"[{CURLY}\"'<>\\n]")
 _VALUE_END = re.compile(r"/?>|[\n<]")
 _EQUALS = re.compile(r"\s*=\s*")
 _SPACE = re.compile(r"\s*")
 _UNQUOTED = re.compile(r"(?:(?!/>)[^\s<>])+")
-_LOOSE_COMMENT = re.compile(r"<(?:!\s*-\s*-?|--)")
-MOST_ERRORS = 50
-_KNOWN_ENTITIES = frozenset({"amp", "lt", "gt", "quot", "apos"})
 
 
-def _cut_expression(value: str) -> bool:
-    """Whether a value ends inside ${…}: its quote is inside the expression."""
-    return "${" in value and "}" not in value[value.rfind("${") :]
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """An attribute as written; `offset` is where its name begins."""
+
+    name: str
+    value: str
+    offset: int
 
 
-def _ends_oddly(value: str) -> bool:
-    """Whether the quote that ended this value was meant to begin another."""
-    return _cut_expression(value) or bool(_NEXT_ATTRIBUTE.search(value))
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A token: the text from `start` to `end` (exclusive).
 
-
-def tokenize(text: str) -> tuple[list[Token], list[LexicalError]]:
-    """The tokens of a text and its errors, both in document order.
-
-    Reading ends after `MOST_ERRORS` errors, because such a text is not XML at all.
+    Attributes:
+        kind: "open" and "empty" are <a> and <a/>, "close" is </a>.
+        start: offset of the first character.
+        end: offset after the last character.
+        name: element name; empty for everything that is not a tag.
+        attributes: those that could be read, each name once, in document order.
     """
-    reader = _Tokenizer(text)
-    reader.run()
-    return reader.tokens, sorted(reader.errors, key=lambda error: error.offset)
+
+    kind: TokenKind
+    start: int
+    end: int
+    name: str = ""
+    attributes: tuple[Attribute, ...] = ()
+
+    @property
+    def closes(self) -> bool:
+        """True for a closing tag."""
+        return self.kind == "close"
+
+    @property
+    def shown(self) -> str:
+        """The tag in a message: </a>, <a>, or <a name="…"> when it has a name."""
+        if self.closes:
+            return f"</{self.name}>"
+        name = self.get("name")
+        return f'<{self.name} name="{name}">' if name else f"<{self.name}>"
+
+    def get(self, name: str) -> str | None:
+        """Return the value of an attribute as written, or None."""
+        return next((a.value for a in self.attributes if a.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class LexicalError:
+    """A lexical error: its offset, the text it concerns, and the tag it is in."""
+
+    kind: LexicalErrorKind
+    offset: int
+    text: str = ""
+    tag: str = ""
 
 
 @dataclass
-class _Tokenizer:
+class Reading:
+    """The tokens of a text and its errors, both in document order.
+
+    Attributes:
+        text: the whole text.
+        tokens: what was read.
+        errors: the slips that were recognised.
+        complete: False when reading ended before the end of the text.
+    """
+
     text: str
     tokens: list[Token] = field(default_factory=list["Token"])
     errors: list[LexicalError] = field(default_factory=list["LexicalError"])
-    has_doctype: bool = False
+    complete: bool = False
 
+
+class _UnknownError(Exception):
+    """Here the text is neither XML nor one of the known slips."""
+
+
+def tokenize(text: str) -> Reading:
+    """Read a text as far as it is XML with the known slips."""
+    tokenizer = _Tokenizer(text)
+    try:
+        tokenizer.run()
+    except _UnknownError:
+        pass
+    tokenizer.errors.sort(key=lambda error: error.offset)
+    return tokenizer
+
+
+@dataclass
+class _Tokenizer(Reading):
     def run(self) -> None:
         position = 0
-        while position < len(self.text) and len(self.errors) < MOST_ERRORS:
+        while position < len(self.text):
             mark = self.text.find("<", position)
             mark = len(self.text) if mark < 0 else mark
             if mark > position:
-                self._text(position, mark)
+                self._token("text", position, mark)
+                self._ampersands(position, mark)
             position = self._markup(mark) if mark < len(self.text) else mark
+        self.complete = True
 
     def _note_error(
         self, kind: LexicalErrorKind, offset: int, text: str = "", tag: str = ""
     ) -> None:
+        if len(self.errors) >= MOST_ERRORS:
+            raise _UnknownError
         self.errors.append(LexicalError(kind, offset, text, tag))
 
     def _token(self, kind: TokenKind, start: int, end: int) -> int:
         self.tokens.append(Token(kind, start, end))
         return end
 
-    def _text(self, start: int, end: int) -> None:
-        self._token("text", start, end)
-        self._references(start, end)
+    def _tag(
+        self, kind: TokenKind, start: int, end: int, name: str, found: list[Attribute]
+    ) -> int:
+        once: dict[str, Attribute] = {}
+        for attribute in found:
+            if attribute.name in once:
+                self._note_error(
+                    "attribute-twice", attribute.offset, attribute.name, name
+                )
+            once.setdefault(attribute.name, attribute)
+        self.tokens.append(Token(kind, start, end, name, tuple(once.values())))
+        return end
 
-    def _references(self, start: int, end: int) -> None:
-        """Note bare ampersands and unknown entities between two offsets."""
-        if "&" not in self.text[start:end]:
-            return
-        ampersands = _BARE_AMPERSAND.finditer(self.text, start, end)
-        for found in islice(ampersands, MOST_ERRORS):
+    def _ampersands(self, start: int, end: int) -> None:
+        for found in _BARE_AMPERSAND.finditer(self.text, start, end):
             self._note_error("ampersand", found.start())
-        for found in _ENTITY.finditer(self.text, start, end):
-            if len(self.errors) >= MOST_ERRORS:
-                return
-            if found[1] not in _KNOWN_ENTITIES and not self.has_doctype:
-                self._note_error("entity-undefined", found.start(), found[1])
 
     def _markup(self, start: int) -> int:
         text = self.text
         good = _GOOD_TAG.match(text, start)
         if good:
-            return self._good_tag(good)
+            pieces = _ATTRIBUTE.finditer(text, good.start(2), good.end(2))
+            found = [Attribute(p[1], p[2] or p[3] or "", p.start(1)) for p in pieces]
+            self._ampersands(good.start(2), good.end(2))
+            kind = "empty" if good[3] else "open"
+            return self._tag(kind, start, good.end(), good[1], found)
         close = _CLOSE_TAG.match(text, start)
         if close:
-            self.tokens.append(Token("close", start, close.end(), close[1]))
-            return close.end()
+            return self._tag("close", start, close.end(), close[1], [])
         if text.startswith("<!--", start):
             return self._comment(start)
         if text.startswith("<![CDATA[", start):
@@ -122,25 +197,21 @@ class _Tokenizer:
         if text.startswith("<?", start):
             return self._token("instruction", start, self._after("?>", start))
         if text.startswith("<!DOCTYPE", start):
-            return self._doctype(start)
-        return self._loose_markup(start)
-
-    def _after_space(self, position: int) -> int:
-        space = _SPACE.match(self.text, position)
-        return space.end() if space else position
+            bracket, angle = text.find("[", start), text.find(">", start)
+            end = self._after("]", bracket) if 0 <= bracket < angle else start
+            return self._token("doctype", start, self._after(">", end))
+        name = _NAME.match(text, start + 1)
+        if name is None:
+            raise _UnknownError
+        return self._loose_tag(start, name[0], name.end())
 
     def _after(self, mark: str, start: int) -> int:
         found = self.text.find(mark, start)
         return len(self.text) if found < 0 else found + len(mark)
 
-    def _doctype(self, start: int) -> int:
-        self.has_doctype = True
-        bracket = self.text.find("[", start)
-        angle = self.text.find(">", start)
-        if 0 <= bracket < angle:
-            start_of_end = self._after("]", bracket)
-            return self._token("doctype", start, self._after(">", start_of_end))
-        return self._token("doctype", start, self._after(">", start))
+    def _after_space(self, position: int) -> int:
+        space = _SPACE.match(self.text, position)
+        return space.end() if space else position
 
     def _comment(self, start: int) -> int:
         close = self.text.find("-->", start + 4)
@@ -157,134 +228,67 @@ class _Tokenizer:
             self._note_error("comment-double-hyphen", start + 4 + at, inner.strip())
         return self._token("comment", start, close + 3)
 
-    def _loose_markup(self, start: int) -> int:
-        """Markup that is not XML: guess the tag that was meant."""
-        text = self.text
-        name = _NAME.match(text, start + 1)
-        if name:
-            return self._loose_tag(start, name[0], name.end())
-        close = _LOOSE_CLOSE_TAG.match(text, start)
-        if close:
-            self._note_error("tag-malformed", start, close[0].strip(), close[1])
-            self.tokens.append(Token("close", start, close.end(), close[1]))
-            return close.end()
-        if _LOOSE_COMMENT.match(text, start):
-            end = text.find(">", start)
-            self._note_error("comment-malformed", start)
-            return self._token("comment", start, len(text) if end < 0 else end + 1)
-        spaced = _LOOSE_OPEN_TAG.match(text, start)
-        if spaced:
-            self._note_error("tag-malformed", start, spaced[0], spaced[1])
-            return self._loose_tag(start, spaced[1], spaced.end())
-        self._note_error("less-than", start)
-        return self._token("text", start, start + 1)
-
-    def _good_tag(self, found: re.Match[str]) -> int:
-        attributes: dict[str, Attribute] = {}
-        pieces = list(_ATTRIBUTE.finditer(self.text, found.start(2), found.end(2)))
-        if any(_ends_oddly(piece[2] or piece[3] or "") for piece in pieces):
-            return self._loose_tag(found.start(), found[1], found.end(1))
-        for piece in pieces:
-            value = piece[2] if piece[2] is not None else piece[3]
-            self._add(attributes, Attribute(piece[1], value, piece.start(1)), found[1])
-        self._references(found.start(2), found.end(2))
-        kind: TokenKind = "empty" if found[3] else "open"
-        self.tokens.append(
-            Token(
-                kind, found.start(), found.end(), found[1], tuple(attributes.values())
-            )
-        )
-        return found.end()
-
-    def _add(self, known: dict[str, Attribute], new: Attribute, tag: str) -> None:
-        if new.name in known:
-            self._note_error("attribute-twice", new.offset, new.name, tag)
-        known.setdefault(new.name, new)
-
     def _loose_tag(self, start: int, tag: str, position: int) -> int:
-        """A start tag with errors, read attribute by attribute."""
-        attributes: dict[str, Attribute] = {}
+        """Read a start tag with errors, attribute by attribute."""
+        found: list[Attribute] = []
         text = self.text
         while True:
             before = position
-            if len(self.errors) >= MOST_ERRORS:
-                kind, end = "open", len(text)
-                break
             position = self._after_space(position)
-            if position >= len(text) or text[position] == "<":
-                self._note_error(
-                    "tag-not-ended", start, text[start:before].strip(), tag
-                )
-                kind, end = "open", position
-                break
+            is_slash = text[position : position + 1] == "/"
+            end = self._after_space(position + 1) if is_slash else position
+            if text[end : end + 1] in ("", "<"):
+                written = text[start : position + is_slash].strip()
+                self._note_error("tag-not-ended", start, written, tag)
+                kind = "empty" if is_slash else "open"
+                return self._tag(kind, start, end, tag, found)
             if text.startswith("/>", position):
-                kind, end = "empty", position + 2
-                break
+                return self._tag("empty", start, position + 2, tag, found)
             if text[position] == ">":
-                kind, end = "open", position + 1
-                break
-            attribute = _NAME.match(text, position)
-            if attribute:
-                if position == before:
-                    self._note_error(
-                        "attributes-run-together", position, attribute[0], tag
-                    )
-                position = self._loose_attribute(attribute, attributes, tag)
-            else:
-                self._note_error("tag-malformed", position, text[position], tag)
-                position += 1
-        self.tokens.append(Token(kind, start, end, tag, tuple(attributes.values())))
-        return end
+                return self._tag("open", start, position + 1, tag, found)
+            position = self._loose_attribute(before, position, found, tag)
 
     def _loose_attribute(
-        self, name: re.Match[str], attributes: dict[str, Attribute], tag: str
+        self, before: int, position: int, found: list[Attribute], tag: str
     ) -> int:
         text = self.text
-        equals = _EQUALS.match(text, name.end())
-        if not equals:
-            self._note_error("attribute-without-value", name.start(), name[0], tag)
-            return name.end()
+        name = _NAME.match(text, position)
+        equals = _EQUALS.match(text, name.end()) if name else None
+        if name is None or equals is None:
+            raise _UnknownError
+        if position == before:
+            self._note_error("attributes-run-together", position, name[0], tag)
         start = equals.end()
         first = text[start : start + 1]
         if first and first in "\"'":
-            value, end = self._quoted(start, name, tag)
+            value, end = self._quoted(start, name[0], tag)
         elif first and first in CURLY:
-            value, end = self._curly(start, name, tag)
+            closing = _CURLY_END.search(text, start + 1)
+            end = closing.start() if closing else len(text)
+            value = text[start + 1 : end]
+            self._note_error("quotes-curly", start, f"{name[0]}={value}", tag)
+            end += closing is not None and closing[0] not in "<>\n"
         else:
             unquoted = _UNQUOTED.match(text, start)
             value, end = (unquoted[0], unquoted.end()) if unquoted else ("", start)
-            self._note_error("quotes-missing", name.start(), f"{name[0]}={value}", tag)
-        self._add(attributes, Attribute(name[0], value, name.start()), tag)
+            self._note_error("quotes-missing", position, f"{name[0]}={value}", tag)
+        found.append(Attribute(name[0], value, position))
         return end
 
-    def _curly(self, start: int, name: re.Match[str], tag: str) -> tuple[str, int]:
-        closing = _CURLY_END.search(self.text, start + 1)
-        end = closing.start() if closing else len(self.text)
-        value = self.text[start + 1 : end]
-        self._note_error("quotes-curly", start, f"{name[0]}={value}", tag)
-        ends_here = closing is not None and closing[0] not in "<>\n"
-        return value, end + 1 if ends_here else end
-
-    def _quoted(self, start: int, name: re.Match[str], tag: str) -> tuple[str, int]:
+    def _quoted(self, start: int, name: str, tag: str) -> tuple[str, int]:
         """The value after an opening quote, and where to read on."""
         text, quote = self.text, self.text[start]
         close = text.find(quote, start + 1)
         value = text[start + 1 : close] if close >= 0 else text[start + 1 :]
-        if close >= 0 and _cut_expression(value):
-            brace = text.find("}", close)
-            again = text.find(quote, brace) if brace >= 0 else -1
-            if again >= 0 and not re.search(r"[<>\n]", text[close:again]):
-                self._note_error("quote-in-value", close, text[start + 1 : again], tag)
-                return text[start + 1 : again], again + 1
         swallowed = _NEXT_ATTRIBUTE.search(value)
         if close < 0 or swallowed or ("<" in value and "\n" in value):
-            self._note_error("quote-not-closed", start, f"{name[0]}={quote}", tag)
+            self._note_error("quote-not-closed", start, f"{name}={quote}", tag)
             if swallowed and not re.search(r"[<\n]", value):
                 return value[: swallowed.start()], start + 1 + swallowed.start()
             stop = _VALUE_END.search(text, start + 1)
             end = stop.start() if stop else len(text)
             return text[start + 1 : end], end
-        self._references(start, close)
-        for found in islice(re.finditer("<", value), MOST_ERRORS):
+        self._ampersands(start, close)
+        for found in re.finditer("<", value):
             self._note_error("less-than", start + 1 + found.start(), value, tag)
         return value, close + 1

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.lexer import tokenize
-from sambot_viz.robot.xml.diagnose.tokens import LexicalError, Token
+from sambot_viz.robot.xml.diagnose.lexer import Reading, Token, tokenize
 
 
 @dataclass(frozen=True)
@@ -23,32 +22,26 @@ class SourceText:
         return [0, *(m.end() for m in re.finditer(r"\n", self.text))]
 
     def line(self, offset: int) -> int:
-        """Line of an offset, counted from 1."""
+        """Return the line of an offset, counted from 1."""
         return bisect.bisect_right(self._starts, offset)
 
     def column(self, offset: int) -> int:
-        """Column of an offset in its line, counted from 1."""
+        """Return the column of an offset in its line, counted from 1."""
         return offset - self._starts[self.line(offset) - 1] + 1
 
     def offset(self, line: int, column: int) -> int:
-        """Offset of a line and a column, both counted from 1."""
+        """Return the offset of a line and a column, both counted from 1."""
         return self._starts[min(line, len(self._starts)) - 1] + column - 1
-
-    def line_text(self, line: int) -> str:
-        """The text of a line, counted from 1, without its line break."""
-        start = self._starts[line - 1]
-        end = self.text.find("\n", start)
-        return self.text[start : len(self.text) if end < 0 else end].rstrip("\r")
 
     def error(
         self, file: str, code: str, offset: int, message: str, hint: str
     ) -> Problem:
-        """A problem of severity "error" at an offset."""
+        """Make a problem of severity "error" at an offset."""
         line, column = self.line(offset), self.column(offset)
         return Problem("error", code, message, hint, file, line, column)
 
     def starts_line(self, offset: int) -> bool:
-        """Whether only blanks precede an offset in its line."""
+        """Tell whether only blanks precede an offset in its line."""
         while offset and self.text[offset - 1] in " \t":
             offset -= 1
         return offset == 0 or self.text[offset - 1] == "\n"
@@ -59,29 +52,16 @@ class SourceText:
         return [match.span() for match in pattern.finditer(self.text)]
 
     def in_comment(self, offset: int) -> bool:
-        """Whether an offset is inside a comment."""
+        """Tell whether an offset is inside a comment."""
         before = bisect.bisect_right(self._comments, (offset, len(self.text))) - 1
         return before >= 0 and offset < self._comments[before][1]
 
     @cached_property
-    def _read(self) -> tuple[list[Token], list[LexicalError]]:
+    def read(self) -> Reading:
+        """The tokens and the lexical errors, both in document order."""
         return tokenize(self.text)
-
-    @property
-    def tokens(self) -> list[Token]:
-        """All tokens in document order."""
-        return self._read[0]
-
-    @property
-    def lexical_errors(self) -> list[LexicalError]:
-        """Errors inside the text, in document order."""
-        return self._read[1]
 
     @cached_property
     def tags(self) -> list[Token]:
         """Only the tags: open, close and empty tokens."""
-        return [t for t in self.tokens if t.name]
-
-    def first(self, *names: str) -> Token | None:
-        """The first opening tag with one of these names."""
-        return next((t for t in self.tags if t.name in names and not t.closes), None)
+        return [t for t in self.read.tokens if t.name]

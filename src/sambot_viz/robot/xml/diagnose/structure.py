@@ -1,8 +1,7 @@
 """Find why the tags of a text do not form one tree.
 
-When a closing tag does not match the open tags, the tag that was forgotten, crossed or
-misspelt is reported with the place to fix. expat reports only the place where it
-stopped.
+When a closing tag does not match the open tags, the tag that was forgotten or misspelt
+is reported with the place to fix. expat reports only the place where it stopped.
 """
 
 from __future__ import annotations
@@ -11,10 +10,8 @@ import difflib
 from dataclasses import dataclass, field
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.root_end import after_root
+from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
-from sambot_viz.robot.xml.diagnose.structure_messages import StructureMessages
-from sambot_viz.robot.xml.diagnose.tokens import Token
 
 _LEAVES = frozenset(
     "axis box calibration capsule child color cylinder dynamics inertia limit mass "
@@ -45,10 +42,12 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
         file: its name, for the places.
 
     Returns:
-        At most one problem per error; empty when the tags are in order.
+        At most one problem per error; empty when the tags are in order, and when a
+        file has no <robot>, for which expat's own line is as good.
     """
-    walk = _Walk(source, file, StructureMessages(source, file))
-    walk.run()
+    walk = _Walk(source, file)
+    if any(tag.name == "robot" and not tag.closes for tag in source.tags):
+        walk.run()
     return walk.problems
 
 
@@ -56,31 +55,23 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
 class _Walk:
     source: SourceText
     file: str
-    messages: StructureMessages
     problems: list[Problem] = field(default_factory=list["Problem"])
     stack: list[_Open] = field(default_factory=list["_Open"])
     root: Token | None = None
-    root_end: Token | None = None
 
     def run(self) -> None:
         tags = self.source.tags
-        if tags and tags[-1].closes and tags[-1].name == "robot":
-            if not any(t.name == "robot" and not t.closes for t in tags):
-                self.problems.append(self.messages.robot_missing(tags))
-                return
         for index, token in enumerate(tags):
-            if self.root_end is not None:
-                break
             if len(self.problems) > _MOST:
                 return
             if token.kind == "close":
-                self._close(index)
+                self._close(token)
             else:
                 self._start(token)
-        if self.root is not None and self.root_end is not None:
-            found = after_root(self.source, self.file, self.root, self.root_end)
-            self.problems += [found] if found else []
-        elif self.stack:
+            if not self.stack and self.root is not None:
+                self._after_root(self.root, token, tags[index + 1 :])
+                return
+        if self.stack:
             self._end_of_file()
 
     def _add(self, code: str, at: int, message: str, hint: str) -> None:
@@ -92,66 +83,49 @@ class _Walk:
     def _start(self, token: Token) -> None:
         if self.stack:
             self.stack[-1].children.append(token)
-        elif self.root is None:
+        else:
             self.root = token
         if token.kind == "open":
             self.stack.append(_Open(token))
-        elif not self.stack:
-            self.root_end = token
 
-    def _close(self, index: int) -> None:
-        token = self.source.tags[index]
-        if not self.stack:
+    def _close(self, token: Token) -> None:
+        names = [entry.token.name for entry in self.stack]
+        if not names:
             self._surplus(token)
             return
-        top = self.stack[-1].token
-        if token.name != top.name:
-            self._mismatch(index)
-            return
-        self._pop(token)
-
-    def _pop(self, token: Token) -> None:
-        self.stack.pop()
-        self._note_root_end(token)
-
-    def _note_root_end(self, token: Token) -> None:
-        if not self.stack:
-            self.root_end = token
-
-    def _mismatch(self, index: int) -> None:
-        token = self.source.tags[index]
-        top = self.stack[-1].token
-        names = [entry.token.name for entry in self.stack]
-        if token.name.lower() == top.name.lower():
-            self.problems.append(self.messages.wrong_case(top, token))
-            self._pop(token)
-        elif token.name in names:
-            self._not_closed(index, names)
-        elif difflib.SequenceMatcher(None, token.name, top.name).ratio() >= 0.7:
-            self.problems.append(self.messages.misspelt(top, token))
-            self._pop(token)
+        name, opened = token.name, self.stack[-1].token
+        if name == opened.name:
+            self.stack.pop()
+        elif name.lower() == opened.name.lower():
+            self._misspelt(opened, token)
+        elif name in names:
+            depth = len(names) - 1 - names[::-1].index(name)
+            for entry in self.stack[depth + 1 :][:_MOST]:
+                self._unclosed(entry, token)
+            del self.stack[depth:]
+        elif difflib.SequenceMatcher(None, name, opened.name).ratio() >= 0.7:
+            self._misspelt(opened, token)
         else:
             self._surplus(token)
 
-    def _not_closed(self, index: int, names: list[str]) -> None:
-        """The closing tag belongs further down: the tags above it were not closed."""
-        tags = self.source.tags
-        token = tags[index]
-        depth = len(names) - 1 - names[::-1].index(token.name)
-        unclosed = self.stack[depth + 1 :]
-        following = tags[index + 1] if index + 1 < len(tags) else None
-        top = unclosed[-1].token
-        if len(unclosed) == 1 and following and following.closes:
-            if following.name == top.name and names.count(top.name) == 1:
-                self.problems.append(self.messages.crossed(top, token, following))
-                # Continue as if the pair were in the right order.
-                del self.stack[depth]
-                self._note_root_end(token)
-                return
-        for entry in unclosed[:_MOST]:
-            self._unclosed(entry, token)
-        del self.stack[depth:]
-        self._note_root_end(token)
+    def _misspelt(self, opened: Token, closed: Token) -> None:
+        """A closing tag whose name is nearly that of the open tag."""
+        self.stack.pop()
+        first, last = self._line(opened), self._line(closed)
+        ends = f"is closed by </{closed.name}> on line {last}"
+        if opened.name.lower() != closed.name.lower():
+            message = f"<{opened.name}> opened on line {first} {ends}"
+            code, hint = "xml-closing-tag-misspelt", f"write </{opened.name}>"
+            self._add(code, closed.start, message, hint)
+            return
+        wrong = closed if opened.name.islower() else opened
+        right = opened.name if opened.name.islower() else opened.name.lower()
+        message = (
+            f"<{opened.name}> on line {first} {ends}: XML distinguishes capital "
+            "letters from small ones"
+        )
+        hint = f"write <{right}> and </{right}>"
+        self._add("xml-tag-case", wrong.start, message, hint)
 
     def _unclosed(self, entry: _Open, closed: Token | None) -> None:
         opened = entry.token
@@ -166,21 +140,15 @@ class _Walk:
             )
             return
         at = self._place_to_close(entry, closed)
-        before = self._last_before(at)
-        where = (
-            f"after {self._named(before)} on line {self.source.line(before.end - 1)}"
-        )
+        before = [tag for tag in self.source.tags if tag.end <= at][-1]
+        named = f"</{before.name}>" if before.closes else f"<{before.name} …>"
         self._add(
             "xml-tag-not-closed",
             before.start,
             f"{shown} opened on line {line} is never closed",
-            f"add </{opened.name}> {where}",
+            f"add </{opened.name}> after {named} on line "
+            f"{self.source.line(before.end - 1)}",
         )
-
-    def _named(self, token: Token) -> str:
-        if token.kind == "comment":
-            return "the comment"
-        return f"</{token.name}>" if token.closes else f"<{token.name} …>"
 
     def _place_to_close(self, entry: _Open, closed: Token | None) -> int:
         """Offset before which the missing closing tag belongs; 0 when unknown."""
@@ -196,24 +164,12 @@ class _Walk:
                 return child.start
         return closed.start if closed else 0
 
-    def _last_before(self, offset: int) -> Token:
-        tags = [t for t in self.source.tags if t.end <= offset]
-        return tags[-1]
-
     def _surplus(self, token: Token) -> None:
         """A closing tag that nothing opened."""
         line = self._line(token)
         before = [t for t in self.source.tags if t.end <= token.start]
         twin = next((t for t in reversed(before) if t.name == token.name), None)
-        inner = self.stack[-1].token if self.stack else None
-        orphan = self._first_orphan(token)
-        closed_at_once = twin is not None and twin.kind == "empty"
-        if orphan is not None and not (
-            closed_at_once and twin is self._sibling_before(orphan)
-        ):
-            self.problems.append(self.messages.opening_missing(token, orphan))
-            return
-        if twin is not None and closed_at_once:
+        if twin is not None and twin.kind == "empty":
             message = (
                 f"</{token.name}> on line {line} closes <{token.name} …/> of line "
                 f"{self._line(twin)} again: the slash before > has closed it already"
@@ -223,6 +179,7 @@ class _Walk:
                 f"inside, or delete </{token.name}>"
             )
         else:
+            inner = self.stack[-1].token if self.stack else None
             within = (
                 f" inside <{inner.name}> (line {self._line(inner)})" if inner else ""
             )
@@ -230,24 +187,43 @@ class _Walk:
             hint = f"delete it, or write the <{token.name}> that is missing before it"
         self._add("xml-closing-tag-surplus", token.start, message, hint)
 
-    def _first_orphan(self, closed: Token) -> Token | None:
-        """The first of the elements that are indented as if inside `closed`."""
-        if not self.stack:
-            return None
-        column = self.source.column(closed.start)
-        if self.source.column(self.stack[-1].token.start) >= column:
-            return None
-        orphan: Token | None = None
-        for child in reversed(self.stack[-1].children):
-            if self.source.column(child.start) <= column:
-                break
-            orphan = child
-        return orphan
-
-    def _sibling_before(self, child: Token) -> Token | None:
-        children = self.stack[-1].children
-        index = children.index(child)
-        return children[index - 1] if index else None
+    def _after_root(self, root: Token, root_end: Token, rest: list[Token]) -> None:
+        """Report tags after the end of the root element."""
+        if not rest:
+            return
+        token, last = rest[0], rest[-1]
+        name, end, line = root.name, self._line(root_end), self._line(token)
+        if token.name == name and not token.closes:
+            self._add(
+                "xml-two-robots",
+                token.start,
+                f"a second <{name}> begins on line {line} after the first was closed "
+                f"on line {end}: a file has only one",
+                f"move its content into the first <{name}>, or into another file",
+            )
+            return
+        if token is last and token.closes:
+            self._add(
+                "xml-closing-tag-surplus",
+                token.start,
+                f"</{token.name}> on line {line} closes nothing: </{name}> on line "
+                f"{end} has already closed the root element",
+                f"delete </{token.name}> on line {line}",
+            )
+            return
+        begins = f"the content that starts with {token.shown} on line {line}"
+        message = f"line {end} closes </{name}> too early, before {begins}"
+        if root_end.kind == "empty":
+            message = f"<{name} …/> on line {end} is closed by its slash, before "
+            message += begins
+            hint = f"write > instead of /> on line {end} and </{name}> as the last line"
+        elif last.closes and last.name == name:
+            right = f"the one on line {self._line(last)} is the right one"
+            hint = f"delete </{name}> on line {end}; {right}"
+        else:
+            hint = f"move </{name}> from line {end} to the last line of the file"
+        # The place is the early tag, because that is what has to be changed.
+        self._add("xml-root-closed-early", root_end.start, message, hint)
 
     def _end_of_file(self) -> None:
         """The text ends with tags open: one was forgotten, or the file is cut off."""
