@@ -6,6 +6,8 @@ Run with ``pytest -s tests/benchmarks/bench_meshes.py``; times are CPU time.
 from __future__ import annotations
 
 import io
+import subprocess
+import sys
 import time
 import warnings
 from collections.abc import Callable
@@ -127,6 +129,35 @@ def test_a_large_stl_takes_less_than_half_a_second(tmp_path: Path) -> None:
     taken = seconds(lambda: read_mesh(path))
     print(f"binary STL of {count} triangles: {taken:.3f} s")
     assert taken < 0.5
+
+
+def test_the_first_stl_costs_a_tenth_of_what_importing_trimesh_costs(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "a.stl"
+    path.write_bytes(b"\0" * 80 + np.uint32(1).tobytes() + b"\0" * 50)
+    work = {
+        "a first STL": f"read_mesh(Path({str(path)!r}))",
+        "import trimesh": "import trimesh; from trimesh.exchange import stl",
+    }
+    cpu: dict[str, float] = {}
+    for name, line in work.items():
+        code = (
+            "import time; from pathlib import Path\n"
+            "from sambot_viz.meshes.read_mesh import read_mesh\n"
+            "status = Path('/proc/self/statm')\n"
+            "size = lambda: int(status.read_text().split()[1]) / 256\n"
+            f"start, before = time.process_time(), size()\ntry: {line}\n"
+            "except Exception: pass\n"
+            "print(time.process_time() - start, size() - before)"
+        )
+        run = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        )
+        taken, megabytes = map(float, run.stdout.split())
+        cpu[name] = taken
+        print(f"{name}: {taken:.3f} s, {megabytes:.1f} MB")
+    assert 10 * cpu["a first STL"] < cpu["import trimesh"]
 
 
 def test_a_mesh_asked_for_again_costs_next_to_nothing(tmp_path: Path) -> None:

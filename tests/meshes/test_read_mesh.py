@@ -76,6 +76,23 @@ def test_nothing_heavy_is_imported_before_it_is_needed() -> None:
     assert subprocess.run(run, capture_output=True, text=True).stdout == "[]\n"
 
 
+@pytest.mark.parametrize("kind", ["binary", "ascii"])
+def test_reading_an_stl_imports_no_mesh_library(
+    write: Callable[..., Path], binary_stl: Callable[..., bytes], kind: str
+) -> None:
+    corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    vertices = "".join(f"vertex {x} {y} {z}\n" for x, y, z in corners)
+    text = f"solid a\nfacet normal 0 0 1\n{vertices}endfacet\nendsolid a\n"
+    path = write("a.stl", binary_stl([corners]) if kind == "binary" else text)
+    code = (
+        "import sys, pathlib; from sambot_viz.meshes.read_mesh import read_mesh;"
+        f"print(read_mesh(pathlib.Path({str(path)!r})).triangles,"
+        "sorted({'trimesh', 'scipy', 'networkx', 'PIL'} & set(sys.modules)))"
+    )
+    run = [sys.executable, "-c", code]
+    assert subprocess.run(run, capture_output=True, text=True).stdout == "1 []\n"
+
+
 def test_a_missing_file_and_a_folder_are_said(tmp_path: Path) -> None:
     with pytest.raises(MeshError, match="there is no such file"):
         read_mesh(tmp_path / "gone.stl")
