@@ -162,7 +162,7 @@ class Visualizer:
         if self._server.robot is None and self._stand_in is self._documents.current:
             self._fit_fixed_frame(self._documents.current, robot)
             for session in self._server.sessions():
-                with session.change("config"):
+                with session.change(session.signals.config):
                     self._fit_fixed_frame(session.config, robot)
         self._server.show_robot(robot)
 

@@ -17,6 +17,7 @@ from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
 from sambot_viz.session.browser.tool_control import ToolControl
 from sambot_viz.session.browser.view import BrowserView
+from sambot_viz.session.signals import connect
 from sambot_viz.views.view import STEEPEST
 
 pytestmark = pytest.mark.browser
@@ -145,7 +146,7 @@ def test_moving_a_view_from_straight_above_keeps_its_yaw(
     viewer.wait_for("__viserMutable.cameraControl.polarAngle < 0.002")
     yaws: list[float] = []
     (browser,) = session.browsers.values()
-    browser.listeners.append(lambda event: yaws.append(value(session, "Yaw")))
+    connect([browser.view.changed], lambda: yaws.append(value(session, "Yaw")))
     for x, y in ((30, 0), (0, 30), (-30, -20)):
         viewer.page.mouse.drag(SKY, (SKY[0] + x, SKY[1] + y), button="middle")
     until(viewer, lambda: abs(value(session, "Focal Point")[0]) > 0.01)

@@ -18,6 +18,7 @@ from sambot_viz.panels.displays.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
 from sambot_viz.session import Session
+from sambot_viz.session.signals import connect
 
 ROBOT = """
 <robot name="two">
@@ -294,7 +295,7 @@ def test_positions_follow_a_joint(displays: Displays, session: Session) -> None:
     shown = displays.named("Robot", "Links", "arm/tip", "Orientation")
     assert displays.panel.values()[shown.id] == "0; 0; 0; 1"
     moved = threading.Event()
-    session.listeners.append(lambda event: moved.set() if event == "joints" else None)
+    connect([session.signals.joints], moved.set)
     session.set_joint_positions({"turn": 3.0})
     assert moved.wait(10)
     assert displays.panel.values()[shown.id] != "0; 0; 0; 1"

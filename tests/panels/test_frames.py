@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,7 +15,6 @@ from sambot_viz.panels.frames import frames
 from sambot_viz.panels.frames.frames import FramesPanel, pasted_arguments
 from sambot_viz.panels.row import Level
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
 
 LEFT = "drivewhl_l_link"
 FLOATS = """<robot name="floats">
@@ -34,10 +32,8 @@ def said() -> list[tuple[str, Level]]:
 
 
 @pytest.fixture
-def panel(
-    session: Session, browser: Browser, said: list[tuple[str, Level]]
-) -> FramesPanel:
-    return FramesPanel(session, browser, lambda *what: said.append(what))
+def panel(session: Session, said: list[tuple[str, Level]]) -> FramesPanel:
+    return FramesPanel(session, lambda *what: said.append(what), lambda _: None)
 
 
 def values(panel: FramesPanel) -> dict[str, object]:
@@ -113,9 +109,9 @@ def test_values_follow_motions_while_the_panel_is_on_the_screen(
 
 
 def test_two_browsers_ask_for_different_frames(
-    session: Session, panel: FramesPanel, join: Callable[[], Browser]
+    session: Session, panel: FramesPanel
 ) -> None:
-    other = FramesPanel(session, join(), lambda *_: None)
+    other = FramesPanel(session, lambda *_: None, lambda _: None)
     ask(panel, "base_link", LEFT)
     assert rows_of(other)["frames/to"].value != "base_link"
     ask(other, LEFT, "base_link")

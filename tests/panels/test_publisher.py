@@ -6,8 +6,9 @@ import asyncio
 import json
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -15,6 +16,7 @@ from sambot_viz.panels import publisher
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Row
+from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
 
 
@@ -53,12 +55,16 @@ class Owner:
     def flush(self) -> None:
         pass
 
+    def atomic(self) -> Any:
+        return nullcontext()
+
 
 class Numbers(Panel):
     name = "numbers"
-    moved_by = frozenset({"joints"})
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, worker: Worker, count: int) -> None:
+        self.moved = Signal(Change(worker, cast(Any, Owner())), None)
+        self.moved_by = (self.moved,)
         self.numbers = [0] * count
 
     def rows(self) -> Sequence[Row]:
@@ -79,22 +85,22 @@ def worker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Worker]:
     loop.close()
 
 
-def move(made: Publisher, panel: Numbers, *changed: int) -> None:
+def move(panel: Numbers, *changed: int) -> None:
     """Change some numbers, and publish that."""
     for number in changed:
         panel.numbers[number] += 1
-    made.hear("joints")
+    panel.moved.touch()
 
 
 def test_one_step_is_one_change_of_a_few_bytes(worker: Worker) -> None:
-    owner, panel = Owner(), Numbers(300)
+    owner, panel = Owner(), Numbers(worker, 300)
     made = Publisher(owner, worker, [panel], "session")
     whole, changes = owner.elements
     assert len(whole.data()["panels"]["numbers"]) == 300
-    move(made, panel, 7)
+    move(panel, 7)
     assert changes.data()["rows"] == {"n7": {"value": 1}}
     assert len(changes.content) < 200
-    move(made, panel)
+    move(panel)
     assert len(whole.contents) == 1
     made.close()
 
@@ -102,17 +108,17 @@ def test_one_step_is_one_change_of_a_few_bytes(worker: Worker) -> None:
 def test_after_many_changes_all_rows_are_sent_once_and_a_step_is_small_again(
     worker: Worker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    owner, panel = Owner(), Numbers(300)
+    owner, panel = Owner(), Numbers(worker, 300)
     made = Publisher(owner, worker, [panel], "session")
     whole, changes = owner.elements
-    move(made, panel, *range(300))
+    move(panel, *range(300))
     assert len(changes.data()["rows"]) == 300 and len(whole.contents) == 1
     monkeypatch.setattr(publisher, "TIDY_PERIOD", 0.0)
-    move(made, panel, 7)
+    move(panel, 7)
     assert len(whole.contents) == 2
     assert whole.data()["panels"]["numbers"][7]["value"] == 2
     assert changes.data()["base"] == whole.data()["base"]
-    move(made, panel, 8)
+    move(panel, 8)
     assert changes.data()["rows"] == {"n8": {"value": 2}}
     assert len(whole.contents) == 2
     made.close()
@@ -120,7 +126,6 @@ def test_after_many_changes_all_rows_are_sent_once_and_a_step_is_small_again(
 
 class Slow(Numbers):
     name = "slow"
-    moved_by = frozenset({"motion"})
     period = 120.0
 
     def rows(self) -> Sequence[Row]:
@@ -134,18 +139,18 @@ def test_a_step_need_not_wait_where_nothing_has_changed_before(
     worker: Worker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(publisher, "PERIOD", 60.0)
-    owner, panel = Owner(), Numbers(1)
-    made = Publisher(owner, worker, [panel, Slow(1)], "session")
-    made.hear("motion")
-    move(made, panel, 0)
+    owner, panel, slow = Owner(), Numbers(worker, 1), Slow(worker, 1)
+    made = Publisher(owner, worker, [panel, slow], "session")
+    slow.moved.touch()
+    move(panel, 0)
     assert owner.elements[1].data()["rows"] == {"n0": {"value": 1}}
     made.close()
 
 
 def test_what_a_slow_panel_shows_is_sent(worker: Worker) -> None:
-    owner, panel = Owner(), Slow(1)
+    owner, panel = Owner(), Slow(worker, 1)
     made = Publisher(owner, worker, [panel], "session")
     panel.numbers[0] = 5
-    made.hear("motion")
+    panel.moved.touch()
     assert owner.elements[1].data()["rows"] == {"slow": {"value": 5}}
     made.close()

@@ -28,7 +28,7 @@ RIGHT = Selectable("link", "drivewhl_r_link")
 
 @pytest.fixture
 def panel(session: Session, browser: Browser) -> SelectionPanel:
-    return SelectionPanel(session, browser)
+    return SelectionPanel(session, browser, lambda _: None)
 
 
 def facts(panel: SelectionPanel) -> dict[str, str]:

@@ -133,7 +133,7 @@ def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(
     first.settle(viser_server(viz))
     second.settle(viser_server(viz))
     assert told(second) == []
-    session_of(viz).follow_presenter = True
+    session_of(viz).signals.follow.set(True)
     report(first, (0.0, 3.0, 0.0))
     second.wait_until(lambda: told(second) != [])
     assert told(second)[-1] == pytest.approx([0, 3, 0], abs=1e-5)

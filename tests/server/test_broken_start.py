@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from inside import signals_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import RobotError, Visualizer, bundled
@@ -18,6 +19,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.session import Session
 from sambot_viz.session.shown_problems import last_good_note, problems_of
+from sambot_viz.session.signals import connect
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 TWO = """<link name="hull"/>
@@ -37,14 +39,13 @@ class Shown:
         self.viz = Visualizer.of_inputs(inputs)
         self.reports = reports
         self._changed = threading.Condition(self.session.lock)
-        self.session.listeners.append(self._hear)
+        connect(signals_of(self.session), self._hear)
 
     @property
     def session(self) -> Session:
         return self.viz.server.sessions()[0]
 
-    def _hear(self, event: str) -> None:
-        del event
+    def _hear(self) -> None:
         with self._changed:
             self._changed.notify_all()
 

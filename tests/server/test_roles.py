@@ -69,7 +69,7 @@ def everything(viz: Visualizer, session: Session) -> object:
         sorted(session.tree.frames),
         dict(session.added.all),
         session.poses.names,
-        session.follow_presenter,
+        session.signals.follow.value,
         session.motion.turning,
         session.edits.modified,
     )

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from inside import signals_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
@@ -18,6 +19,7 @@ from sambot_viz.server import watch
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 from sambot_viz.session.shown_problems import last_good_note
+from sambot_viz.session.signals import connect
 
 Changes = queue.Queue[frozenset[Path]]
 LEFT = "drivewhl_l_joint"
@@ -193,14 +195,13 @@ class Followed:
         # The lock of the session: its listeners are called with it, and what tests
         # wait for needs it. Two locks would be taken in both orders.
         self._told = threading.Condition(self.session.lock)
-        self.session.listeners.append(self._hear)
+        connect(signals_of(self.session), self._hear)
 
     @property
     def session(self) -> Session:
         return self.viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
 
-    def _hear(self, event: str) -> None:
-        del event
+    def _hear(self) -> None:
         with self._told:
             self._told.notify_all()
 

@@ -20,6 +20,7 @@ from sambot_viz.session.browser.saved_views import SavedViews
 from sambot_viz.session.document.drawn_scene import walk
 from sambot_viz.session.history import LIMIT
 from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
+from sambot_viz.session.signals import connect
 
 A, B = 1, 2
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -482,8 +483,8 @@ def test_frames_are_added_changed_and_removed_and_all_that_is_undone(
 
 
 def test_listeners_hear_of_edits(session: Session) -> None:
-    heard: list[str] = []
-    session.listeners.append(heard.append)
+    heard: list[int] = []
+    connect([session.signals.edits], lambda: heard.append(1))
     for action in (
         lambda: act(session, A, set_alpha(session, 0.5)),
         lambda: session.edits.undo(A),
@@ -493,4 +494,4 @@ def test_listeners_hear_of_edits(session: Session) -> None:
     ):
         heard.clear()
         action()
-        assert "edits" in heard
+        assert heard == [1]

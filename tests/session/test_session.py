@@ -14,7 +14,8 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import FrameError, JointError, Visualizer, load_robot
 from sambot_viz.frames import Transform
-from sambot_viz.session import Event, Session
+from sambot_viz.session import Session
+from sambot_viz.session.signals import connect
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 ARM = """<robot name="arm">
@@ -104,17 +105,17 @@ def test_threads_a_browser_and_reloads_together_end_in_one_state(
 def test_a_listener_that_fails_is_shown_and_the_others_are_called(
     viz: Visualizer, session: Session, caplog: pytest.LogCaptureFixture
 ) -> None:
-    heard: list[Event] = []
+    heard: list[int] = []
 
-    def fail(event: Event) -> None:
+    def fail() -> None:
         raise RuntimeError("the panel is broken")
 
-    session.listeners.insert(0, fail)
-    session.listeners.append(heard.append)
+    session.signals.joints.listeners.insert(0, fail)
+    connect([session.signals.joints], lambda: heard.append(1))
     with caplog.at_level(logging.ERROR):
         viz.set_joint_positions({LEFT: 0.5})
         viz.set_joint_positions({LEFT: 0.6})
-    assert "joints" in heard
+    assert heard
     (problem,) = session.problems.of_saves["fault"]
     assert (problem.severity, problem.code) == ("error", "internal-error")
     assert problem.message == "internal error: RuntimeError: the panel is broken"
@@ -145,12 +146,12 @@ def test_stopping_ends_motion_and_waits_for_no_lock(
 def test_a_listener_may_stop_the_viewer(viz: Visualizer, session: Session) -> None:
     stopped = threading.Event()
 
-    def stop(event: Event) -> None:
-        if event == "joints" and not stopped.is_set():
+    def stop() -> None:
+        if not stopped.is_set():
             stopped.set()
             viz.stop()
 
-    session.listeners.append(stop)
+    connect([session.signals.joints], stop)
     session.worker.post(lambda: session.set_joint_positions({LEFT: 1.0}))
     assert stopped.wait(10)
     session.worker.join(10)
@@ -165,18 +166,14 @@ def test_a_step_of_motion_that_fails_stops_the_motion_and_is_shown(
     def broken(dt: float) -> None:
         raise ZeroDivisionError("no time at all")
 
-    def hear(event: Event) -> None:
-        if event == "problems":
-            shown.set()
-
-    session.listeners.append(hear)
+    connect([session.signals.problems], shown.set)
     with monkeypatch.context() as patch:
         patch.setattr(session.motion, "advance", broken)
         session.motion.turn(LEFT, 1.0)
         assert shown.wait(10)
     assert not session.motion.moving
     moved = threading.Event()
-    session.listeners.append(lambda event: moved.set() if event == "joints" else None)
+    connect([session.signals.joints], moved.set)
     session.motion.turn(LEFT, 1.0)
     assert moved.wait(10), "what is started later moves again"
 

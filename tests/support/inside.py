@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import viser
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.files import Files
 from sambot_viz.session import Session
+from sambot_viz.session.signals import Signal
 
 
 def viser_server(viz: Visualizer) -> viser.ViserServer:
@@ -26,6 +29,11 @@ def node_of(viz: Visualizer, frame: str) -> str:
 def session_of(viz: Visualizer) -> Session:
     """The session of all browsers, or of the one that came first."""
     return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+
+
+def signals_of(session: Session) -> list[Signal[Any]]:
+    """Everything that a session tells."""
+    return [*vars(session.signals).values()]
 
 
 def files_of(viz: Visualizer) -> Files:

@@ -16,7 +16,7 @@ from sambot_viz.panels.row import Answer, Json, Level, Row
 from sambot_viz.panels.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.views import ViewsPanel
-from sambot_viz.session import Event, Session
+from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 
 _PART = 1000
@@ -54,7 +54,6 @@ class BrowserPanels:
             self._panels(session, files, ask_page),
             "browser",
         )
-        browser.listeners.append(self.hear)
 
     def _panels(
         self, session: Session, files: Files | None, ask_page: AskPage | None
@@ -67,21 +66,16 @@ class BrowserPanels:
             ToolsPanel(session, browser),
             UndoPanel(session, browser, displays),
             ViewsPanel(session, browser),
-            SelectionPanel(session, browser),
+            SelectionPanel(session, browser, self._remake),
             ToolPropertiesPanel(session, browser),
-            FramesPanel(session, browser, self.say),
+            FramesPanel(session, self.say, self._remake),
             LinkPanel(session, browser, self._shared_row, self._remake),
             FilesPanel(session, browser, files, ask_page, keep, self.say, self._remake),
         ]
 
     def close(self) -> None:
         """Follow the browser no longer."""
-        self._browser.listeners.remove(self.hear)
         self._publisher.close()
-
-    def hear(self, event: Event) -> None:
-        """Send what an event changes."""
-        self._publisher.hear(event)
 
     def row(self, row_id: str) -> Row | None:
         """A row of this browser."""

@@ -36,11 +36,12 @@ class DrivePanel(Panel):
     """
 
     name = "drive"
-    remade_by = frozenset({"robot"})
-    moved_by = frozenset({"joints", "frames", "motion"})
     period = 0.1
 
     def __init__(self, session: Session) -> None:
+        signals = session.signals
+        self.remade_by = (signals.robot,)
+        self.moved_by = (signals.joints, signals.frames, signals.motion)
         self._session = session
         self._drive = session.motion.drive
 

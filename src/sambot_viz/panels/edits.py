@@ -22,11 +22,12 @@ class UndoPanel(Panel):
     """
 
     name = "edit"
-    remade_by = frozenset({"edits"})
 
     def __init__(
         self, session: Session, browser: Browser, displays: DisplaysPanel
     ) -> None:
+        signals = session.signals
+        self.remade_by = (signals.edits,)
         self._edits, self._id = session.edits, browser.client_id
         self._session, self._displays = session, displays
 

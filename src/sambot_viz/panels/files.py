@@ -65,8 +65,6 @@ class FilesPanel(Panel):
     """
 
     name = "files"
-    remade_by = frozenset({"config", "robot"})
-    moved_by = frozenset({"edits"})
 
     def __init__(
         self,
@@ -78,6 +76,9 @@ class FilesPanel(Panel):
         say: Callable[[str, Level], None],
         remake: Callable[[Panel], None],
     ) -> None:
+        signals = session.signals
+        self.remade_by = (signals.config, signals.robot)
+        self.moved_by = (signals.edits,)
         self._session = session
         self._browser = browser
         self._files = files

@@ -24,9 +24,10 @@ class NamesPanel(Panel):
     """
 
     name = "names"
-    remade_by = frozenset({"robot", "frames", "config"})
 
     def __init__(self, session: Session) -> None:
+        signals = session.signals
+        self.remade_by = (signals.robot, signals.frames, signals.config)
         self._session = session
         # A page that comes back after a restart finds another id here.
         private = isinstance(session.audience, viser.ClientHandle)

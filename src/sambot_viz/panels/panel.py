@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sambot_viz.panels.row import Json, Row
-from sambot_viz.session import Event
+from sambot_viz.session.signals import Signal
 
 
 class Panel:
@@ -14,14 +14,14 @@ class Panel:
 
     Attributes:
         name: the panel of the page that shows the rows.
-        remade_by: the rows are made again after these events.
+        remade_by: the rows are made again after these have changed.
         moved_by: only `values` is asked after these.
         period: shortest time between two times that `values` is asked [s].
     """
 
     name: ClassVar[str]
-    remade_by: ClassVar[frozenset[Event]] = frozenset()
-    moved_by: ClassVar[frozenset[Event]] = frozenset()
+    remade_by: Sequence[Signal[Any]] = ()
+    moved_by: Sequence[Signal[Any]] = ()
     period: ClassVar[float] = 0.0
 
     def rows(self) -> Sequence[Row]:

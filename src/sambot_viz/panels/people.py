@@ -24,9 +24,10 @@ class PeoplePanel(Panel):
     """
 
     name = "people"
-    remade_by = frozenset({"people"})
 
     def __init__(self, session: Session) -> None:
+        signals = session.signals
+        self.remade_by = (signals.people,)
         self._session = session
 
     def rows(self) -> Sequence[Row]:
@@ -59,11 +60,12 @@ class OwnRolePanel(Panel):
     """
 
     name = "role"
-    remade_by = frozenset({"people"})
 
     def __init__(
         self, session: Session, browser: Browser, say: Callable[[str, Level], None]
     ) -> None:
+        signals = session.signals
+        self.remade_by = (signals.people,)
         self._session = session
         self._roles, self._id = session.roles, browser.client_id
         self._say = say
@@ -118,7 +120,7 @@ class OwnRolePanel(Panel):
         """This user changes something, and so needs no news of it."""
         self._acted = True
         try:
-            with self._session.change("people"):
+            with self._session.change(self._session.signals.people):
                 yield
         except UsageError:
             self._acted = False

@@ -35,9 +35,15 @@ class ProblemsPanel(Panel):
     """
 
     name = "problems"
-    remade_by = frozenset({"problems", "config", "robot", "status"})
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+        signals = session.signals
+        self.remade_by = (
+            signals.problems,
+            signals.config,
+            signals.robot,
+            signals.status,
+        )
         self._session = session
         self._lazy = LazyRows("problems/unfold", lambda: remake(self))
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import secrets
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Literal, Protocol
 
@@ -18,7 +18,7 @@ import viser
 
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row, safe
-from sambot_viz.session import Event
+from sambot_viz.session.signals import connect
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.worker import Worker
 
@@ -77,6 +77,9 @@ class Publisher:
             for panel in panels
             if panel.period > PERIOD
         }
+        self._disconnect = [
+            ending for panel in self._panels for ending in self._connect(panel)
+        ]
         for panel in self._panels:
             self._make(panel)
         self._all = owner.gui.add_html(self._whole())
@@ -84,6 +87,8 @@ class Publisher:
 
     def close(self) -> None:
         """Send nothing any more."""
+        for disconnect in self._disconnect:
+            disconnect()
         self._throttle.close()
         for throttle in self._slow.values():
             throttle.close()
@@ -97,17 +102,16 @@ class Publisher:
                 return rows[row_id]
         return None
 
-    def hear(self, event: Event) -> None:
-        """Send what an event changes, soon."""
-        for panel in self._panels:
-            if event in panel.remade_by:
-                self._remake.add(panel)
-            elif event in panel.moved_by and panel in self._slow:
-                self._slow[panel].request()
-            elif event in panel.moved_by:
-                self._move.add(panel)
-        if self._remake or self._move:
-            self._throttle.request()
+    def _connect(self, panel: Panel) -> Iterator[Callable[[], None]]:
+        """Send what a panel shows after a change, all panels together."""
+        request = self._throttle.request
+        yield connect(panel.remade_by, partial(self._remake.add, panel))
+        yield connect(panel.remade_by, request, sends=True)
+        if panel in self._slow:
+            yield connect(panel.moved_by, self._slow[panel].request)
+        else:
+            yield connect(panel.moved_by, partial(self._move.add, panel))
+            yield connect(panel.moved_by, request, sends=True)
 
     def _moved(self, panel: Panel) -> None:
         with self._worker.lock:
@@ -123,8 +127,9 @@ class Publisher:
 
     def _publish(self) -> None:
         with self._worker.lock:
-            remake, self._remake = self._remake, set()
-            move, self._move = self._move - remake, set()
+            remake, move = {*self._remake}, self._move - self._remake
+            self._remake.clear()
+            self._move.clear()
             changed = [self._make(panel) for panel in self._panels if panel in remake]
             changed += [self._follow(panel) for panel in self._panels if panel in move]
             followed, self._followed = self._followed, False
@@ -201,6 +206,3 @@ class Publisher:
             f'<script type="application/json" data-sambot="{what}" '
             f'data-of="{self._scope}">{data}</script>'
         )
-
-
-Listener = Callable[[Event], None]

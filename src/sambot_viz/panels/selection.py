@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.distance import distance_between
@@ -30,17 +30,27 @@ class SelectionPanel(Panel):
     Args:
         session: what is shown.
         browser: whose selection it is.
+        remake: called when another frame was chosen.
     """
 
     name = "selection"
-    remade_by = frozenset({"tools", "robot", "frames", "config"})
-    moved_by = frozenset({"joints"})
     # As often as RViz.
     period = 0.2
 
-    def __init__(self, session: Session, browser: Browser) -> None:
+    def __init__(
+        self, session: Session, browser: Browser, remake: Callable[[Panel], None]
+    ) -> None:
+        signals = session.signals
+        self.remade_by = (
+            signals.robot,
+            signals.frames,
+            signals.config,
+            browser.tools.changed,
+        )
+        self.moved_by = (signals.joints,)
         self._session = session
         self._browser = browser
+        self._remake = remake
         self._frame: str = FIXED_FRAME
 
     def rows(self) -> Sequence[Row]:
@@ -93,8 +103,8 @@ class SelectionPanel(Panel):
         )
 
     def _set_frame(self, frame: str) -> None:
-        with self._browser.change("tools"):
-            self._frame = _FRAME.coerce(frame)
+        self._frame = _FRAME.coerce(frame)
+        self._remake(self)
 
     def _facts(self, item: Selectable) -> Sequence[Fact]:
         session = self._session

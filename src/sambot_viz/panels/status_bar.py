@@ -17,9 +17,10 @@ class StatusBarPanel(Panel):
     """
 
     name = "statusbar"
-    remade_by = frozenset({"status", "robot"})
 
     def __init__(self, session: Session) -> None:
+        signals = session.signals
+        self.remade_by = (signals.status, signals.robot)
         self._session = session
 
     def rows(self) -> Sequence[Row]:

@@ -30,9 +30,10 @@ class ToolsPanel(Panel):
     """
 
     name = "tools"
-    remade_by = frozenset({"tools", "config"})
 
     def __init__(self, session: Session, browser: Browser) -> None:
+        signals = session.signals
+        self.remade_by = (signals.config, browser.tools.changed)
         self._session = session
         self._browser = browser
 
@@ -93,9 +94,10 @@ class ToolPropertiesPanel(Panel):
     """
 
     name = "tool_properties"
-    remade_by = frozenset({"tools", "config"})
 
     def __init__(self, session: Session, browser: Browser) -> None:
+        signals = session.signals
+        self.remade_by = (signals.config, browser.tools.changed)
         self._session = session
         self._browser = browser
 

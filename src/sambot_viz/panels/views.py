@@ -35,9 +35,10 @@ class ViewsPanel(Panel):
     """
 
     name = "views"
-    remade_by = frozenset({"view", "config"})
 
     def __init__(self, session: Session, browser: Browser) -> None:
+        signals = session.signals
+        self.remade_by = (signals.config, signals.follow, browser.view.changed)
         self._session = session
         self._browser = browser
         self._numbers: weakref.WeakKeyDictionary[ViewConfig, int] = (
@@ -95,14 +96,13 @@ class ViewsPanel(Panel):
             CURRENT,
             "bool",
             "Follow the presenter",
-            value=self._session.follow_presenter,
+            value=self._session.signals.follow.value,
             help=f"All browsers show what {camera}.",
             set=self._follow,
         )
 
     def _follow(self, on: bool) -> None:
-        with self._session.change("view"):
-            self._session.follow_presenter = on
+        self._session.signals.follow.set(on)
 
     def _bring_back(self, arguments: tuple[str, str]) -> None:
         """Show what the page showed before it lost the connection, or was loaded again.

@@ -21,7 +21,7 @@ from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer
 from sambot_viz.panels.status_bar import StatusBarPanel
-from sambot_viz.session import Event, Session
+from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.roles import WATCHING
 
@@ -52,7 +52,6 @@ class Window:
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
         )
-        session.listeners.append(self._hear)
         session.browser_listeners.append(self._browser)
         for browser in session.browsers.values():
             self._browser(browser, True)
@@ -76,16 +75,10 @@ class Window:
 
     def close(self) -> None:
         """Follow the session no longer."""
-        self._session.listeners.remove(self._hear)
         self._session.browser_listeners.remove(self._browser)
         for panels in self._browsers.values():
             panels.close()
         self._shared.close()
-
-    def _hear(self, event: Event) -> None:
-        self._shared.hear(event)
-        for panels in self._browsers.values():
-            panels.hear(event)
 
     def _browser(self, browser: Browser, joined: bool) -> None:
         if joined:

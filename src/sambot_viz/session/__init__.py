@@ -8,6 +8,6 @@ from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.document.drawn_scene import walk
 from sambot_viz.session.problem_list import Reloaded
 from sambot_viz.session.session import Session
-from sambot_viz.session.shared_state import Audience, Event
+from sambot_viz.session.signals import Audience
 
-__all__ = ["Audience", "Browser", "Event", "Reloaded", "Session", "walk"]
+__all__ = ["Audience", "Browser", "Reloaded", "Session", "walk"]

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 from sambot_viz.errors import Problem
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
+from sambot_viz.session.signals import connect
 
 if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
-    from sambot_viz.session import Event, Session
+    from sambot_viz.session import Session
 
 
 class CheckResults:
@@ -29,7 +30,8 @@ class CheckResults:
         self._session = session
         self._of_robot: tuple[Problem, ...] = ()
         self._checked: tuple[object, ...] | None = None
-        session.listeners.append(self._hear)
+        signals = session.signals
+        connect([signals.config, signals.frames, signals.status], self._follow)
 
     def give(self) -> None:
         """Check what is shown; the robot only when there is more to know of it."""
@@ -64,11 +66,9 @@ class CheckResults:
         session = self._session
         return (id(session.robot), session.context.assets.read_count)
 
-    def _hear(self, event: Event) -> None:
+    def _follow(self) -> None:
         """Check again after a change that may fix, or bring, a problem."""
-        if event not in ("config", "frames", "status") or self._checked is None:
-            return
-        if self._checked[0] == id(self._session.robot):
+        if self._checked is not None and self._checked[0] == id(self._session.robot):
             self.give()
 
     def _of_config(self, robot: Robot) -> list[Problem]:

@@ -162,7 +162,7 @@ class ConfigFile:
             UsageError: there is no file to write, or it cannot be written; what was
                 there is untouched.
         """
-        with self._session.change("edits"):
+        with self._session.change():
             target = path or self.target
             if target is None:
                 raise UsageError("this config has no file of its own yet: save it as …")

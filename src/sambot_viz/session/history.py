@@ -90,7 +90,7 @@ class EditHistory:
     """The edits of a session, for each of its browsers.
 
     Args:
-        session: whose edits these are; its listeners hear of them as "edits".
+        session: whose edits these are.
     """
 
     def __init__(self, session: SharedState) -> None:
@@ -167,7 +167,7 @@ class EditHistory:
                 action.of_document |= of_document
             elif of_document:
                 self._by_program += 1
-                self._session.notify("edits")
+                self._session.signals.edits.touch()
 
     @contextmanager
     def unrecorded(self) -> Generator[None]:
@@ -215,7 +215,7 @@ class EditHistory:
         history.done.append(step)
         if number is not None:
             self._applied.add(number)
-        self._session.notify("edits")
+        self._session.signals.edits.touch()
 
     def _next_number(self) -> int:
         self._count += 1
@@ -243,7 +243,7 @@ class EditHistory:
             history.undone.append(step)
             self._applied.discard(step.number or 0)
             label = history.went(step)
-            self._session.notify("edits")
+            self._session.signals.edits.touch()
             return label
 
     def redo(self, browser_id: int) -> str | None:
@@ -265,7 +265,7 @@ class EditHistory:
             if step.number is not None:
                 self._applied.add(step.number)
             label = history.went(step)
-            self._session.notify("edits")
+            self._session.signals.edits.touch()
             return label
 
     def _run(
@@ -285,7 +285,7 @@ class EditHistory:
         except SambotVizError as error:
             for reverse in reversed(reached):
                 reverse()
-            self._session.notify("edits")
+            self._session.signals.edits.touch()
             label = step.edits[0].label
             raise UsageError(f"'{label}' cannot be {what}: {error}") from error
         finally:
@@ -321,7 +321,7 @@ class EditHistory:
         """The document has been saved as it is now."""
         with self._session.lock:
             self._saved = (frozenset(self._applied), self._by_program)
-            self._session.notify("edits")
+            self._session.signals.edits.touch()
 
     def clear(self) -> None:
         """Forget all edits: another document is shown, as it is in its file."""

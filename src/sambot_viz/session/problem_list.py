@@ -17,7 +17,7 @@ class ProblemList:
     """Problems of one session.
 
     Args:
-        session: whose problems these are; it notifies its listeners of changes.
+        session: whose problems these are.
 
     Attributes:
         of_model: what is wrong with the model that is shown.
@@ -35,12 +35,12 @@ class ProblemList:
         """Show what is wrong with the model."""
         with self._session.lock:
             self.of_model = (*problems, *self.of_frames)
-            self._session.notify("problems")
+            self._session.signals.problems.touch()
 
     def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show why the last save is not what is shown; an empty list when it is."""
         if self.of_saves.get(of, ()) != tuple(problems):
-            with self._session.change("problems"):
+            with self._session.change(self._session.signals.problems):
                 self.of_saves[of] = tuple(problems)
 
     def report_error(self, error: Exception) -> None:

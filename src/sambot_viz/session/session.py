@@ -29,7 +29,7 @@ from sambot_viz.session.problem_list import ProblemList
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_edits import RobotEdits
 from sambot_viz.session.roles import Roles
-from sambot_viz.session.shared_state import Audience
+from sambot_viz.session.signals import Audience
 from sambot_viz.session.worker import Worker
 from sambot_viz.views.camera import Camera
 
@@ -50,8 +50,6 @@ class Session(RobotEdits):
 
     Attributes:
         roles: who of the browsers may change the session.
-        follow_presenter: whether all browsers show what the browser shows whose camera
-            moved last, of those that may change the session.
         browser_listeners: called with a browser that joined (True) or left (False),
             with the session locked.
 
@@ -79,7 +77,6 @@ class Session(RobotEdits):
         self.rays = PickRays(self)
         self._browsers: dict[int, Browser] = {}
         self.browser_listeners: list[Callable[[Browser, bool], None]] = []
-        self.follow_presenter = False
         self._open = threading.Semaphore()
         private = isinstance(audience, viser.ClientHandle)
         self.roles = Roles(self.options.presenter is not None and not private)
@@ -102,7 +99,7 @@ class Session(RobotEdits):
             browser = self._browsers[client.client_id] = Browser(self, client)
             for listener in tuple(self.browser_listeners):
                 listener(browser, True)
-            self.notify("people")
+            self.signals.people.touch()
             return browser
 
     def leave_browser(self, client_id: int) -> None:
@@ -115,7 +112,7 @@ class Session(RobotEdits):
                 self.roles.leave(client_id)
                 for listener in tuple(self.browser_listeners):
                     listener(browser, False)
-                self.notify("people")
+                self.signals.people.touch()
 
     @property
     def camera(self) -> Camera:
@@ -147,7 +144,7 @@ class Session(RobotEdits):
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot, or the same after an edit: joints keep their values."""
-        with self.change("robot"):
+        with self.change(self.signals.robot):
             self.context.robot = robot
             self.context.assets.look_again()
             self._posed.take(robot, self.options.start_pose)

@@ -1,49 +1,46 @@
-"""State with one lock and one audience: changed, sent and notified together."""
+"""State with one lock and one audience: changed, sent and told together."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
-from contextlib import contextmanager
-from typing import Any, Literal, Protocol
-
-import viser
-
+from sambot_viz.session.signals import Audience, Change, Signal
 from sambot_viz.session.worker import Worker
 
-Event = Literal[
-    "robot",
-    "config",
-    "frames",
-    "joints",
-    "motion",
-    "status",
-    "problems",
-    "edits",
-    "view",
-    "tools",
-    "people",
-]
-"""What has changed; "view" and "tools" are events of one browser, "motion" of how fast
-the robot drives and what keeps turning, "people" of who is there and who drives."""
-Listener = Callable[[Event], None]
-"""Called after a change, with the lock held."""
 
+class Signals:
+    """What of a session changes.
 
-class Audience(Protocol):
-    """The browsers of a session: all of a viser server, or one viser client."""
+    Args:
+        change: sends the changes of the session.
 
-    scene: viser.SceneApi
-    gui: viser.GuiApi
+    Attributes:
+        robot: another robot is shown, or the same after an edit.
+        config: another document is shown, or what is listed in it has changed.
+        frames: the frames, their parents, or the fixed frame.
+        joints: the positions of joints and of frames that move.
+        motion: how fast the robot drives, and what keeps turning.
+        status: what displays report, and what has been read for them.
+        problems: what is wrong.
+        edits: what can be undone, and whether the document is saved.
+        follow: whether all browsers show what the browser shows whose camera moved
+            last, of those that may change the session.
+        people: who is there, and who has control.
+    """
 
-    def flush(self) -> None:
-        """Send waiting messages now."""
-
-    def atomic(self) -> Any:
-        """A context in which messages are held back and then sent together."""
+    def __init__(self, change: Change) -> None:
+        self.robot = Signal(change, None)
+        self.config = Signal(change, None)
+        self.frames = Signal(change, None)
+        self.joints = Signal(change, None)
+        self.motion = Signal(change, None)
+        self.status = Signal(change, None)
+        self.problems = Signal(change, None)
+        self.edits = Signal(change, None)
+        self.follow = Signal(change, False)
+        self.people = Signal(change, None)
 
 
 class SharedState:
-    """Base of `Session`: the lock, the listeners, and how a change is sent.
+    """Base of `Session`: the lock, the signals, and how a change is sent.
 
     Args:
         audience: who sees the state.
@@ -51,37 +48,13 @@ class SharedState:
 
     Attributes:
         lock: the worker's; held while the state changes.
-        listeners: called after each change.
+        change: changes the state; see `Change`.
+        signals: what changes.
     """
 
     def __init__(self, audience: Audience, worker: Worker) -> None:
         self.audience = audience
         self.worker = worker
         self.lock = worker.lock
-        self.listeners: list[Listener] = []
-
-    @contextmanager
-    def change(self, *events: Event) -> Generator[None]:
-        """Change state under the lock; send everything together; notify listeners."""
-        with self.lock:
-            with self.audience.atomic():
-                yield
-                self._before_sending()
-                for event in events:
-                    self.notify(event)
-            self.audience.flush()
-
-    def notify(self, event: Event) -> None:
-        """Call the listeners; one that fails does not stop the others."""
-        self.call(self.listeners, event)
-
-    def call(self, listeners: Sequence[Listener], event: Event) -> None:
-        """Call some listeners; one that fails does not stop the others."""
-        for listener in tuple(listeners):
-            try:
-                listener(event)
-            except Exception as error:
-                self.worker.on_error(error)
-
-    def _before_sending(self) -> None:
-        """Finish a change; a subclass draws here what the change made outdated."""
+        self.change = Change(worker, audience)
+        self.signals = Signals(self.change)

@@ -14,6 +14,8 @@ from desk import Desk
 from judge import changed, drawn_around
 from robots import LONG_NAME, SLIDE
 
+from sambot_viz.session.signals import connect
+
 pytestmark = pytest.mark.browser
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -49,10 +51,12 @@ def shows(desk: Desk, joint: str, value: float) -> None:
 def test_task_07_turn_a_wheel_to_exactly_1_5_by_typing(s: Desk) -> None:
     passed: list[float] = []
     session = s.viz.server.sessions()[0]
-    session.listeners.append(lambda _: passed.append(s.viz.joint_positions[LEFT]))
+    disconnect = connect(
+        [session.signals.joints], lambda: passed.append(s.viz.joint_positions[LEFT])
+    )
     enter(s, LEFT, "1.5")
     shows(s, LEFT, 1.5)
-    session.listeners.pop()
+    disconnect()
     assert field(s, LEFT) == "1.5"
     assert set(passed) <= {0.0, 1.5}
 

@@ -19,6 +19,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
+from sambot_viz.session.signals import connect
 
 BALL = '<visual><geometry><sphere radius="1"/></geometry></visual>'
 CODE = """
@@ -270,13 +271,13 @@ def test_a_second_robot_follows_its_file(package: Path) -> None:
         session = viz._server.sessions()[0]
         drawn = threading.Event()
 
-        def look(event: str) -> None:
+        def look() -> None:
             if "b/changed" in session.tree.frames:
                 drawn.set()
 
         viz._server.wait_for_meshes(20)
         assert "b/own" in session.tree.frames
-        session.listeners.append(look)
+        connect([session.signals.frames], look)
         second.write_text("<robot")
         second.write_text(urdf("changed"))
         assert drawn.wait(20)

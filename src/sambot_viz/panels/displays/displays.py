@@ -38,10 +38,17 @@ class DisplaysPanel(Panel):
     """
 
     name = "displays"
-    remade_by = frozenset({"config", "robot", "frames", "status", "problems"})
-    moved_by = frozenset({"joints"})
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+        signals = session.signals
+        self.remade_by = (
+            signals.config,
+            signals.robot,
+            signals.frames,
+            signals.status,
+            signals.problems,
+        )
+        self.moved_by = (signals.joints,)
         self._session = session
         self._numbers: weakref.WeakKeyDictionary[DisplayConfig, int] = (
             weakref.WeakKeyDictionary()

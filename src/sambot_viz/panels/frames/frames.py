@@ -15,7 +15,6 @@ from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.limits import MOST_FRAMES, require_room
 from sambot_viz.session.robot.user_frames import UserFrame
 
@@ -34,19 +33,22 @@ class FramesPanel(Panel):
 
     Args:
         session: whose frames these are.
-        browser: who asks.
-        say: shows a sentence to the browser.
+        say: shows a sentence to the browser that asks.
+        remake: called when there is another answer.
     """
 
     name = "frames"
-    remade_by = frozenset({"frames", "robot", "config"})
-    moved_by = frozenset({"joints"})
     period = 0.2
 
-    def __init__(self, session: Session, browser: Browser, say: Say) -> None:
+    def __init__(
+        self, session: Session, say: Say, remake: Callable[[Panel], None]
+    ) -> None:
+        signals = session.signals
+        self.remade_by = (signals.frames, signals.robot, signals.config)
+        self.moved_by = (signals.joints,)
         self._session = session
-        self._browser = browser
         self._say = say
+        self._remake = remake
         self._from = self._to = ""
         self._shown = False
 
@@ -102,8 +104,8 @@ class FramesPanel(Panel):
         )
 
     def _choose(self, which: str, frame: str) -> None:
-        with self._browser.change("frames"):
-            setattr(self, which, plain_name(frame.strip()))
+        setattr(self, which, plain_name(frame.strip()))
+        self._remake(self)
 
     # The static transforms
 
@@ -197,8 +199,8 @@ class FramesPanel(Panel):
 
     def _show(self, arguments: tuple[bool]) -> None:
         if self._shown != arguments[0]:
-            with self._browser.change("frames"):
-                (self._shown,) = arguments
+            (self._shown,) = arguments
+            self._remake(self)
 
     def _add_fields(self, arguments: tuple[float | str, ...]) -> None:
         """Add what was typed into fields: x, y, z, roll, pitch, yaw, parent, child."""

@@ -54,10 +54,11 @@ class JointsPanel(Panel):
     """
 
     name = "joints"
-    remade_by = frozenset({"robot"})
-    moved_by = frozenset({"joints", "motion"})
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+        signals = session.signals
+        self.remade_by = (signals.robot,)
+        self.moved_by = (signals.joints, signals.motion)
         self._session = session
         self._remake = remake
         self._rate = 1.0

@@ -28,10 +28,11 @@ class JointsAgainPanel(Panel):
     """
 
     name = "joints_again"
-    remade_by = frozenset({"robot"})
-    moved_by = frozenset({"joints"})
 
     def __init__(self, session: Session, row: Callable[[str], Row | None]) -> None:
+        signals = session.signals
+        self.remade_by = (signals.robot,)
+        self.moved_by = (signals.joints,)
         self._session = session
         self._row = row
 

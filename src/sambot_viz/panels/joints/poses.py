@@ -24,9 +24,10 @@ class PosesPanel(Panel):
     """
 
     name = "poses"
-    remade_by = frozenset({"robot"})
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+        signals = session.signals
+        self.remade_by = (signals.robot,)
         self._session = session
         self._remake = remake
 

@@ -33,7 +33,7 @@ class SavedViews:
         """
         config = self._session.config
         require_room(len(config.saved_views) + 1, MOST_VIEWS, "saved views")
-        with self._session.change("config"):
+        with self._session.change(self._session.signals.config):
             saved = self._session.config.save_view(view)
         undo, redo = self._removal(saved)
         self._session.edits.record(f"Save view {saved.name}", undo, redo)
@@ -50,7 +50,7 @@ class SavedViews:
         def rename(name: str) -> None:
             if saved not in self._session.config.saved_views:
                 raise UsageError(f"the view '{saved.name}' was removed")
-            with self._session.change("config"):
+            with self._session.change(self._session.signals.config):
                 saved.rename(name)
 
         if name and name != before:
@@ -77,11 +77,11 @@ class SavedViews:
         places: list[RemovedView] = []
 
         def remove() -> None:
-            with session.change("config"):
+            with session.change(session.signals.config):
                 places[:] = [session.config.remove_view(saved)]
 
         def put_back() -> None:
-            with session.change("config"):
+            with session.change(session.signals.config):
                 session.config.put_back_view(places[0])
 
         return remove, put_back

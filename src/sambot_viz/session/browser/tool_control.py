@@ -15,6 +15,7 @@ import viser
 
 from sambot_viz.errors import UsageError
 from sambot_viz.session.browser.pointer_events import click_of, pointed_at, rays_of
+from sambot_viz.session.signals import Signal, connect
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.hit import Hit, Selectable
 from sambot_viz.tools.picking.picture import ScreenPoint
@@ -25,7 +26,7 @@ from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
 
 if TYPE_CHECKING:
-    from sambot_viz.session import Event, Session
+    from sambot_viz.session import Session
     from sambot_viz.session.browser.browser import Browser
 
 MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
@@ -41,6 +42,7 @@ class ToolControl:
         browser: whose tools these are.
 
     Attributes:
+        changed: the tools, the selection or the status.
         status: what the current tool reports; empty shows its help.
         selection: the selected links and frames, in the order of selection.
         tools: those of the document first, then the others.
@@ -48,6 +50,7 @@ class ToolControl:
     """
 
     def __init__(self, session: Session, browser: Browser) -> None:
+        self.changed = Signal(browser.change, None)
         self.status = ""
         self.selection: dict[Selectable, None] = {}
         self._session = session
@@ -60,11 +63,23 @@ class ToolControl:
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
-        session.listeners.append(self._hear)
+        signals = session.signals
+        drawn = (
+            signals.joints,
+            signals.frames,
+            signals.robot,
+            signals.config,
+            signals.status,
+        )
+        self._disconnect = (
+            connect([signals.config], self._config_changed),
+            connect(drawn, self._follow_selection),
+        )
 
     def close(self) -> None:
         """The browser has left: follow the session no longer."""
-        self._session.listeners.remove(self._hear)
+        for disconnect in self._disconnect:
+            disconnect()
 
     # The tools
 
@@ -94,7 +109,7 @@ class ToolControl:
         Raises:
             UsageError: an unknown tool.
         """
-        with self._browser.change("tools"):
+        with self._browser.change(self.changed):
             self._switch(self.tool(kind))
 
     def press(self, kind: str) -> None:
@@ -113,7 +128,7 @@ class ToolControl:
 
     def escape(self) -> None:
         """Esc: stop what the current tool does, and go back to the default tool."""
-        with self._browser.change("tools"):
+        with self._browser.change(self.changed):
             self.current.cancel()
             self._switch(self.default)
 
@@ -131,7 +146,7 @@ class ToolControl:
 
     def right_click(self) -> None:
         """A click with the right button: start again what the current tool does."""
-        with self._browser.change("tools"):
+        with self._browser.change(self.changed):
             self.current.cancel()
 
     def focus(self, at: ScreenPoint | None = None) -> None:
@@ -174,7 +189,7 @@ class ToolControl:
 
     def select(self, items: set[Selectable], modifier: str | None) -> None:
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
-        with self._browser.change("tools"):
+        with self._browser.change(self.changed):
             if modifier == "shift":
                 kept = {**self.selection, **dict.fromkeys(items)}
             elif modifier == "cmd/ctrl":
@@ -194,7 +209,7 @@ class ToolControl:
 
     def show_status(self, status: str) -> None:
         """Show a sentence below the toolbar; an empty one shows the tool's help."""
-        with self._browser.change("tools"):
+        with self._browser.change(self.changed):
             self.status = status
 
     # Inside
@@ -212,7 +227,7 @@ class ToolControl:
 
         def then(hit: Hit) -> None:
             self._hovering = False
-            with self._browser.change("tools"):
+            with self._browser.change(self.changed):
                 if self.current is tool and tool.wants_hover:
                     tool.hover(click, hit)
             if self._mouse != followed:
@@ -274,7 +289,7 @@ class ToolControl:
 
     def _click(self, tool: Tool, click: Click) -> None:
         def then(hit: Hit) -> None:
-            with self._browser.change("tools"):
+            with self._browser.change(self.changed):
                 # The tool may have changed meanwhile.
                 if self.current is tool:
                     tool.click(click, hit)
@@ -293,21 +308,21 @@ class ToolControl:
 
     def _rectangle(self, tool: Tool, rays: RayGrid, modifier: str | None) -> None:
         def then(items: set[Selectable]) -> None:
-            with self._browser.change("tools"):
+            with self._browser.change(self.changed):
                 if self.current is tool:
                     tool.rectangle(items, modifier)
 
         self._session.rays.follow((self, "box"), lambda s: s.items_met(rays), then)
 
-    def _hear(self, event: Event) -> None:
-        if event == "config":
+    def _config_changed(self) -> None:
+        with self._browser.change():
+            self._take_config()
+            self._take_settings()
+
+    def _follow_selection(self) -> None:
+        if self.selection:
             with self._browser.change():
-                self._take_config()
-                self._take_settings()
-        if event in ("joints", "frames", "robot", "config", "status"):
-            if self.selection:
-                with self._browser.change():
-                    self._draw_boxes()
+                self._draw_boxes()
 
     def _draw_boxes(self) -> None:
         self._boxes.draw(self._session.rays.boxes_of(self.selection))

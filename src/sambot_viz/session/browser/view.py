@@ -4,7 +4,7 @@ A browser begins with a copy of the document's view, which is its own from then 
 Where the file does not say how near the camera is, it shows the whole robot until the
 user takes another view. The mouse moves the camera, and the numbers follow. The
 document takes over the view of the browser that saves it (`store`). With
-`Session.follow_presenter`, all browsers show what the browser shows whose camera moved
+`Signals.follow`, all browsers show what the browser shows whose camera moved
 last.
 """
 
@@ -25,6 +25,7 @@ from sambot_viz.session.browser.camera import BrowserCamera, same_picture
 from sambot_viz.session.browser.robot_framing import RobotFraming, window_of
 from sambot_viz.session.browser.saved_views import SavedViews
 from sambot_viz.session.document.document_view import target_of, view_of
+from sambot_viz.session.signals import Signal, connect
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.tools.picking.pick_scene import Corners
 from sambot_viz.views.camera import Camera, Vector
@@ -34,7 +35,7 @@ from sambot_viz.views.top_down_ortho import TopDownOrthoView
 from sambot_viz.views.view import WORLD, Values, View
 
 if TYPE_CHECKING:
-    from sambot_viz.session import Browser, Event, Session
+    from sambot_viz.session import Browser, Session
 
 READ_PERIOD = 0.1
 """The numbers follow a moving camera this often [s]."""
@@ -49,9 +50,10 @@ class BrowserView(SavedViews):
 
     Args:
         session: what is shown, and the document with its views.
-        browser: whose view it is; its listeners hear of changes as "view".
+        browser: whose view it is.
 
     Attributes:
+        changed: the type or the numbers of the view.
         view: the view; one of an unknown type is shown as Orbit.
     """
 
@@ -59,6 +61,7 @@ class BrowserView(SavedViews):
 
     def __init__(self, session: Session, browser: Browser) -> None:
         super().__init__(session)
+        self.changed = Signal(browser.change, None)
         self._browser = browser
         self._camera = BrowserCamera(browser.client)
         self._target = WORLD
@@ -75,11 +78,18 @@ class BrowserView(SavedViews):
             session.worker.post(self._moved, latest_of=self)
 
         browser.client.camera.on_update(moved)
-        session.listeners.append(self._hear)
+        signals = session.signals
+        self._disconnect = (
+            connect(
+                [signals.joints, signals.frames, signals.robot], self._follow_target
+            ),
+            connect([signals.robot, signals.status], self._frame_robot),
+        )
 
     def close(self) -> None:
         """The browser has left: follow the session no longer."""
-        self._session.listeners.remove(self._hear)
+        for disconnect in self._disconnect:
+            disconnect()
         self._reader.close()
 
     # Asking
@@ -162,7 +172,7 @@ class BrowserView(SavedViews):
 
     def show(self) -> None:
         """Take the document's view, after a program has set another one."""
-        with self._browser.change("view"):
+        with self._browser.change(self.changed):
             self._take(self._session.config.detached_view())
             self._begin()
 
@@ -192,7 +202,7 @@ class BrowserView(SavedViews):
     def _frame_robot(self) -> None:
         box = self._framing.box()
         if box is not None:
-            with self._browser.change("view"):
+            with self._browser.change(self.changed):
                 self._apply(self._values_for(box))
                 self._point()
 
@@ -216,7 +226,7 @@ class BrowserView(SavedViews):
         """Change the view, move the camera, and record that."""
         config, before = self._config, dict(self.values)
         self._framing.stop()
-        with self._browser.change("view"):
+        with self._browser.change(self.changed):
             yield
             self._target = target_of(self._session, self.view, self._target)
             self._point()
@@ -238,7 +248,7 @@ class BrowserView(SavedViews):
         if self._config is not shown:
             raise UsageError("another view was shown since")
         self._framing.stop()
-        with self._browser.change("view"):
+        with self._browser.change(self.changed):
             if config is not shown:
                 self._take(config)
             self._apply(values)
@@ -253,7 +263,7 @@ class BrowserView(SavedViews):
     def _move(self, values: Callable[[], Values]) -> None:
         """Move the camera from where it is now; as with a mouse, that is no edit."""
         self._framing.stop()
-        with self._browser.change("view"):
+        with self._browser.change(self.changed):
             self._take_camera()
             self._apply(values())
             self._point()
@@ -282,14 +292,14 @@ class BrowserView(SavedViews):
         with self._session.lock:
             if same_picture(self.camera, self.view.camera(self._target)):
                 return
-            with self._browser.change("view"):
+            with self._browser.change(self.changed):
                 self._take_camera()
             self._lead()
 
     def _lead(self) -> None:
         """The others show the same, where they are to follow."""
         session, own = self._session, self._browser.client_id
-        if session.follow_presenter and session.roles.may_edit(own):
+        if session.signals.follow.value and session.roles.may_edit(own):
             for other in tuple(self._session.browsers.values()):
                 if other is not self._browser:
                     other.view.follow(self)
@@ -297,18 +307,12 @@ class BrowserView(SavedViews):
     def follow(self, presenter: BrowserView) -> None:
         """Show what another browser shows."""
         self._framing.stop()
-        with self._browser.change("view"):
+        with self._browser.change(self.changed):
             if self._config.class_id != presenter._config.class_id:
                 self._take(self._session.config.detached_view(presenter._config))
             self._apply(presenter.values)
             self._target = presenter._target
             self._camera.point(presenter.camera)
-
-    def _hear(self, event: Event) -> None:
-        if event in ("joints", "frames", "robot"):
-            self._follow_target()
-        if event in ("robot", "status"):
-            self._frame_robot()
 
     def _follow_target(self) -> None:
         """Move the camera with the target frame."""

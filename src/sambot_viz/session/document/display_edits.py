@@ -49,7 +49,7 @@ class DisplayEdits(ShownDocument):
     def _apply_options(self, action: Callable[[], object]) -> None:
         context = self.context
         before = (context.fixed_frame, context.background)
-        with self.change("config"):
+        with self.change(self.signals.config):
             action()
             self.drawn.take_options()
             self._period_changed()
@@ -65,7 +65,7 @@ class DisplayEdits(ShownDocument):
             UsageError: the value cannot be meant, or the display refuses it.
         """
         config = display.config
-        with self.change("status"):
+        with self.change(self.signals.status):
             refusal = display.refusal(path, value)
             if refusal is None:
                 with self._setting(config, path, path):
@@ -95,7 +95,7 @@ class DisplayEdits(ShownDocument):
             raise UsageError(
                 f"'{display.config.name}' has no {entries.singular} '{name}'"
             )
-        with self.change("status"):
+        with self.change(self.signals.status):
             with self._setting(display.config, f"{name}/{path}", (title, name, path)):
                 entries.set(name, path, value)
                 display.property_changed(f"{title}/{path}")
@@ -108,7 +108,7 @@ class DisplayEdits(ShownDocument):
 
         def apply(put_back: PutBack) -> None:
             self._require(config)
-            with self.change("config", "status"):
+            with self.change(self.signals.config, self.signals.status):
                 put_back()
                 display = self.display_of(config)
                 if display is not None:
@@ -125,7 +125,7 @@ class DisplayEdits(ShownDocument):
 
         def apply(on: bool) -> None:
             self._require(config)
-            with self.change("status"):
+            with self.change(self.signals.status):
                 config.set_enabled(on)
                 self.drawn.apply_enabled()
 

@@ -15,7 +15,8 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.document.drawn_scene import DrawnScene
 from sambot_viz.session.document.switches import first_switches
 from sambot_viz.session.history import EditHistory
-from sambot_viz.session.shared_state import Audience, SharedState
+from sambot_viz.session.shared_state import SharedState
+from sambot_viz.session.signals import Audience
 from sambot_viz.session.worker import Worker
 
 
@@ -49,6 +50,7 @@ class ShownDocument(SharedState):
         reader: Reader | None,
     ) -> None:
         super().__init__(audience, worker)
+        self.change.finish = self._before_sending
         self.tree = FrameTree()
         self.context = DisplayContext(
             scene=audience.scene,
@@ -79,7 +81,7 @@ class ShownDocument(SharedState):
 
     def show_config(self) -> None:
         """Make the displays of the document and draw them; existing ones are kept."""
-        with self.change("config"):
+        with self.change(self.signals.config):
             self.drawn.make_displays()
 
     def set_config(self, config: RvizConfig, trusted: bool = True) -> None:
@@ -113,15 +115,15 @@ class ShownDocument(SharedState):
 
     def files_saved(self, files: Set[Path]) -> None:
         """Read again the robots that displays have from some of these files."""
-        with self.change("status"):
+        with self.change(self.signals.status):
             self.drawn.read_again(files)
 
     def _apply(self, action: Callable[[], object]) -> None:
-        with self.change("config", "status"):
+        with self.change(self.signals.config, self.signals.status):
             action()
 
     def _assets_read(self) -> None:
-        with self.change("status"):
+        with self.change(self.signals.status):
             self.drawn.assets_read()
 
     def _period_changed(self) -> None:
@@ -134,9 +136,9 @@ class ShownDocument(SharedState):
 
     def _frames_changed(self) -> None:
         self.drawn.draw_frames()
-        self.notify("status")
-        self.notify("frames")
+        self.signals.status.touch()
+        self.signals.frames.touch()
 
     def _redraw(self) -> None:
         self.drawn.redraw()
-        self.notify("status")
+        self.signals.status.touch()

@@ -20,11 +20,12 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.browser.driver_view import DriverView
+from sambot_viz.session.signals import connect
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.views.camera import Vector
 
 if TYPE_CHECKING:
-    from sambot_viz.session import Event, Session
+    from sambot_viz.session import Session
 
 ODOM = "odom"
 """The frame that the robot moves in; its origin is on the floor below the start."""
@@ -58,7 +59,8 @@ class DriveControl:
         self._line = PathLine(session.audience.scene)
         self._seen = DriverView(session)
         self._drawing = Throttle(session.worker, TRAIL_PERIOD, self._draw_trail)
-        session.listeners.append(self._hear)
+        signals = session.signals
+        connect([signals.joints, signals.frames, signals.robot], self._drawing.request)
 
     @property
     def wheels(self) -> WheelPair | None:
@@ -140,7 +142,7 @@ class DriveControl:
     def _set(self, v: float, w: float) -> None:
         changed, self.v, self.w = (v, w) != (self.v, self.w), v, w
         if changed:
-            self._session.notify("motion")
+            self._session.signals.motion.touch()
 
     def show_motion(self) -> bool:
         """Make the fixed frame one that the robot moves in, if it is one of its own.
@@ -229,10 +231,6 @@ class DriveControl:
         if parent is None:
             T = Transform.trusted(self._matrix())
             session.add_frame(ODOM, self._root, T, static=False)
-
-    def _hear(self, event: Event) -> None:
-        if event in ("joints", "frames", "robot"):
-            self._drawing.request()
 
     def _draw_trail(self) -> None:
         session = self._session

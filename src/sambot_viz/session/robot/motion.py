@@ -72,7 +72,7 @@ class Motion:
                 self._turning.pop(joint, None)
             else:
                 self._turning[joint] = _Turning(rate, seconds)
-            self._session.notify("motion")
+            self._session.signals.motion.touch()
         self.start()
 
     def turns(self, joint: str) -> bool:
@@ -89,7 +89,7 @@ class Motion:
         with self._session.lock:
             self._turning.clear()
             self.drive.stop()
-            self._session.notify("motion")
+            self._session.signals.motion.touch()
 
     def advance(self, dt: float) -> None:
         """Move on by a time [s]; this is what happens at every step."""
@@ -112,7 +112,7 @@ class Motion:
             driven, frames = self.drive.advance(dt)
             session.move({**positions, **driven}, frames)
             if before != self.turning:
-                session.notify("motion")
+                session.signals.motion.touch()
 
     def start(self) -> None:
         """Start the steps, if something moves and they do not run yet."""

@@ -23,7 +23,7 @@ from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.robot.past_motion import PastMotion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.robot.user_frames import UserFrame, UserFrames
-from sambot_viz.session.shared_state import Audience
+from sambot_viz.session.signals import Audience
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.worker import Worker
 
@@ -199,7 +199,7 @@ class RobotEdits(DisplayEdits):
 
     def _set_frame(self, child: str, frame: UserFrame | None) -> None:
         """Add a frame, or change it; None removes it."""
-        with self.change("frames"):
+        with self.change(self.signals.frames):
             if frame is not None:
                 parent, transform = frame.parent, frame.transform
                 self.added.set(parent, child, transform, static=frame.static)
@@ -222,7 +222,7 @@ class RobotEdits(DisplayEdits):
                 self.drawn.place(frames.keys())
             # The poses are sent before any panel is notified.
             self.audience.flush()
-            self.notify("joints")
+            self.signals.joints.touch()
 
     def _period_changed(self) -> None:
         self._pacer.period = self.period
