@@ -10,7 +10,10 @@ const taken = (typed) => {
 };
 
 test("all names are offered before something is typed", () => {
-  assert.deepEqual(offers(FRAMES, null).map(({ name }) => name), FRAMES);
+  assert.deepEqual(
+    offers(FRAMES, null).map(({ name }) => name),
+    FRAMES,
+  );
   assert.equal(preselected(offers(FRAMES, null), null), -1);
 });
 
@@ -21,13 +24,22 @@ test("part of a name finds it, whatever its case", () => {
 
 test("a name that is typed in full is meant, also when others contain it", () => {
   assert.equal(taken("link"), "link");
-  assert.deepEqual(offers(FRAMES, "link").map(({ name }) => name), ["link", "base_link"]);
+  assert.deepEqual(
+    offers(FRAMES, "link").map(({ name }) => name),
+    ["link", "base_link"],
+  );
 });
 
 test("a text that several names contain is kept as it is, unless one is chosen", () => {
   assert.equal(taken("wheel"), "wheel");
-  assert.deepEqual(offers(FRAMES, "wheel").map(({ name, isNew }) => [name, isNew]),
-    [["left_wheel", false], ["right_wheel", false], ["wheel", true]]);
+  assert.deepEqual(
+    offers(FRAMES, "wheel").map(({ name, isNew }) => [name, isNew]),
+    [
+      ["left_wheel", false],
+      ["right_wheel", false],
+      ["wheel", true],
+    ],
+  );
 });
 
 test("a name that there is not can be kept", () => {
@@ -36,5 +48,8 @@ test("a name that there is not can be kept", () => {
 });
 
 test("each name is offered once", () => {
-  assert.deepEqual(offers(["a", "a", "b"], null).map(({ name }) => name), ["a", "b"]);
+  assert.deepEqual(
+    offers(["a", "a", "b"], null).map(({ name }) => name),
+    ["a", "b"],
+  );
 });

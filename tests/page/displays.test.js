@@ -10,21 +10,38 @@ Object.assign(globalThis, {
 });
 const { rows } = await import("../../src/sambot_viz/page/wire/channel.js");
 const { folds } = await import("../../src/sambot_viz/page/state.js");
-const { members, moveBy, nearest, neighbour, place, places } = await import("../../src/sambot_viz/page/panels/display_order.js");
+const { members, moveBy, nearest, neighbour, place, places } =
+  await import("../../src/sambot_viz/page/panels/display_order.js");
 
 /** @param {string} id @param {string} above @param {any} [more] */
-const display = (id, above = "", more = {}) => ({ id, in: above, kind: "display", name: id, display: "x/Y", ...more });
+const display = (id, above = "", more = {}) => ({
+  id,
+  in: above,
+  kind: "display",
+  name: id,
+  display: "x/Y",
+  ...more,
+});
 /** @param {string} id */
 const get = (id) => /** @type {any} */ (rows.get(id));
 
 /** a, a group g with p and q, b; every row is 10 high, in the order of the page. */
 beforeEach(() => {
   folds.set({});
-  rows.take("session", "rows", { base: 1, panels: { displays: [
-    { id: "options", in: "", kind: "group", name: "Global Options" },
-    display("a"), { id: "a/x", in: "a", kind: "float", name: "x", value: 1 },
-    display("g", "", { group: true, open: true }), display("p", "g"), display("q", "g"), display("b"),
-  ] } });
+  rows.take("session", "rows", {
+    base: 1,
+    panels: {
+      displays: [
+        { id: "options", in: "", kind: "group", name: "Global Options" },
+        display("a"),
+        { id: "a/x", in: "a", kind: "float", name: "x", value: 1 },
+        display("g", "", { group: true, open: true }),
+        display("p", "g"),
+        display("q", "g"),
+        display("b"),
+      ],
+    },
+  });
 });
 
 /** @param {string[]} shown */
@@ -60,16 +77,31 @@ test("a folded group is passed in one step", () => {
 test("after a removal the next display is selected, else the one before, else the group", () => {
   assert.equal(neighbour(get("a")), "g");
   assert.equal(neighbour(get("b")), "g");
-  rows.take("session", "changes", { base: 1, panels: { displays: [display("g", "", { group: true }), display("p", "g")] } });
+  rows.take("session", "changes", {
+    base: 1,
+    panels: { displays: [display("g", "", { group: true }), display("p", "g")] },
+  });
   assert.equal(neighbour(get("p")), "g");
 });
 
 test("of two steps in quick succession the second waits for the first", () => {
   /** @type {any[]} */
   const sent = [];
-  Object.assign(globalThis, { window: { __viserMutable: { sendMessage: (/** @type {any} */ m) => sent.push(m.updates.value) } } });
-  const order = (/** @type {string[]} */ ...ids) => rows.take("session", "changes", { base: 1, panels: { displays: [
-    ...ids.map((id) => display(id)), { id: "displays/move", in: "", kind: "action" }] } });
+  Object.assign(globalThis, {
+    window: {
+      __viserMutable: { sendMessage: (/** @type {any} */ m) => sent.push(m.updates.value) },
+    },
+  });
+  const order = (/** @type {string[]} */ ...ids) =>
+    rows.take("session", "changes", {
+      base: 1,
+      panels: {
+        displays: [
+          ...ids.map((id) => display(id)),
+          { id: "displays/move", in: "", kind: "action" },
+        ],
+      },
+    });
   order("a", "b", "c");
   moveBy("c", -1);
   moveBy("c", -1);
@@ -86,15 +118,26 @@ test("of two steps in quick succession the second waits for the first", () => {
 
 test("a dragged display can go before and behind each other one, and into groups", () => {
   const found = places("a", boxes(["options", "a", "g", "p", "q", "b"]));
-  assert.deepEqual(found.map(({ group, index, y }) => [group, index, y]), [
-    ["", 0, 20], ["g", 0, 30], ["g", 1, 40], ["g", 2, 50], ["", 1, 50], ["", 2, 60],
-  ]);
+  assert.deepEqual(
+    found.map(({ group, index, y }) => [group, index, y]),
+    [
+      ["", 0, 20],
+      ["g", 0, 30],
+      ["g", 1, 40],
+      ["g", 2, 50],
+      ["", 1, 50],
+      ["", 2, 60],
+    ],
+  );
 });
 
 test("a folded group takes a display on its row", () => {
   folds.set({ g: false });
   const into = places("a", boxes(["options", "a", "g", "b"])).filter((one) => one.into);
-  assert.deepEqual(into.map(({ group, index, y, into: row }) => [group, index, y, row]), [["g", 2, 25, "g"]]);
+  assert.deepEqual(
+    into.map(({ group, index, y, into: row }) => [group, index, y, row]),
+    [["g", 2, 25, "g"]],
+  );
 });
 
 test("a group does not go into itself", () => {

@@ -6,8 +6,11 @@ import { test } from "node:test";
 import { isTyping, meaning } from "../../src/sambot_viz/page/window/keys.js";
 
 const TOOLS = [
-  { name: "Interact", key: "i" }, { name: "Move Camera", key: "m" }, { name: "Select", key: "s" },
-  { name: "Focus Camera", key: "c" }, { name: "Measure", key: "n" },
+  { name: "Interact", key: "i" },
+  { name: "Move Camera", key: "m" },
+  { name: "Select", key: "s" },
+  { name: "Focus Camera", key: "c" },
+  { name: "Measure", key: "n" },
 ];
 const press = (key, more = {}) => meaning({ key, ...more }, TOOLS);
 
@@ -22,7 +25,10 @@ test("on a keyboard without Latin letters the place of the key counts", () => {
 });
 
 test("f, z, r, h and Esc act on the view and the window", () => {
-  assert.deepEqual(meaning({ key: "f" }, TOOLS, [0.5, 0.25]), { act: "tools/focus", with: [0.5, 0.25] });
+  assert.deepEqual(meaning({ key: "f" }, TOOLS, [0.5, 0.25]), {
+    act: "tools/focus",
+    with: [0.5, 0.25],
+  });
   assert.deepEqual(press("z"), { act: "tools/zero" });
   assert.deepEqual(press("r"), { act: "tools/reset" });
   assert.deepEqual(press("Escape"), { act: "tools/escape" });
@@ -58,7 +64,8 @@ test("a key that is held acts once", () => {
 test("a text field takes letters; a tick box, a slider and a button do not", () => {
   const input = (type) => ({ tagName: "INPUT", type });
   for (const type of ["text", "search", "number", ""]) assert.ok(isTyping(input(type)), type);
-  for (const type of ["checkbox", "range", "color", "radio"]) assert.ok(!isTyping(input(type)), type);
+  for (const type of ["checkbox", "range", "color", "radio"])
+    assert.ok(!isTyping(input(type)), type);
   for (const tagName of ["TEXTAREA", "SELECT"]) assert.ok(isTyping({ tagName }));
   assert.ok(isTyping({ tagName: "DIV", isContentEditable: true }));
   for (const tagName of ["BUTTON", "CANVAS", "DIV"]) assert.ok(!isTyping({ tagName }));

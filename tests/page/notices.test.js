@@ -3,9 +3,18 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { EDITED, rows } from "../../src/sambot_viz/page/wire/channel.js";
-import { notice, refusals, refuse, sayRefused, tell } from "../../src/sambot_viz/page/window/notices.js";
+import {
+  notice,
+  refusals,
+  refuse,
+  sayRefused,
+  tell,
+} from "../../src/sambot_viz/page/window/notices.js";
 
-beforeEach(() => { notice.set(null); refusals.clear(); });
+beforeEach(() => {
+  notice.set(null);
+  refusals.clear();
+});
 
 test("a second mistake takes the place of the first", () => {
   sayRefused("frames/add", "name the child frame");

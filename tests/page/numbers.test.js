@@ -3,7 +3,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped, writtenNumber } from "../../src/sambot_viz/page/cells/numbers.js";
+import {
+  clamped,
+  fittingNumber,
+  formatNumber,
+  parseNumber,
+  snapped,
+  stepped,
+  writtenNumber,
+} from "../../src/sambot_viz/page/cells/numbers.js";
 
 /** @param {string} typed @param {number} value @param {string} [unit] */
 function reads(typed, value, unit = "rad") {
@@ -40,7 +48,7 @@ test("sums, products, brackets and pi are worked out", () => {
   reads("pi/2", Math.PI / 2);
   reads("-π", -Math.PI);
   reads("2pi", 2 * Math.PI);
-  reads("2*pi/3", 2 * Math.PI / 3);
+  reads("2*pi/3", (2 * Math.PI) / 3);
   reads("tau/4", Math.PI / 2);
   reads("(1+2)/4", 0.75);
   reads("1-2-3", -4);
@@ -60,7 +68,7 @@ test("an angle with pi is in radians, whatever unit is shown", () => {
   reads("pi", Math.PI, "°");
   reads("-pi/2", -Math.PI / 2, "°");
   reads("tau", 2 * Math.PI, "°/s");
-  reads("pi deg", Math.PI * Math.PI / 180, "rad");
+  reads("pi deg", (Math.PI * Math.PI) / 180, "rad");
   reads("2pi", 2 * Math.PI, "m");
 });
 
@@ -78,7 +86,21 @@ test("a rate is read like an angle or a length per second", () => {
 });
 
 test("what is no number is refused with a reason", () => {
-  for (const typed of ["abc", "1 2", "1..2", "1.5x", "(1", "1)", "e", "--", "2 +", "1..2", "1/0", "1e999", "pi pi ("]) {
+  for (const typed of [
+    "abc",
+    "1 2",
+    "1..2",
+    "1.5x",
+    "(1",
+    "1)",
+    "e",
+    "--",
+    "2 +",
+    "1..2",
+    "1/0",
+    "1e999",
+    "pi pi (",
+  ]) {
     refuses(typed, /is not a number/);
   }
   refuses("", /type a number/);

@@ -7,13 +7,33 @@ const { addressOf, partsOf } = await import("../../src/sambot_viz/page/wire/perm
 const page = { origin: "https://lab.example.org", pathname: "/robot/" };
 
 test("a link is read as it was written, whatever the names", () => {
-  const parts = [["view", "Orbit"], ["view.Focal Point", "0,1.5,-2"], ["j.left wheel+=%&#/\u00e9", "1e-7"], ["show.TF/Frames/=a", "0"],
-    ["select", "link:a"], ["select", "link:b"], ["v", "1"]];
+  const parts = [
+    ["view", "Orbit"],
+    ["view.Focal Point", "0,1.5,-2"],
+    ["j.left wheel+=%&#/\u00e9", "1e-7"],
+    ["show.TF/Frames/=a", "0"],
+    ["select", "link:a"],
+    ["select", "link:b"],
+    ["v", "1"],
+  ];
   const address = addressOf(parts, page);
-  assert.deepEqual(partsOf(new URL(address).hash), [parts.map(([name]) => name), parts.map(([, value]) => value)]);
+  assert.deepEqual(partsOf(new URL(address).hash), [
+    parts.map(([name]) => name),
+    parts.map(([, value]) => value),
+  ]);
 });
 
 test("a link keeps the path of a proxy, leaves the query away, and can be read", () => {
-  assert.equal(addressOf([["view", "Orbit"], ["view.Focal Point", "0,1,2"], ["select", "link:a"], ["v", "1"]], page),
-    "https://lab.example.org/robot/#view=Orbit&view.Focal+Point=0,1,2&select=link:a&v=1");
+  assert.equal(
+    addressOf(
+      [
+        ["view", "Orbit"],
+        ["view.Focal Point", "0,1,2"],
+        ["select", "link:a"],
+        ["v", "1"],
+      ],
+      page,
+    ),
+    "https://lab.example.org/robot/#view=Orbit&view.Focal+Point=0,1,2&select=link:a&v=1",
+  );
 });

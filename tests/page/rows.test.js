@@ -8,7 +8,12 @@ const row = (id, more = {}) => ({ id, in: "", kind: "float", ...more });
 /** Rows of one panel, and what its listeners have heard. */
 function grid() {
   const rows = new Rows();
-  rows.take("session", "rows", { base: 1, panels: { displays: [row("a", { value: 1 }), row("a/x", { in: "a", value: 2 }), row("b", { value: 3 })] } });
+  rows.take("session", "rows", {
+    base: 1,
+    panels: {
+      displays: [row("a", { value: 1 }), row("a/x", { in: "a", value: 2 }), row("b", { value: 3 })],
+    },
+  });
   /** @type {string[]} */
   const heard = [];
   for (const key of ["a", "a/x", "b", "panel:displays"]) rows.listen(key, () => heard.push(key));
@@ -58,7 +63,10 @@ test("a row that moves is heard by its panel, and by no row that stays as it is"
 
 test("a row that goes is heard, and is not there any more", () => {
   const { rows, heard } = grid();
-  rows.take("session", "changes", { base: 1, panels: { displays: [/** @type {any} */ (rows.get("b"))] } });
+  rows.take("session", "changes", {
+    base: 1,
+    panels: { displays: [/** @type {any} */ (rows.get("b"))] },
+  });
   assert.equal(rows.get("a/x"), undefined);
   assert.deepEqual(rows.children("a"), []);
   assert.deepEqual(heard.sort(), ["a", "a/x", "panel:displays"]);
@@ -74,10 +82,26 @@ test("the rows of a session and those of a browser do not touch each other", () 
 
 test("the numbers of a vector are rows of their own", () => {
   const rows = new Rows();
-  const vector = { id: "v", in: "", kind: "vector", name: "Offset", unit: "m", parts: ["X", "Y"], value: [1, 2] };
+  const vector = {
+    id: "v",
+    in: "",
+    kind: "vector",
+    name: "Offset",
+    unit: "m",
+    parts: ["X", "Y"],
+    value: [1, 2],
+  };
   rows.take("session", "rows", { base: 1, panels: { displays: [vector] } });
   assert.deepEqual(rows.children("v"), ["v/.X", "v/.Y"]);
-  assert.deepEqual(rows.get("v/.Y"), { id: "v/.Y", in: "v", kind: "float", name: "Y", value: 2, part: 1, unit: "m" });
+  assert.deepEqual(rows.get("v/.Y"), {
+    id: "v/.Y",
+    in: "v",
+    kind: "float",
+    name: "Y",
+    value: 2,
+    part: 1,
+    unit: "m",
+  });
   /** @type {string[]} */
   const heard = [];
   for (const key of ["v", "v/.X", "v/.Y"]) rows.listen(key, () => heard.push(key));
@@ -118,14 +142,26 @@ test("a server that was started again with fewer panels leaves no old rows", () 
 
 test("who watches cannot set what others see, and their own rows they can", () => {
   const { rows } = grid();
-  rows.take("browser", "rows", { base: 1, panels: { views: [
-    { id: "mine", in: "", kind: "float", value: 1, own: true }, { id: "fact", in: "", kind: "fact", fixed: true, value: "x" }] } });
+  rows.take("browser", "rows", {
+    base: 1,
+    panels: {
+      views: [
+        { id: "mine", in: "", kind: "float", value: 1, own: true },
+        { id: "fact", in: "", kind: "fact", fixed: true, value: "x" },
+      ],
+    },
+  });
   let heard = 0;
-  rows.listen("a", () => { heard += 1; });
+  rows.listen("a", () => {
+    heard += 1;
+  });
   assert.equal(rows.get("a")?.off, undefined);
   rows.watch(true);
   assert.equal(heard, 1);
-  assert.deepEqual([rows.get("a")?.off, rows.get("mine")?.off, rows.get("fact")?.off], [true, undefined, undefined]);
+  assert.deepEqual(
+    [rows.get("a")?.off, rows.get("mine")?.off, rows.get("fact")?.off],
+    [true, undefined, undefined],
+  );
   assert.equal(rows.get("a"), rows.get("a"));
   rows.watch(false);
   assert.deepEqual([heard, rows.get("a")?.off], [2, undefined]);

@@ -2,15 +2,19 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { fitted } from "../../src/sambot_viz/page/window/sizes.js";
 
-const view = (/** @type {any} */ sizes, /** @type {number} */ width) => (width - sizes.left - sizes.right) / width;
+const view = (/** @type {any} */ sizes, /** @type {number} */ width) =>
+  (width - sizes.left - sizes.right) / width;
 
 test("panels leave about half of every window to the view", () => {
-  for (let width = 1100; width < 2600; width += 50) assert.ok(view(fitted({}, width, 800), width) > 0.47, String(width));
-  for (let width = 320; width < 1300; width += 50) assert.ok(fitted({}, width, 800).side <= 0.52 * width + 1, String(width));
+  for (let width = 1100; width < 2600; width += 50)
+    assert.ok(view(fitted({}, width, 800), width) > 0.47, String(width));
+  for (let width = 320; width < 1300; width += 50)
+    assert.ok(fitted({}, width, 800).side <= 0.52 * width + 1, String(width));
 });
 
 test("a panel that a hand has widened keeps its size in that window and in wider ones", () => {
-  for (const width of [1280, 1600]) assert.equal(fitted({ left: 280, right: 600, at: 1280 }, width, 720).right, 600);
+  for (const width of [1280, 1600])
+    assert.equal(fitted({ left: 280, right: 600, at: 1280 }, width, 720).right, 600);
 });
 
 test("in a narrower window than it was widened in, both sides give way, the wider one more", () => {

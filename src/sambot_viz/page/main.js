@@ -39,4 +39,5 @@ const start = () => {
   connect();
 };
 // The script may be there before the page's body is.
-if (document.readyState !== "loading") start(); else addEventListener("DOMContentLoaded", start);
+if (document.readyState !== "loading") start();
+else addEventListener("DOMContentLoaded", start);

@@ -22,7 +22,10 @@ export class Cell {
   set(value) {
     if (this.value === value) return;
     this.value = value;
-    if (this.kept) { stored[this.kept] = value; store(); }
+    if (this.kept) {
+      stored[this.kept] = value;
+      store();
+    }
     for (const listener of [...this.listeners]) listener();
   }
 
@@ -35,7 +38,9 @@ export class Cell {
       this.listeners.add(listener);
       // It may have changed while the component was drawn for the first time.
       if (this.value !== drawn) listener();
-      return () => { this.listeners.delete(listener); };
+      return () => {
+        this.listeners.delete(listener);
+      };
     }, [this]);
     return this.value;
   }
@@ -43,11 +48,19 @@ export class Cell {
 
 /** @type {Record<string, any>} */
 const stored = (() => {
-  try { return JSON.parse(localStorage.getItem(STORAGE) || "{}"); } catch { return {}; }
+  try {
+    return JSON.parse(localStorage.getItem(STORAGE) || "{}");
+  } catch {
+    return {};
+  }
 })();
 
 function store() {
-  try { localStorage.setItem(STORAGE, JSON.stringify(stored)); } catch { /* private windows have none */ }
+  try {
+    localStorage.setItem(STORAGE, JSON.stringify(stored));
+  } catch {
+    /* private windows have none */
+  }
 }
 
 /** Follow a row, or the list of a panel ("panel:NAME"), in a component. @param {string} key */
@@ -61,14 +74,20 @@ export function useRow(key) {
  * @param {() => void | (() => void)} effect @param {any[]} of */
 export const useAfter = (effect, of) => useEffect(effect, of);
 
-/** Which rows are unfolded or folded, when not as the server says. @type {Cell<Record<string, boolean>>} */
+/**
+ * Which rows are unfolded or folded, when not as the server says.
+ * @type {Cell<Record<string, boolean>>}
+ */
 export const folds = new Cell({});
 /** The selected row of each panel. @type {Cell<Record<string, string>>} */
 export const selected = new Cell({});
 /** Angles in degrees. @type {Cell<boolean>} */
 export const degrees = new Cell(false, "degrees");
 
-/** How wide the names of a panel's rows are, as a part of the panel. @type {Cell<Record<string, number>>} */
+/**
+ * How wide the names of a panel's rows are, as a part of the panel.
+ * @type {Cell<Record<string, number>>}
+ */
 export const splits = new Cell({}, "splits");
 /** @param {string} id */
 export function isOpen(id) {
@@ -76,7 +95,9 @@ export function isOpen(id) {
 }
 
 /** @param {string} id @param {boolean} open */
-export function fold(id, open) { folds.set({ ...folds.value, [id]: open }); }
+export function fold(id, open) {
+  folds.set({ ...folds.value, [id]: open });
+}
 
 /** @param {string} panel @param {string} id */
 export function select(panel, id) {
@@ -85,5 +106,7 @@ export function select(panel, id) {
 
 /** The ids of the unfolded rows of the displays, which are saved with the config. */
 export function unfolded() {
-  return (rows.panels.get("displays") || []).filter((id) => isOpen(id) && (rows.children(id).length > 0 || rows.get(id)?.lazy));
+  return (rows.panels.get("displays") || []).filter(
+    (id) => isOpen(id) && (rows.children(id).length > 0 || rows.get(id)?.lazy),
+  );
 }

@@ -2,7 +2,7 @@
 
 interface Window {
   __viserMutable?: {
-    sendMessage(message: { type: string, [field: string]: unknown }): void;
+    sendMessage(message: { type: string; [field: string]: unknown }): void;
     requestRender?(): void;
     canvas: HTMLCanvasElement;
     /** Objects of three.js and camera-controls have no types here. */
@@ -12,7 +12,7 @@ interface Window {
     backgroundMaterial: any;
   };
   /** What the window tells the scripts that draw and move the view. */
-  sambotViz?: { view?: { kind: string, focalSize: number, focalFixed: boolean } };
+  sambotViz?: { view?: { kind: string; focalSize: number; focalFixed: boolean } };
   /** What rviz_look.js has changed, for tests. */
   sambotLink?: string;
   sambotVizLook?: Record<string, number>;

@@ -35,7 +35,9 @@ export function Box({ row, tab }) {
 /** @param {{row: Row, tab: number}} props */
 function TextCell({ row, tab }) {
   return html`<${Field} row=${row} tab=${tab} shown=${String(row.value ?? "")}
-    accept=${(/** @type {string} */ typed) => { send(row.id, typed); }} />`;
+    accept=${(/** @type {string} */ typed) => {
+      send(row.id, typed);
+    }} />`;
 }
 
 /** Several numbers in one field, as RViz writes a vector. @param {{row: Row, tab: number}} props */
@@ -45,12 +47,15 @@ function VectorCell({ row, tab }) {
   const texts = row.value.map((/** @type {number} */ part) => formatNumber(part * factor, 5));
   /** @param {string} typed */
   const accept = (typed) => {
-    const values = typed.split(/[;\s]+/).filter(Boolean).map((part, i) => {
-      // What was not changed keeps the digits that are not shown.
-      if (part === texts[i]) return row.value[i];
-      const read = parseNumber(part, unit);
-      return "value" in read ? read.value : NaN;
-    });
+    const values = typed
+      .split(/[;\s]+/)
+      .filter(Boolean)
+      .map((part, i) => {
+        // What was not changed keeps the digits that are not shown.
+        if (part === texts[i]) return row.value[i];
+        const read = parseNumber(part, unit);
+        return "value" in read ? read.value : NaN;
+      });
     if (values.length !== row.value.length || values.some(Number.isNaN)) {
       return `type ${row.value.length} numbers, such as ${row.value.map(() => "0").join("; ")}`;
     }
@@ -62,16 +67,22 @@ function VectorCell({ row, tab }) {
 
 /** @param {{row: Row, tab: number}} props */
 function ColorCell({ row, tab }) {
-  const hex = "#" + row.value.map((/** @type {number} */ part) => part.toString(16).padStart(2, "0")).join("");
+  const hex =
+    "#" +
+    row.value.map((/** @type {number} */ part) => part.toString(16).padStart(2, "0")).join("");
   // All that is picked until the picker is closed is one step for undo.
   const gesture = useRef(0);
   return html`<span class="color">
     <input type="color" value=${hex} tabindex=${tab} disabled=${row.fixed || row.off}
       aria-label=${`${row.name}, choose`}
-      onInput=${(/** @type {any} */ e) => send(row.id, e.target.value, gesture.current ||= newGesture())}
-      onChange=${() => { gesture.current = 0; }} />
+      onInput=${(/** @type {any} */ e) => send(row.id, e.target.value, (gesture.current ||= newGesture()))}
+      onChange=${() => {
+        gesture.current = 0;
+      }} />
     <${Field} row=${row} tab=${tab} shown=${row.value.join("; ")}
-      accept=${(/** @type {string} */ typed) => { send(row.id, typed); }} />
+      accept=${(/** @type {string} */ typed) => {
+        send(row.id, typed);
+      }} />
   </span>`;
 }
 
@@ -98,7 +109,10 @@ function FrameCell({ row, tab }) {
 function ComboCell({ row, tab, options }) {
   return html`<${Combo} label=${row.name || ""} value=${String(row.value ?? "")} options=${options}
     tab=${tab} title=${refusals.get(row.id)} invalid=${refusals.has(row.id)} off=${row.fixed || row.off}
-    accept=${(/** @type {string} */ chosen) => { refuse(row.id); send(row.id, chosen); }} leave=${leave} />`;
+    accept=${(/** @type {string} */ chosen) => {
+      refuse(row.id);
+      send(row.id, chosen);
+    }} leave=${leave} />`;
 }
 
 /** @param {{row: Row, tab: number}} props */
@@ -115,8 +129,19 @@ export function CopyButton({ row, tab }) {
 
 /** @type {Record<string, any>} */
 const CELLS = {
-  bool: Box, int: NumberCell, float: NumberCell, slider: SliderCell, text: TextCell,
-  file: TextCell, vector: VectorCell, color: ColorCell, enum: EnumCell, frame: FrameCell,
-  fact: FactCell, display: (/** @type {any} */ { row, tab }) => row.fixed ? null : html`<${Box} row=${row} tab=${tab} />`,
-  status: (/** @type {any} */ { row, tab }) => (row.whole ? null : html`<${FactCell} row=${row} tab=${tab} />`),
+  bool: Box,
+  int: NumberCell,
+  float: NumberCell,
+  slider: SliderCell,
+  text: TextCell,
+  file: TextCell,
+  vector: VectorCell,
+  color: ColorCell,
+  enum: EnumCell,
+  frame: FrameCell,
+  fact: FactCell,
+  display: (/** @type {any} */ { row, tab }) =>
+    row.fixed ? null : html`<${Box} row=${row} tab=${tab} />`,
+  status: (/** @type {any} */ { row, tab }) =>
+    row.whole ? null : html`<${FactCell} row=${row} tab=${tab} />`,
 };

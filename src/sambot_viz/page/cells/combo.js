@@ -15,7 +15,8 @@ let count = 0;
 export function offers(options, typed) {
   const wanted = (typed ?? "").trim().toLowerCase();
   const found = [...new Set(options)].filter((name) => name.toLowerCase().includes(wanted));
-  const rank = (/** @type {string} */ name) => (name.toLowerCase() === wanted ? 0 : name.toLowerCase().startsWith(wanted) ? 1 : 2);
+  const rank = (/** @type {string} */ name) =>
+    name.toLowerCase() === wanted ? 0 : name.toLowerCase().startsWith(wanted) ? 1 : 2;
   if (wanted) found.sort((a, b) => rank(a) - rank(b));
   const shown = found.slice(0, MOST).map((name) => ({ name, isNew: false }));
   const known = shown.length > 0 && rank(shown[0].name) === 0;
@@ -36,7 +37,8 @@ export function preselected(offered, typed) {
 
 /**
  * @param {{label: string, value: string, options: string[], tab: number, title?: string,
- *   invalid?: boolean, off?: boolean, accept: (chosen: string) => void, leave?: (field: HTMLElement) => void}} props
+ *   invalid?: boolean, off?: boolean, accept: (chosen: string) => void, leave?: (field:
+ *   HTMLElement) => void}} props
  *   leave: called after Enter
  */
 export function Combo({ label, value, options, tab, title, invalid, off, accept, leave }) {
@@ -49,7 +51,9 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
   const id = useRef(`combo${++count}`).current;
   const typed = () => (typing.current ? element.current.value : null);
   const offered = () => offers(options, typed());
-  useLayoutEffect(() => { if (!typing.current) element.current.value = value; });
+  useLayoutEffect(() => {
+    if (!typing.current) element.current.value = value;
+  });
   const close = () => {
     typing.current = false;
     marked.current = -1;
@@ -57,20 +61,33 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
     setOpen(false);
   };
   /** @param {string} name */
-  const choose = (name) => { close(); if (name && name !== value) accept(name); };
+  const choose = (name) => {
+    close();
+    if (name && name !== value) accept(name);
+  };
   const choice = () => (marked.current >= 0 ? marked.current : preselected(offered(), typed()));
   const meant = () => offered()[choice()]?.name ?? value;
   /** @param {any} event */
   const key = (event) => {
     if (event.key === "ArrowDown" || event.key === "ArrowUp") {
       const all = offered();
-      const from = marked.current < 0 && !typing.current ? all.findIndex(({ name }) => name === value) : choice();
-      marked.current = Math.min(all.length - 1, Math.max(0, from + (event.key === "ArrowDown" ? 1 : -1)));
+      const from =
+        marked.current < 0 && !typing.current
+          ? all.findIndex(({ name }) => name === value)
+          : choice();
+      marked.current = Math.min(
+        all.length - 1,
+        Math.max(0, from + (event.key === "ArrowDown" ? 1 : -1)),
+      );
       setOpen(true);
       again((n) => n + 1);
-    } else if (event.key === "Enter") { choose(meant()); leave?.(event.target); }
-    else if (event.key === "Escape" && (open || typing.current)) { close(); event.target.select(); }
-    else return;
+    } else if (event.key === "Enter") {
+      choose(meant());
+      leave?.(event.target);
+    } else if (event.key === "Escape" && (open || typing.current)) {
+      close();
+      event.target.select();
+    } else return;
     event.preventDefault();
     event.stopPropagation();
   };
@@ -80,23 +97,39 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
       aria-activedescendant=${open && choice() >= 0 ? `${id}-${choice()}` : undefined} aria-invalid=${invalid ? "true" : undefined}
       spellcheck=${false} autocomplete="off"
       onFocus=${(/** @type {any} */ e) => e.target.select()}
-      onClick=${(/** @type {any} */ e) => { if (!open) { setOpen(true); e.target.select(); } }}
-      onInput=${() => { typing.current = true; marked.current = -1; setOpen(true); again((n) => n + 1); }}
+      onClick=${(/** @type {any} */ e) => {
+        if (!open) {
+          setOpen(true);
+          e.target.select();
+        }
+      }}
+      onInput=${() => {
+        typing.current = true;
+        marked.current = -1;
+        setOpen(true);
+        again((n) => n + 1);
+      }}
       onKeyDown=${key} onBlur=${() => (typing.current ? choose(meant()) : close())} />
     ${open && html`<${Choices} id=${id} label=${label} of=${element} offered=${offered()} at=${choice()} value=${value} choose=${choose} />`}
   </span>`;
 }
 
 /** The list below or above the field, over all else.
- * @param {{id: string, label: string, of: {current: any}, offered: {name: string, isNew: boolean}[], at: number,
+ * @param {{id: string, label: string, of: {current: any}, offered: {name: string, isNew:
+ *   boolean}[], at: number,
  *   value: string, choose: (name: string) => void}} props */
 function Choices({ id, label, of, offered, at, value, choose }) {
   const list = useRef(/** @type {any} */ (null));
   useLayoutEffect(() => {
     list.current.showPopover?.();
-    const box = of.current.getBoundingClientRect(), height = list.current.offsetHeight;
+    const box = of.current.getBoundingClientRect();
+    const height = list.current.offsetHeight;
     const above = box.bottom + height > innerHeight && box.top > height;
-    Object.assign(list.current.style, { left: `${box.left}px`, minWidth: `${box.width}px`, top: `${above ? box.top - height : box.bottom}px` });
+    Object.assign(list.current.style, {
+      left: `${box.left}px`,
+      minWidth: `${box.width}px`,
+      top: `${above ? box.top - height : box.bottom}px`,
+    });
   }, [offered.length]);
   useLayoutEffect(() => {
     list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
@@ -104,10 +137,15 @@ function Choices({ id, label, of, offered, at, value, choose }) {
   /** @param {number} i */
   const isMarked = (i) => (at >= 0 ? i === at : offered[i].name === value);
   return html`<ul class="choices" role="listbox" id=${id} aria-label=${label} popover="manual" ref=${list}>
-    ${offered.map(({ name, isNew }, i) => html`<li role="option" id=${`${id}-${i}`} key=${name}
+    ${offered.map(
+      ({ name, isNew }, i) => html`<li role="option" id=${`${id}-${i}`} key=${name}
       aria-selected=${isMarked(i) ? "true" : "false"}
-      onPointerDown=${(/** @type {any} */ e) => { e.preventDefault(); choose(name); }}
-      >${isNew ? html`${name} <span class="none">there is none yet</span>` : name}</li>`)}
+      onPointerDown=${(/** @type {any} */ e) => {
+        e.preventDefault();
+        choose(name);
+      }}
+      >${isNew ? html`${name} <span class="none">there is none yet</span>` : name}</li>`,
+    )}
     ${!offered.length && html`<li class="none">no names yet</li>`}
   </ul>`;
 }

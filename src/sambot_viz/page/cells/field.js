@@ -25,20 +25,33 @@ export function focusWhole(event) {
 /**
  * A line of text that is accepted by Enter or by leaving it, and put back by Esc.
  * @param {{row: Row, shown: string, accept: (typed: string) => string | void, tab: number,
- *   full?: string, step?: (count: number) => void, settle?: () => void, grab?: (event: any) => void, kind?: string, title?: string}} props
+ *   full?: string, step?: (count: number) => void, settle?: () => void, grab?: (event: any) =>
+ *   void, kind?: string, title?: string}} props
  *   accept: returns why a text is refused
  *   full: what is shown while it has the focus, when `shown` leaves something out
  *   step: changes the value by so many steps; settle: the key is up again
  *   grab: a press that may become a drag
  */
-export function Field({ row, shown, full = shown, accept, tab, step, settle, grab, kind = "", title }) {
+export function Field({
+  row,
+  shown,
+  full = shown,
+  accept,
+  tab,
+  step,
+  settle,
+  grab,
+  kind = "",
+  title,
+}) {
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
   const element = useRef(/** @type {any} */ (null));
   const why = refusals.get(row.id);
   const put = () => {
     const input = element.current;
-    const held = document.activeElement === input, text = held ? full : shown;
+    const held = document.activeElement === input;
+    const text = held ? full : shown;
     typing.current = false;
     if (input.value === text) return;
     const whole = held && input.selectionEnd - input.selectionStart === input.value.length;
@@ -53,7 +66,9 @@ export function Field({ row, shown, full = shown, accept, tab, step, settle, gra
     if (refused) put();
     refuse(row.id, refused);
   };
-  useLayoutEffect(() => { if (!typing.current) put(); });
+  useLayoutEffect(() => {
+    if (!typing.current) put();
+  });
   /** @param {any} event */
   const key = (event) => {
     const ctrl = event.ctrlKey || event.metaKey;
@@ -61,7 +76,8 @@ export function Field({ row, shown, full = shown, accept, tab, step, settle, gra
       event.preventDefault();
       done();
       // A number stays in the hand: the arrow keys step it.
-      if (step) element.current.select(); else leave(element.current);
+      if (step) element.current.select();
+      else leave(element.current);
     } else if (event.key === "Escape" && (typing.current || why)) {
       // The tree takes the focus back to the row.
       put();
@@ -80,7 +96,17 @@ export function Field({ row, shown, full = shown, accept, tab, step, settle, gra
   return html`<input class=${`field ${kind}`} ref=${element} tabindex=${tab}
     aria-label=${row.name || ""} aria-invalid=${why ? "true" : undefined} title=${why || title}
     spellcheck=${false} autocomplete="off" readonly=${row.fixed} disabled=${row.off}
-    onFocus=${(/** @type {any} */ e) => { if (!typing.current) put(); e.target.select(); }} onMouseDown=${focusWhole} onPointerDown=${grab}
-    onInput=${() => { typing.current = true; if (why) refuse(row.id); }}
-    onKeyDown=${key} onKeyUp=${settle} onBlur=${() => { if (typing.current) done(); else put(); settle?.(); }} />`;
+    onFocus=${(/** @type {any} */ e) => {
+      if (!typing.current) put();
+      e.target.select();
+    }} onMouseDown=${focusWhole} onPointerDown=${grab}
+    onInput=${() => {
+      typing.current = true;
+      if (why) refuse(row.id);
+    }}
+    onKeyDown=${key} onKeyUp=${settle} onBlur=${() => {
+      if (typing.current) done();
+      else put();
+      settle?.();
+    }} />`;
 }

@@ -20,22 +20,36 @@ export const NARROW = 7;
 /** The value of a row, or the one that a hand has set until the server has it too.
  * @param {Row} row */
 function useHeld(row) {
-  // again: the row had this value already when it was set, after another; the answer to that may still come.
-  const held = useRef(/** @type {{value: number, gesture: number, over: boolean, again: boolean} | null} */ (null));
+  // again: the row had this value already when it was set, after another; the answer to that may
+  // still come.
+  const held = useRef(
+    /** @type {{value: number, gesture: number, over: boolean, again: boolean} | null} */ (null),
+  );
   const [, again] = useState(0);
   const draw = () => again((n) => n + 1);
   if (held.current && row.value !== held.current.value) held.current.again = false;
-  if (held.current?.over && ((row.value === held.current.value && !held.current.again) || refusals.has(row.id))) held.current = null;
+  if (
+    held.current?.over &&
+    ((row.value === held.current.value && !held.current.again) || refusals.has(row.id))
+  )
+    held.current = null;
   const release = () => {
     const mine = held.current;
     if (!mine || mine.over) return;
     mine.over = true;
-    setTimeout(() => { if (held.current === mine) { held.current = null; draw(); } }, ANSWER);
+    setTimeout(() => {
+      if (held.current === mine) {
+        held.current = null;
+        draw();
+      }
+    }, ANSWER);
     draw();
   };
   return {
     // Keys come faster than the page is drawn, so it is read when it is used.
-    get value() { return held.current ? held.current.value : Number(row.value); },
+    get value() {
+      return held.current ? held.current.value : Number(row.value);
+    },
     /** One of the values of a movement. @param {number} wanted in the row's unit */
     move(wanted) {
       const value = clamped(row.kind === "int" ? Math.round(wanted) : wanted, row);
@@ -49,7 +63,12 @@ function useHeld(row) {
     release,
     /** A value that was typed. @param {number} value */
     put(value) {
-      held.current = { value, gesture: 0, over: false, again: Boolean(held.current) && rows.value(row.id) === value };
+      held.current = {
+        value,
+        gesture: 0,
+        over: false,
+        again: Boolean(held.current) && rows.value(row.id) === value,
+      };
       send(row.id, value);
       release();
     },
@@ -90,10 +109,13 @@ function NumberField({ row, tab, held, room }) {
   /** @param {any} event */
   const grab = (event) => {
     const input = event.target;
-    if (event.button !== 0 || event.pointerType === "touch" || document.activeElement === input) return;
+    if (event.button !== 0 || event.pointerType === "touch" || document.activeElement === input)
+      return;
     event.preventDefault();
     input.setPointerCapture(event.pointerId);
-    let at = event.clientX, shown = latest.current.value * factor, moved = false;
+    let at = event.clientX;
+    let shown = latest.current.value * factor;
+    let moved = false;
     input.onpointermove = (/** @type {any} */ e) => {
       if (!moved && Math.abs(e.clientX - at) < 4) return;
       moved = true;
@@ -109,8 +131,11 @@ function NumberField({ row, tab, held, room }) {
     };
   };
   // Beside a slider there is room for few digits; the others are in the tooltip, and in the hand.
-  const slider = row.kind === "slider", number = held.value * factor, few = (slider ? 4 : 6) - (factor === 1 ? 0 : 2);
-  const shown = room ? fittingNumber(number, few, room) : formatNumber(number, few), exact = formatNumber(number, 9);
+  const slider = row.kind === "slider";
+  const number = held.value * factor;
+  const few = (slider ? 4 : 6) - (factor === 1 ? 0 : 2);
+  const shown = room ? fittingNumber(number, few, room) : formatNumber(number, few);
+  const exact = formatNumber(number, 9);
   return html`<span class="number">
     <${Field} row=${row} tab=${tab} kind="num" accept=${accept} title=${exact === shown ? "" : exact}
       full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined} shown=${shown} />
@@ -122,7 +147,9 @@ function NumberField({ row, tab, held, room }) {
 export function SliderCell({ row, tab }) {
   degrees.use();
   const held = useHeld(row);
-  const over = !row.wheel && (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
+  const over =
+    !row.wheel &&
+    (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
   return html`<span class=${`slide${over ? " over" : ""}`}>
     ${row.follows ? html`<span class="formula" title=${formula(row)}>${formula(row)}</span>` : html`<${Handle} row=${row} tab=${tab} held=${held} />`}
     <${NumberField} row=${row} tab=${tab} held=${held} room=${row.fixed ? NARROW - 1 : NARROW} />
@@ -137,26 +164,43 @@ const SLOP = 8;
  * when it then scrolls the list: until it goes sideways, or is lifted, nothing counts.
  * @param {() => number} value what the slider shows @param {(raw: number) => void} slide */
 function useFinger(value, slide) {
-  const finger = useRef(/** @type {{x: number, y: number, wants: "" | "slide" | "scroll", raw: number | null} | null} */ (null));
+  const finger = useRef(
+    /** @type {{x: number, y: number, wants: "" | "slide" | "scroll", raw: number | null} | null} */ (
+      null
+    ),
+  );
   /** @param {any} event */
   const decide = (event) => {
-    const one = finger.current, across = one && Math.abs(event.clientX - one.x), down = one && Math.abs(event.clientY - one.y);
-    if (one && !one.wants && Math.max(Number(across), Number(down)) > SLOP) one.wants = Number(across) > Number(down) ? "slide" : "scroll";
+    const one = finger.current;
+    const across = one && Math.abs(event.clientX - one.x);
+    const down = one && Math.abs(event.clientY - one.y);
+    if (one && !one.wants && Math.max(Number(across), Number(down)) > SLOP)
+      one.wants = Number(across) > Number(down) ? "slide" : "scroll";
   };
   return {
-    onPointerDown: (/** @type {any} */ e) => { finger.current = e.pointerType === "touch" ? { x: e.clientX, y: e.clientY, wants: "", raw: null } : null; },
+    onPointerDown: (/** @type {any} */ e) => {
+      finger.current =
+        e.pointerType === "touch" ? { x: e.clientX, y: e.clientY, wants: "", raw: null } : null;
+    },
     onPointerMove: decide,
     // The browser scrolls.
-    onPointerCancel: () => { if (finger.current) finger.current.wants = "scroll"; },
+    onPointerCancel: () => {
+      if (finger.current) finger.current.wants = "scroll";
+    },
     // A tap: the handle goes there.
     onPointerUp: () => {
       const one = finger.current;
       if (one && !one.wants && one.raw !== null) slide(one.raw);
     },
-    onTouchEnd: () => { finger.current = null; },
-    onTouchCancel: () => { finger.current = null; },
+    onTouchEnd: () => {
+      finger.current = null;
+    },
+    onTouchCancel: () => {
+      finger.current = null;
+    },
     onInput: (/** @type {any} */ e) => {
-      const one = finger.current, raw = Number(e.target.value);
+      const one = finger.current;
+      const raw = Number(e.target.value);
       if (!one || one.wants === "slide") return slide(raw);
       one.raw = raw;
       e.target.value = value();
@@ -167,23 +211,32 @@ function useFinger(value, slide) {
 /** @param {{row: Row, tab: number, held: Held}} props */
 function Handle({ row, tab, held }) {
   const { factor, step, unit } = shownUnit(row);
-  const low = row.min ?? 0, high = row.max ?? 1;
+  const low = row.min ?? 0;
+  const high = row.max ?? 1;
   const value = held.value;
   // The ends are exact, whatever the step.
   /** @param {number} raw */
-  const slide = (raw) => held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
+  const slide = (raw) =>
+    held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
   const finger = useFinger(() => held.value, slide);
   /** @param {any} event */
   const key = (event) => {
     const count = /** @type {Record<string, number>} */ ({
-      ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 })[event.key];
+      ArrowRight: 1,
+      ArrowUp: 1,
+      ArrowLeft: -1,
+      ArrowDown: -1,
+      PageUp: 10,
+      PageDown: -10,
+    })[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (/^[\d.,+\-(]$/.test(event.key)) {
       // A number is typed into the field beside it.
       event.target.closest("[data-row]").querySelector("input.num").focus();
       return event.stopPropagation();
     }
-    if (count) held.move(stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor);
+    if (count)
+      held.move(stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor);
     else if (event.key === "Home") held.move(low);
     else if (event.key === "End") held.move(high);
     else return;
@@ -193,8 +246,14 @@ function Handle({ row, tab, held }) {
   return html`<input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
     aria-label=${row.name || ""} disabled=${row.fixed || row.off}
     aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
-    ...${finger} onChange=${held.release} onPointerUp=${() => { finger.onPointerUp(); held.release(); }}
-    onPointerCancel=${() => { finger.onPointerCancel(); held.release(); }}
+    ...${finger} onChange=${held.release} onPointerUp=${() => {
+      finger.onPointerUp();
+      held.release();
+    }}
+    onPointerCancel=${() => {
+      finger.onPointerCancel();
+      held.release();
+    }}
     onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />`;
 }
 

@@ -22,9 +22,10 @@ export function shownUnit(row, inDegrees = degrees.value) {
 /** Why a number is outside the limits of its row. @param {Row} row @param {number} value */
 export function outside(row, value) {
   const { unit, factor } = shownUnit(row);
-  const low = row.min ?? -Infinity, high = row.max ?? Infinity;
+  const low = row.min ?? -Infinity;
+  const high = row.max ?? Infinity;
   // A limit typed as it is shown, without all its digits, means the limit.
-  const near = 0.6 * 10 ** -limitDigits(unit) / factor;
+  const near = (0.6 * 10 ** -limitDigits(unit)) / factor;
   if (value >= low - near && value <= high + near) return "";
   return `${writtenNumber(value * factor, limitDigits(unit))} ${unit} is outside ${limits(row)}`;
 }
@@ -35,15 +36,22 @@ const limitDigits = (unit) => (unit.startsWith("°") ? 2 : 4);
 export function limits(row) {
   const { unit, factor } = shownUnit(row);
   const ends = [row.min ?? -Infinity, row.max ?? Infinity].map((end) =>
-    (Number.isFinite(end) ? writtenNumber(end * factor, limitDigits(unit)) : end < 0 ? "−∞" : "∞"));
+    Number.isFinite(end) ? writtenNumber(end * factor, limitDigits(unit)) : end < 0 ? "−∞" : "∞",
+  );
   return `${ends[0]} … ${ends[1]} ${unit}`.trim();
 }
 
-/** How a joint follows another one, in the units that are shown. @param {Row} row @returns {string} */
+/**
+ * How a joint follows another one, in the units that are shown.
+ * @param {Row} row
+ * @returns {string}
+ */
 export function formula(row) {
   const leader = rows.get(row.follows);
   const { factor, unit } = shownUnit(row);
-  const times = writtenNumber(row.times * factor / (leader ? shownUnit(leader).factor : 1), 4);
-  const plus = row.plus ? ` ${row.plus < 0 ? "−" : "+"} ${writtenNumber(Math.abs(row.plus) * factor, 4)} ${unit}` : "";
+  const times = writtenNumber((row.times * factor) / (leader ? shownUnit(leader).factor : 1), 4);
+  const plus = row.plus
+    ? ` ${row.plus < 0 ? "−" : "+"} ${writtenNumber(Math.abs(row.plus) * factor, 4)} ${unit}`
+    : "";
   return `= ${times === "1" ? "" : `${times} × `}${leader?.name || ""}${plus}`;
 }

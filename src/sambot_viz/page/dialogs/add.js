@@ -19,9 +19,11 @@ const byName = (a, b) => nameOf(a.kind).localeCompare(nameOf(b.kind));
 export function AddDisplay({ close }) {
   /** @type {Type[]} */
   const types = [...(rows.value("displays/types") || [])].sort(byName);
-  const shown = types.filter((type) => !type.why), others = types.filter((type) => type.why);
+  const shown = types.filter((type) => !type.why);
+  const others = types.filter((type) => type.why);
   const [at, setAt] = useState(0);
-  const list = useRef(/** @type {any} */ (null)), name = useRef(/** @type {any} */ (null));
+  const list = useRef(/** @type {any} */ (null));
+  const name = useRef(/** @type {any} */ (null));
   const typed = useRef({ text: "", when: 0 });
   useLayoutEffect(() => {
     list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
@@ -48,15 +50,27 @@ export function AddDisplay({ close }) {
   /** Letters in quick succession find a name. @param {string} letter */
   const find = (letter) => {
     const now = Date.now();
-    typed.current = { text: (now - typed.current.when < 1000 ? typed.current.text : "") + letter.toLowerCase(), when: now };
-    const found = shown.findIndex((type) => nameOf(type.kind).toLowerCase().startsWith(typed.current.text));
+    typed.current = {
+      text: (now - typed.current.when < 1000 ? typed.current.text : "") + letter.toLowerCase(),
+      when: now,
+    };
+    const found = shown.findIndex((type) =>
+      nameOf(type.kind).toLowerCase().startsWith(typed.current.text),
+    );
     if (found >= 0) setAt(found);
   };
   /** @param {Type} type @param {number} i */
-  const option = (type, i) => html`<div role="option" id=${`add-${nameOf(type.kind)}`} key=${type.kind} class=${`option${type.why ? " off" : ""}`}
+  const option = (
+    type,
+    i,
+  ) => html`<div role="option" id=${`add-${nameOf(type.kind)}`} key=${type.kind} class=${`option${type.why ? " off" : ""}`}
       aria-selected=${String(!type.why && i === at)} aria-disabled=${type.why ? "true" : undefined}
       title=${type.why ? `${nameOf(type.kind)} ${type.why}` : type.kind}
-      onClick=${() => { if (!type.why) setAt(i); }} onDblClick=${() => { if (!type.why) add(); }}>
+      onClick=${() => {
+        if (!type.why) setAt(i);
+      }} onDblClick=${() => {
+        if (!type.why) add();
+      }}>
     <${Icon} name=${nameOf(type.kind)} /><b>${nameOf(type.kind)}</b><span>${type.help}</span></div>`;
   return html`<${Dialog} title="Add Display" close=${close} submit=${add} wide>
     <div class="options" role="listbox" tabindex="0" aria-label="Display types" data-first ref=${list} onKeyDown=${key}

@@ -23,17 +23,25 @@ export function Dialogs() {
   const now = open.use();
   useEffect(() => {
     if (now) return;
-    if (before instanceof HTMLElement && before.isConnected && document.activeElement === document.body) before.focus();
+    if (
+      before instanceof HTMLElement &&
+      before.isConnected &&
+      document.activeElement === document.body
+    )
+      before.focus();
     before = null;
   }, [now]);
   if (!now) return null;
-  const close = () => { if (open.value === now) open.set(null); };
+  const close = () => {
+    if (open.value === now) open.set(null);
+  };
   return html`<${now.content} key=${now.number} close=${close} />`;
 }
 
 /**
  * The frame of a dialog: its title, and a form that Enter submits.
- * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}} props
+ * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}}
+ *   props
  */
 export function Dialog({ title, close, submit, wide, children }) {
   const element = useRef(/** @type {any} */ (null));
@@ -51,9 +59,14 @@ export function Dialog({ title, close, submit, wide, children }) {
   }, []);
   /** No key of the window acts while a dialog is open. @param {KeyboardEvent} event */
   const key = (event) => event.stopPropagation();
-  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element} onClose=${() => { if (!over.current) close(); }}
+  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element} onClose=${() => {
+    if (!over.current) close();
+  }}
       onKeyDown=${key} onKeyUp=${key}>
-    <form onSubmit=${(/** @type {Event} */ event) => { event.preventDefault(); submit?.(); }}>
+    <form onSubmit=${(/** @type {Event} */ event) => {
+      event.preventDefault();
+      submit?.();
+    }}>
       <h2 id=${label}>${title}</h2>
       ${children}
     </form>
@@ -66,10 +79,15 @@ export function Dialog({ title, close, submit, wide, children }) {
  * @returns {{refused?: string, answer?: any, begin: () => void}} `begin` is called before each try
  */
 export function useAnswer(action) {
-  const notice = useRow("notice")?.value, answer = useRow("file/answer")?.value;
+  const notice = useRow("notice")?.value;
+  const answer = useRow("file/answer")?.value;
   const seen = useRef({ notice: notice?.number || 0, answer: answer?.number || 0 });
-  const begin = () => { seen.current = { notice: notice?.number || 0, answer: answer?.number || 0 }; };
-  const refused = notice?.number > seen.current.notice && notice.row === action ? notice.text : undefined;
-  const own = answer?.number > seen.current.answer && `file/${answer.to}` === action ? answer : undefined;
+  const begin = () => {
+    seen.current = { notice: notice?.number || 0, answer: answer?.number || 0 };
+  };
+  const refused =
+    notice?.number > seen.current.notice && notice.row === action ? notice.text : undefined;
+  const own =
+    answer?.number > seen.current.answer && `file/${answer.to}` === action ? answer : undefined;
   return { refused, answer: own, begin };
 }

@@ -19,7 +19,9 @@ const last = new Cell("past", "motion");
 /** @param {{close: () => void}} props */
 export function ExportPage({ close }) {
   // Before anything has moved, there is no last minute.
-  const [motion, setMotion] = useState(last.value === "past" && rows.value("joints/again") ? "sweep" : last.value);
+  const [motion, setMotion] = useState(
+    last.value === "past" && rows.value("joints/again") ? "sweep" : last.value,
+  );
   const save = () => {
     last.set(motion);
     tell("Making the page…", "info");
@@ -29,9 +31,11 @@ export function ExportPage({ close }) {
   return html`<${Dialog} title="Export Page" close=${close} submit=${save}>
     <p>The view as one HTML file for your computer. It opens without this program and without a network.</p>
     <fieldset><legend>What moves in it</legend>
-      ${MOTIONS.map(([id, name, what]) => html`<label class="line choice" key=${id}>
+      ${MOTIONS.map(
+        ([id, name, what]) => html`<label class="line choice" key=${id}>
         <input type="radio" name="motion" value=${id} checked=${motion === id} data-first=${motion === id ? "" : undefined}
-          onChange=${() => setMotion(id)} /> <span>${name}<span class="soft">: ${what}</span></span></label>`)}
+          onChange=${() => setMotion(id)} /> <span>${name}<span class="soft">: ${what}</span></span></label>`,
+      )}
     </fieldset>
     <div class="buttons end">
       <button type="submit" class="main">Export</button>

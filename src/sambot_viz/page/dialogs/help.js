@@ -8,36 +8,69 @@ import { Dialog } from "./dialog.js";
 
 /** @type {[string, [string, string][]][]} */
 const KEYS = [
-  ["The view", [
-    ["Left button", "turn"], ["Middle button, or Shift and left", "move"], ["Right button, or wheel", "zoom"],
-    ["F", "look at what is selected, or else at the robot"], ["Z", "bring the view to where its type begins"],
-    ["R", "draw everything again"], ["H", "hide all panels, show them again"], ["Esc", "leave the tool"],
-    ["8 2 4 6, 5", "drive, stop"],
-  ]],
-  ["Rows", [
-    ["↑ ↓ Home End", "go to another row"], ["→ ←", "unfold, fold"], ["Space", "tick"], ["Enter", "edit the value; accept it"],
-    ["Esc", "put the old value back"], ["↑ ↓ in a number", "one step; with Shift ten, with Alt a tenth"],
-    ["F2, Delete", "rename, remove a display or a saved view"], ["Alt+↑, Alt+↓", "move a display"],
-    ["Ctrl+C", "copy the row"], ["Shift+F10", "more that can be done with the row"],
-  ]],
-  ["Numbers", [
-    ["1.5, 1e-3, (1+2)/4", "a number, or a sum"], ["90deg, 15 mm", "in this unit, whatever unit is shown"],
-    ["pi/2, tau", "in radians: pi is half a turn, also where degrees are shown"],
-  ]],
-  ["Everywhere", [
-    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],
-    ["Tab", "to the next field, button or panel"],
-  ]],
+  [
+    "The view",
+    [
+      ["Left button", "turn"],
+      ["Middle button, or Shift and left", "move"],
+      ["Right button, or wheel", "zoom"],
+      ["F", "look at what is selected, or else at the robot"],
+      ["Z", "bring the view to where its type begins"],
+      ["R", "draw everything again"],
+      ["H", "hide all panels, show them again"],
+      ["Esc", "leave the tool"],
+      ["8 2 4 6, 5", "drive, stop"],
+    ],
+  ],
+  [
+    "Rows",
+    [
+      ["↑ ↓ Home End", "go to another row"],
+      ["→ ←", "unfold, fold"],
+      ["Space", "tick"],
+      ["Enter", "edit the value; accept it"],
+      ["Esc", "put the old value back"],
+      ["↑ ↓ in a number", "one step; with Shift ten, with Alt a tenth"],
+      ["F2, Delete", "rename, remove a display or a saved view"],
+      ["Alt+↑, Alt+↓", "move a display"],
+      ["Ctrl+C", "copy the row"],
+      ["Shift+F10", "more that can be done with the row"],
+    ],
+  ],
+  [
+    "Numbers",
+    [
+      ["1.5, 1e-3, (1+2)/4", "a number, or a sum"],
+      ["90deg, 15 mm", "in this unit, whatever unit is shown"],
+      ["pi/2, tau", "in radians: pi is half a turn, also where degrees are shown"],
+    ],
+  ],
+  [
+    "Everywhere",
+    [
+      ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+      ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],
+      ["Tab", "to the next field, button or panel"],
+    ],
+  ],
 ];
 
 /** @param {{close: () => void}} props */
 export function Keys({ close }) {
-  const tools = toolKeys().filter(({ key }) => key).map(({ name, key }) => /** @type {[string, string]} */ ([key.toUpperCase(), name]));
+  const tools = toolKeys()
+    .filter(({ key }) => key)
+    .map(({ name, key }) => /** @type {[string, string]} */ ([key.toUpperCase(), name]));
   return html`<${Dialog} title="Keys" close=${close} submit=${close} wide>
-    <div class="key-list">${[...KEYS.slice(0, 1), /** @type {[string, [string, string][]]} */ (["Tools", tools]), ...KEYS.slice(1)].map(([title, list]) => html`
+    <div class="key-list">${[
+      ...KEYS.slice(0, 1),
+      /** @type {[string, [string, string][]]} */ (["Tools", tools]),
+      ...KEYS.slice(1),
+    ].map(
+      ([title, list]) => html`
       <section key=${title}><h3>${title}</h3><table aria-label=${title}>
         ${list.map(([keys, does]) => html`<tr key=${keys}><th scope="row"><kbd>${keys}</kbd></th><td>${does}</td></tr>`)}
-      </table></section>`)}</div>
+      </table></section>`,
+    )}</div>
     <p class="soft">The letters act while no text is being typed.</p>
     <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
   </${Dialog}>`;

@@ -12,11 +12,15 @@ export function OpenConfig({ close }) {
   const state = useRow("file/state")?.value || {};
   const [discard, setDiscard] = useState(false);
   const [saving, setSaving] = useState(false);
-  if (!state.modified || discard) return html`<${Choose} close=${close} folder=${state.folder} name=${state.own ? state.name : ""} />`;
+  if (!state.modified || discard)
+    return html`<${Choose} close=${close} folder=${state.folder} name=${state.own ? state.name : ""} />`;
   const save = () => {
     // The list comes as soon as the file is saved.
-    if (state.own) { setSaving(true); act("file/save", [unfolded()]); }
-    else show(({ close: shut }) => html`<${SaveAs} close=${shut} then=${() => show(OpenConfig)} />`);
+    if (state.own) {
+      setSaving(true);
+      act("file/save", [unfolded()]);
+    } else
+      show(({ close: shut }) => html`<${SaveAs} close=${shut} then=${() => show(OpenConfig)} />`);
   };
   return html`<${Dialog} title="Unsaved changes" close=${close} submit=${save}>
     <p>${`${state.name || "This config"} has changes that are not saved. Another config takes its place.`}</p>
@@ -41,12 +45,18 @@ function Choose({ close, folder, name }) {
   const [asked, setAsked] = useState(false);
   const { refused, answer, begin } = useAnswer("file/open");
   const names = useRow("file/names")?.value;
-  useEffect(() => { act("file/list"); setAsked(true); }, []);
+  useEffect(() => {
+    act("file/list");
+    setAsked(true);
+  }, []);
   useLayoutEffect(() => {
-    if (list.current && list.current.selectedIndex < 0) list.current.selectedIndex = Math.max(0, (names || []).indexOf(name));
+    if (list.current && list.current.selectedIndex < 0)
+      list.current.selectedIndex = Math.max(0, (names || []).indexOf(name));
     list.current?.focus();
   }, [names]);
-  useEffect(() => { if (answer?.done) close(); }, [answer?.number]);
+  useEffect(() => {
+    if (answer?.done) close();
+  }, [answer?.number]);
   const open = () => {
     if (!list.current?.value) return;
     begin();
@@ -54,11 +64,19 @@ function Choose({ close, folder, name }) {
   };
   return html`<${Dialog} title="Open Config" close=${close} submit=${open}>
     <p>In the folder <b class="path">${folder}</b></p>
-    ${names?.length ? html`<select size=${Math.min(14, Math.max(4, names.length))} aria-label="Configs" ref=${list} data-first
-        onDblClick=${open} onKeyDown=${(/** @type {any} */ e) => { if (e.key === "Enter") { e.preventDefault(); open(); } }}>
+    ${
+      names?.length
+        ? html`<select size=${Math.min(14, Math.max(4, names.length))} aria-label="Configs" ref=${list} data-first
+        onDblClick=${open} onKeyDown=${(/** @type {any} */ e) => {
+          if (e.key === "Enter") {
+            e.preventDefault();
+            open();
+          }
+        }}>
         ${names.map((/** @type {string} */ one) => html`<option key=${one} value=${one}>${one}</option>`)}
       </select>`
-      : html`<p class="empty">${asked && names ? "There are no .rviz files." : "Reading the folder…"}</p>`}
+        : html`<p class="empty">${asked && names ? "There are no .rviz files." : "Reading the folder…"}</p>`
+    }
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     <div class="buttons end">
       <button type="submit" class="main" disabled=${!names?.length}>Open</button>

@@ -17,8 +17,15 @@ export function SaveAs({ close, then }) {
     field.current.value = state.own ? state.name.replace(/\.rviz$/, "") : "";
     field.current.select();
   }, []);
-  useEffect(() => { if (answer?.done) { close(); then?.(); } }, [answer?.number]);
-  useEffect(() => { if (refused) field.current.focus(); }, [refused]);
+  useEffect(() => {
+    if (answer?.done) {
+      close();
+      then?.();
+    }
+  }, [answer?.number]);
+  useEffect(() => {
+    if (refused) field.current.focus();
+  }, [refused]);
   /** @param {boolean} replace */
   const save = (replace) => {
     begin();
@@ -29,13 +36,19 @@ export function SaveAs({ close, then }) {
   return html`<${Dialog} title="Save Config As" close=${close} submit=${() => save(false)}>
     <p>In the folder <b class="path">${state.folder}</b></p>
     <label class="line">Name <input data-first aria-label="Name" ref=${field} spellcheck=${false} autocomplete="off"
-      aria-invalid=${refused ? "true" : undefined} placeholder="my_robot" onInput=${() => { begin(); setWanted(""); }} />
+      aria-invalid=${refused ? "true" : undefined} placeholder="my_robot" onInput=${() => {
+        begin();
+        setWanted("");
+      }} />
       <span class="ending">.rviz</span></label>
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     ${exists && wanted && html`<p class="question" role="alert">${`${exists} exists already. Replace it?`}</p>`}
     <div class="buttons end">
-      ${exists && wanted ? html`<${Question} replace=${() => save(true)} cancel=${close} />`
-        : html`<button type="submit" class="main">Save</button><button type="button" onClick=${close}>Cancel</button>`}
+      ${
+        exists && wanted
+          ? html`<${Question} replace=${() => save(true)} cancel=${close} />`
+          : html`<button type="submit" class="main">Save</button><button type="button" onClick=${close}>Cancel</button>`
+      }
     </div>
   </${Dialog}>`;
 }

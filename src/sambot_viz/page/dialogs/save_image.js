@@ -12,7 +12,8 @@ const size = new Cell(/** @type {[number, number]} */ ([1280, 720]), "picture");
 
 /** @param {{close: () => void}} props */
 export function SaveImage({ close }) {
-  const width = useRef(/** @type {any} */ (null)), height = useRef(/** @type {any} */ (null));
+  const width = useRef(/** @type {any} */ (null));
+  const height = useRef(/** @type {any} */ (null));
   const save = () => {
     size.set([Number(width.current.value), Number(height.current.value)]);
     act("file/picture", size.value);

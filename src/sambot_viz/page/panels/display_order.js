@@ -23,16 +23,23 @@ export function members(group) {
   return rows.children(group || "panel:displays").filter((id) => rows.get(id)?.display);
 }
 
-/** What is selected after a display has been removed. @param {Row} display @returns {string | undefined} */
+/**
+ * What is selected after a display has been removed.
+ * @param {Row} display
+ * @returns {string | undefined}
+ */
 export function neighbour(display) {
-  const all = members(display.in), at = all.indexOf(display.id);
+  const all = members(display.in);
+  const at = all.indexOf(display.id);
   return all[at + 1] ?? all[at - 1] ?? (display.in || undefined);
 }
 
 /** The place one up or down, into open groups and out of them; null at the ends.
  * @param {Row} display @param {number} by 1 or -1 @returns {Place | null} */
 export function place(display, by) {
-  const all = members(display.in), at = all.indexOf(display.id), beside = rows.get(all[at + by]);
+  const all = members(display.in);
+  const at = all.indexOf(display.id);
+  const beside = rows.get(all[at + by]);
   if (beside?.group && isOpen(beside.id)) {
     return { group: beside.id, index: by > 0 ? 0 : members(beside.id).length };
   }
@@ -55,10 +62,20 @@ export function moveBy(id, by) {
 }
 
 function step() {
-  const [id, by] = steps[0], display = rows.get(id), to = display && place(display, by);
-  if (!to) { steps = []; return; }
-  const stop = rows.listen("panel:displays", () => { if (members(to.group)[to.index] === id) done(); });
-  const timer = setTimeout(() => { stop(); steps = []; }, LONGEST_STEP);
+  const [id, by] = steps[0];
+  const display = rows.get(id);
+  const to = display && place(display, by);
+  if (!to) {
+    steps = [];
+    return;
+  }
+  const stop = rows.listen("panel:displays", () => {
+    if (members(to.group)[to.index] === id) done();
+  });
+  const timer = setTimeout(() => {
+    stop();
+    steps = [];
+  }, LONGEST_STEP);
   const done = () => {
     stop();
     clearTimeout(timer);
@@ -80,18 +97,31 @@ export function places(moved, box) {
   const found = [];
   /** The lower end of a row and all that is shown below it. @param {string} id @returns {number} */
   const end = (id) => {
-    const last = isOpen(id) ? rows.children(id).filter((child) => box(child)).at(-1) : undefined;
-    return last ? end(last) : box(id)?.bottom ?? 0;
+    const last = isOpen(id)
+      ? rows
+          .children(id)
+          .filter((child) => box(child))
+          .at(-1)
+      : undefined;
+    return last ? end(last) : (box(id)?.bottom ?? 0);
   };
   /** @param {string} group @param {number} depth */
   const walk = (group, depth) => {
     const others = members(group).filter((id) => id !== moved);
     others.forEach((id, index) => {
-      const row = rows.get(id), at = box(id);
+      const row = rows.get(id);
+      const at = box(id);
       if (!row || !at) return;
       found.push({ group, index, y: at.top, depth });
       if (row.group && isOpen(id)) walk(id, depth + 1);
-      else if (row.group) found.push({ group: id, index: members(id).length, y: (at.top + at.bottom) / 2, depth: depth + 1, into: id });
+      else if (row.group)
+        found.push({
+          group: id,
+          index: members(id).length,
+          y: (at.top + at.bottom) / 2,
+          depth: depth + 1,
+          into: id,
+        });
       if (index === others.length - 1) found.push({ group, index: index + 1, y: end(id), depth });
     });
     if (!others.length && group) found.push({ group, index: 0, y: box(group)?.bottom ?? 0, depth });
@@ -102,12 +132,16 @@ export function places(moved, box) {
 
 /** The place that a hand means. Of places at one line, those further right are deeper.
  * @template {{y: number, depth: number}} P
- * @param {P[]} all @param {number} x from the left edge of the names [px] @param {number} y @param {number} indent of one level [px]
+ * @param {P[]} all @param {number} x from the left edge of the names [px] @param {number} y @param
+ *   {number} indent of one level [px]
  * @returns {P | undefined} */
 export function nearest(all, x, y, indent) {
   const depth = Math.floor(x / indent);
   const off = (/** @type {P} */ p) => Math.abs(p.y - y) + 0.1 * Math.abs(p.depth - depth);
-  return all.reduce((/** @type {P | undefined} */ best, p) => (best && off(best) <= off(p) ? best : p), undefined);
+  return all.reduce(
+    (/** @type {P | undefined} */ best, p) => (best && off(best) <= off(p) ? best : p),
+    undefined,
+  );
 }
 
 /**
@@ -120,12 +154,15 @@ export function dragDisplay(down, row, tree) {
   const mark = document.createElement("div");
   /** @type {ReturnType<typeof places>[number] | undefined} */
   let to;
-  let at = { x: down.clientX, y: down.clientY }, scrolls = 0;
+  let at = { x: down.clientX, y: down.clientY };
+  let scrolls = 0;
   /** @param {string} id */
-  const find = (id) => /** @type {HTMLElement | null} */ (tree.querySelector(`[data-row="${CSS.escape(id)}"]`));
+  const find = (id) =>
+    /** @type {HTMLElement | null} */ (tree.querySelector(`[data-row="${CSS.escape(id)}"]`));
   const indent = 14;
   const draw = () => {
-    const origin = tree.getBoundingClientRect(), seen = box.getBoundingClientRect();
+    const origin = tree.getBoundingClientRect();
+    const seen = box.getBoundingClientRect();
     const all = places(row.id, (id) => find(id)?.getBoundingClientRect() ?? null);
     to = nearest(all, at.x - origin.left - 16, at.y, indent);
     for (const marked of tree.querySelectorAll(".into")) marked.classList.remove("into");
@@ -139,7 +176,10 @@ export function dragDisplay(down, row, tree) {
   const scroll = () => {
     const { top, bottom } = box.getBoundingClientRect();
     const by = at.y < top + EDGE ? -6 : at.y > bottom - EDGE ? 6 : 0;
-    if (by) { box.scrollTop += by; draw(); }
+    if (by) {
+      box.scrollTop += by;
+      draw();
+    }
     scrolls = requestAnimationFrame(scroll);
   };
   /** @param {PointerEvent} event */
@@ -163,7 +203,8 @@ export function dragDisplay(down, row, tree) {
     removeEventListener("keydown", escape, true);
     cancelAnimationFrame(scrolls);
     tree.classList.remove("dragging");
-    for (const marked of tree.querySelectorAll(".into, .dragged")) marked.classList.remove("into", "dragged");
+    for (const marked of tree.querySelectorAll(".into, .dragged"))
+      marked.classList.remove("into", "dragged");
     mark.remove();
   };
   const drop = () => {

@@ -14,7 +14,9 @@ import "./undone.js";
 /** @typedef {import("../wire/rows.js").Row} Row */
 
 const PANEL = "displays";
-const add = () => { if (mayChange()) show(AddDisplay); };
+const add = () => {
+  if (mayChange()) show(AddDisplay);
+};
 
 /** @param {Row} display */
 const duplicate = (display) => makeDisplay("duplicate", [display.id], isOpen(display.id));
@@ -52,12 +54,17 @@ export function DisplaysPanel() {
   const menu = (on) => {
     const adding = { label: "Add…", act: add };
     if (!on.display) return [adding];
-    return [adding, null,
+    return [
+      adding,
+      null,
       { label: "Duplicate", act: () => duplicate(on) },
       { label: "Rename", keys: "F2", act: () => rename(on.id, null) },
-      { label: "Remove", keys: "Delete", act: () => remove(on) }, null,
+      { label: "Remove", keys: "Delete", act: () => remove(on) },
+      null,
       { label: "Move up", keys: "Alt+↑", off: !place(on, -1), act: () => moveBy(on.id, -1) },
-      { label: "Move down", keys: "Alt+↓", off: !place(on, 1), act: () => moveBy(on.id, 1) }, null];
+      { label: "Move down", keys: "Alt+↓", off: !place(on, 1), act: () => moveBy(on.id, 1) },
+      null,
+    ];
   };
   return html`<section class="panel displays" aria-label="Displays">
     <header class="title">Displays</header>

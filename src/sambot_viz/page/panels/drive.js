@@ -11,9 +11,15 @@ import { shownUnit } from "../cells/units.js";
 
 /** How often a held button says so [ms]. */
 const PERIOD = 100;
-/** What the buttons do: m/s forwards and rad/s to the left. @type {Record<string, [string, number, number]>} */
+/**
+ * What the buttons do: m/s forwards and rad/s to the left.
+ * @type {Record<string, [string, number, number]>}
+ */
 const WAYS = {
-  forwards: ["Forwards", 0.5, 0], left: ["Left", 0, 1], right: ["Right", 0, -1], back: ["Back", -0.5, 0],
+  forwards: ["Forwards", 0.5, 0],
+  left: ["Left", 0, 1],
+  right: ["Right", 0, -1],
+  back: ["Back", -0.5, 0],
 };
 
 /** The ways that are held now, with several fingers even. @type {Set<string>} */
@@ -22,7 +28,10 @@ let timer = 0;
 
 function drive() {
   const ways = [...held].map((name) => WAYS[name]);
-  act("drive/hold", [1, 2].map((part) => ways.reduce((sum, way) => sum + Number(way[part]), 0)));
+  act(
+    "drive/hold",
+    [1, 2].map((part) => ways.reduce((sum, way) => sum + Number(way[part]), 0)),
+  );
 }
 
 /** @param {string} name */
@@ -68,21 +77,31 @@ function Stop() {
 /** Drives while it is held, by a mouse, a finger, Space or Enter. @param {{name: string}} props */
 function HoldButton({ name }) {
   const [label] = WAYS[name];
-  const start = () => hold(name), end = () => letGo(name);
+  const start = () => hold(name);
+  const end = () => letGo(name);
   useEffect(() => {
     // A hand that goes to another window may let go there.
     addEventListener("blur", end);
-    return () => { removeEventListener("blur", end); end(); };
+    return () => {
+      removeEventListener("blur", end);
+      end();
+    };
   }, []);
   const element = useRef(/** @type {any} */ (null));
   /** @param {any} event */
   const key = (event) => {
     if (event.key !== " " && event.key !== "Enter") return;
     event.preventDefault();
-    if (event.type === "keyup") end(); else start();
+    if (event.type === "keyup") end();
+    else start();
   };
   return html`<button class=${`way go-${name}`} ref=${element} aria-label=${label} title=${`${label}, while it is held`}
-    onPointerDown=${(/** @type {any} */ e) => { if (e.button === 0) { element.current.setPointerCapture(e.pointerId); start(); } }}
+    onPointerDown=${(/** @type {any} */ e) => {
+      if (e.button === 0) {
+        element.current.setPointerCapture(e.pointerId);
+        start();
+      }
+    }}
     onPointerUp=${end} onPointerCancel=${end} onLostPointerCapture=${end} onBlur=${end}
     onKeyDown=${key} onKeyUp=${key}
     onContextMenu=${(/** @type {any} */ e) => e.preventDefault()}><${Icon} name=${name} /></button>`;
@@ -92,7 +111,8 @@ function HoldButton({ name }) {
 export function Driving() {
   degrees.use();
   const stops = !there.use();
-  const linear = useRow("drive/linear"), angular = useRow("drive/angular");
+  const linear = useRow("drive/linear");
+  const angular = useRow("drive/angular");
   const rows = [linear, angular].filter((row) => row?.value);
   if (!linear || !rows.length) return null;
   const speeds = rows.map((row) => {

@@ -14,10 +14,16 @@ import { Tree } from "../tree/tree.js";
 export function FramesPanel() {
   const shown = useRow("frames/shown")?.value;
   // The answer follows motions only while somebody can see it.
-  useEffect(() => { if (shown === false) act("frames/shown", [true]); }, [shown]);
+  useEffect(() => {
+    if (shown === false) act("frames/shown", [true]);
+  }, [shown]);
   useEffect(() => () => act("frames/shown", [false]), []);
   const chosen = useRow(selected.use().frames || "none");
-  const of = chosen?.static ? chosen : rows.get(chosen?.in || "")?.static ? rows.get(chosen?.in || "") : undefined;
+  const of = chosen?.static
+    ? chosen
+    : rows.get(chosen?.in || "")?.static
+      ? rows.get(chosen?.in || "")
+      : undefined;
   const remove = () => of && act("frames/remove", [of.id]);
   /** @param {KeyboardEvent} event @param {Row} row */
   const key = (event, row) => {
@@ -33,7 +39,8 @@ export function FramesPanel() {
   </div>`;
 }
 
-const LENGTHS = ["x", "y", "z"], ANGLES = ["roll", "pitch", "yaw"];
+const LENGTHS = ["x", "y", "z"];
+const ANGLES = ["roll", "pitch", "yaw"];
 
 /** Fields for a new static transform, and a place to paste one. @param {{children?: any}} props */
 function Add({ children }) {
@@ -84,7 +91,10 @@ function Form() {
     return act("frames/add", [...numbers, within, typed("child")]);
   };
   /** @param {string} name @param {string} unit */
-  const number = (name, unit) => html`<label><span>${name}</span> <input name=${name} autocomplete="off"
+  const number = (
+    name,
+    unit,
+  ) => html`<label><span>${name}</span> <input name=${name} autocomplete="off"
     placeholder=${`0 ${unit}`} title=${`${name}, in ${unit} or with a unit behind it`} /></label>`;
   return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
     ${LENGTHS.map((name) => number(name, "m"))}

@@ -18,9 +18,11 @@ import { Poses } from "./poses.js";
 
 const SEARCH_FROM = 12;
 /** Left and right of a name, and what is more when there are groups [px]. */
-const AROUND_NAME = 10, INDENT = 14;
+const AROUND_NAME = 10;
+const INDENT = 14;
 /** What a finger needs beside a name: a slider that is long enough, and the number [px]. */
-const FOR_A_FINGER = 230, TURN_BUTTON = 38;
+const FOR_A_FINGER = 230;
+const TURN_BUTTON = 38;
 
 /** How the values of the joints can be copied. @type {Record<string, string>} */
 const FORMS = {
@@ -37,7 +39,8 @@ const hovered = new Cell("");
 export function JointsPanel() {
   useRow("panel:joints");
   const [search, setSearch] = useState("");
-  const box = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
+  const box = useRef(/** @type {any} */ (null));
+  const panel = useRef(/** @type {any} */ (null));
   const ids = rows.panels.get("joints") || [];
   const grouped = ids.some((id) => rows.get(id)?.kind === "group");
   const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
@@ -45,19 +48,25 @@ export function JointsPanel() {
   if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   /** @param {Row} row */
-  const wanted = (row) => row.kind === "slider" && words.every((word) => (row.name || "").toLowerCase().includes(word));
+  const wanted = (row) =>
+    row.kind === "slider" && words.every((word) => (row.name || "").toLowerCase().includes(word));
   const many = ids.filter((id) => rows.get(id)?.kind === "slider").length > SEARCH_FROM;
   const found = !words.length || ids.some((id) => wanted(/** @type {Row} */ (rows.get(id))));
   /** @param {any} event */
   const key = (event) => {
-    if (event.key === "Escape" && box.current.value) { box.current.value = ""; setSearch(""); }
-    else if (event.key === "Enter" || event.key === "ArrowDown") panel.current.querySelector(".tree input.num")?.focus();
+    if (event.key === "Escape" && box.current.value) {
+      box.current.value = "";
+      setSearch("");
+    } else if (event.key === "Enter" || event.key === "ArrowDown")
+      panel.current.querySelector(".tree input.num")?.focus();
     else return;
     event.preventDefault();
     event.stopPropagation();
   };
   const wheels = Boolean(rows.get("joints/rate"));
-  const stacked = matchMedia("(pointer: coarse)").matches && names + FOR_A_FINGER + (wheels ? TURN_BUTTON : 0) > width;
+  const stacked =
+    matchMedia("(pointer: coarse)").matches &&
+    names + FOR_A_FINGER + (wheels ? TURN_BUTTON : 0) > width;
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
@@ -69,9 +78,12 @@ export function JointsPanel() {
     <div class="buttons">
       <${Degrees} />
       ${wheels && html`<${TurnRate} />`}
-      ${many && html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" ref=${box}
+      ${
+        many &&
+        html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" ref=${box}
         onMouseDown=${focusWhole} onFocus=${(/** @type {any} */ e) => e.target.select()}
-        onInput=${(/** @type {any} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`}
+        onInput=${(/** @type {any} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`
+      }
       <${FoldAll} />
     </div>
     <div class="list" onPointerOver=${(/** @type {any} */ e) => hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
@@ -89,7 +101,9 @@ function longestName(ids) {
   const brush = document.createElement("canvas").getContext("2d");
   if (!brush) return 130;
   brush.font = getComputedStyle(document.getElementById("sambot") || document.body).font;
-  const widths = ids.map((id) => rows.get(id)).filter((row) => row?.kind === "slider")
+  const widths = ids
+    .map((id) => rows.get(id))
+    .filter((row) => row?.kind === "slider")
     .map((row) => brush.measureText(row?.name || "").width);
   return Math.ceil(Math.max(60, ...widths)) + AROUND_NAME;
 }
@@ -110,12 +124,22 @@ function useWidth(element) {
 function Copy() {
   const last = form.use();
   /** @param {string} name */
-  const copy = (name) => { form.set(name); act("joints/copy", [name]); };
+  const copy = (name) => {
+    form.set(name);
+    act("joints/copy", [name]);
+  };
   return html`<span class="split">
     <button title=${`Copy the joint values: ${FORMS[last]}`} onClick=${() => copy(last)}>Copy</button>
-    <${Popup} name="Copy as" role="menu" label=${html`<${Icon} name="down" />`}>${(/** @type {() => void} */ close) =>
-      Object.entries(FORMS).map(([name, label]) => html`<button role="menuitem" key=${name}
-        onClick=${() => { copy(name); close(); }}>${label}</button>`)}<//>
+    <${Popup} name="Copy as" role="menu" label=${html`<${Icon} name="down" />`}>${(
+      /** @type {() => void} */ close,
+    ) =>
+      Object.entries(FORMS).map(
+        ([name, label]) => html`<button role="menuitem" key=${name}
+        onClick=${() => {
+          copy(name);
+          close();
+        }}>${label}</button>`,
+      )}<//>
   </span>`;
 }
 
@@ -158,7 +182,10 @@ function Help() {
   degrees.use();
   const id = hovered.use() || selected.use().joints || "";
   const row = useRow(id || "none");
-  return html`<div class="help">${row?.kind === "slider" && html`<b>${row.name}</b><br />
+  return html`<div class="help">${
+    row?.kind === "slider" &&
+    html`<b>${row.name}</b><br />
     ${row.help}<br />
-    ${row.follows ? `position ${formula(row)}; ` : ""}${row.wheel ? "turns without limits" : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`}</div>`;
+    ${row.follows ? `position ${formula(row)}; ` : ""}${row.wheel ? "turns without limits" : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
+  }</div>`;
 }

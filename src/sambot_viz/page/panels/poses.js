@@ -30,19 +30,29 @@ function Form({ close }) {
     act("poses/save", [field.current.value]);
   };
   // The button that has removed a pose goes with it: the next one has the focus, or the field.
-  const list = useRef(/** @type {any} */ (null)), removed = useRef(-1);
+  const list = useRef(/** @type {any} */ (null));
+  const removed = useRef(-1);
   /** @param {string} name */
-  const remove = (name) => { removed.current = names.indexOf(name); act("poses/remove", [name]); };
+  const remove = (name) => {
+    removed.current = names.indexOf(name);
+    act("poses/remove", [name]);
+  };
   useLayoutEffect(() => {
     const buttons = list.current.querySelectorAll(".pose .flat");
-    if (removed.current >= 0) (buttons[Math.min(removed.current, buttons.length - 1)] || field.current).focus();
+    if (removed.current >= 0)
+      (buttons[Math.min(removed.current, buttons.length - 1)] || field.current).focus();
     removed.current = -1;
   }, [names.join("\n")]);
   return html`<div class="poses" ref=${list}>
-    ${names.map((name) => html`<div class="pose" key=${name}>
-      <button class="drives" title=${`Move the joints to '${name}'`} onClick=${() => { act("poses/use", [name]); close(); }}>${name}</button>
+    ${names.map(
+      (name) => html`<div class="pose" key=${name}>
+      <button class="drives" title=${`Move the joints to '${name}'`} onClick=${() => {
+        act("poses/use", [name]);
+        close();
+      }}>${name}</button>
       <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`} onClick=${() => remove(name)}><${Icon} name="trash" /></button>
-    </div>`)}
+    </div>`,
+    )}
     ${!names.length && html`<p class="empty">No pose is saved yet</p>`}
     <form onSubmit=${save}>
       <input class="search" ref=${field} aria-label="Name of the pose" placeholder="Name of this pose" maxlength="60"

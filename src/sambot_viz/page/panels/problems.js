@@ -6,7 +6,11 @@ import { Icon } from "../window/icons.js";
 import { useRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
 
-const KINDS = /** @type {const} */ ([["error", "error"], ["warning", "warn"], ["info", "info"]]);
+const KINDS = /** @type {const} */ ([
+  ["error", "error"],
+  ["warning", "warn"],
+  ["info", "info"],
+]);
 
 /**
  * @typedef {{shown: boolean, show: (on: boolean) => void, byItself: boolean}} Shown
@@ -28,7 +32,10 @@ export function ProblemCount({ shown, show, byItself }) {
       onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} /></button>`;
 }
 
-/** The number of problems in a corner of the view, while the panels are hidden. @param {{show: () => void}} props */
+/**
+ * The number of problems in a corner of the view, while the panels are hidden.
+ * @param {{show: () => void}} props
+ */
 export function ProblemCorner({ show }) {
   const all = counted(useRow("problems/count")?.value);
   if (!all.length) return null;
@@ -37,14 +44,24 @@ export function ProblemCorner({ show }) {
 
 /** The kinds of problems that there are. @param {any} count */
 function counted(count) {
-  return KINDS.map(([name, level]) => ({ name, level, number: count?.[name] || 0 })).filter(({ number }) => number);
+  return KINDS.map(([name, level]) => ({ name, level, number: count?.[name] || 0 })).filter(
+    ({ number }) => number,
+  );
 }
 
 /** @param {{of: ReturnType<typeof counted>}} props */
 function Numbers({ of }) {
-  const words = of.map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`).join(", ");
-  return html`${of.length ? of.map(({ name, level, number }) => html`<span key=${name} class=${`l-${level}`} aria-hidden="true"><${Icon} name=${level} /> ${number}</span>`)
-      : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`}
+  const words = of
+    .map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`)
+    .join(", ");
+  return html`${
+    of.length
+      ? of.map(
+          ({ name, level, number }) =>
+            html`<span key=${name} class=${`l-${level}`} aria-hidden="true"><${Icon} name=${level} /> ${number}</span>`,
+        )
+      : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`
+  }
     <span class="spoken">${words ? `Problems: ${words}` : "No problems"}</span>`;
 }
 
@@ -68,5 +85,7 @@ function useOpening(count, { shown, show, byItself }) {
     }
   }, [count?.error, count?.old]);
   // A hand that has closed or opened it decides.
-  useEffect(() => { if (!shown) known.opened = false; }, [shown]);
+  useEffect(() => {
+    if (!shown) known.opened = false;
+  }, [shown]);
 }

@@ -20,6 +20,11 @@ rows.listen("edit/touched", () => {
   const id = rows.value("edit/touched")?.row;
   if (!id) return;
   if (rows.get(id)) return go(id);
-  const stop = rows.listen(`panel:${PANEL}`, () => { if (rows.get(id)) { stop(); go(id); } });
+  const stop = rows.listen(`panel:${PANEL}`, () => {
+    if (rows.get(id)) {
+      stop();
+      go(id);
+    }
+  });
   setTimeout(stop, PATIENCE);
 });

@@ -34,7 +34,8 @@ export function ViewsPanel() {
   };
   /** @param {Row} row */
   const double = (row) => {
-    if (row.saved) use(row); else if (row.id === "view") fold(row.id, !isOpen(row.id));
+    if (row.saved) use(row);
+    else if (row.id === "view") fold(row.id, !isOpen(row.id));
     return Boolean(row.saved) || row.id === "view";
   };
   return html`<section class="panel views" aria-label="Views">
@@ -64,7 +65,10 @@ function Save() {
     before.current = null;
     reveal("views", made, false);
   });
-  return html`<button class="drives" title="Keep this view in the list below" onClick=${() => { before.current = new Set(saved); act("views/save"); }}>Save</button>`;
+  return html`<button class="drives" title="Keep this view in the list below" onClick=${() => {
+    before.current = new Set(saved);
+    act("views/save");
+  }}>Save</button>`;
 }
 
 /** Tell the script that handles the mouse which view this is. */

@@ -21,19 +21,26 @@ const shown = (seconds) => `${seconds.toFixed(1)} s`;
 /** Whether viser has drawn the first picture. */
 const isReady = () => {
   const page = globals.__viserMutable;
-  return Boolean(page?.scene && page.cameraControl && page.messageQueue.length === 0
-    && globals.sambotVizLook?.frames && "/~ambient" in globals.__viserSceneTree.getState());
+  return Boolean(
+    page?.scene &&
+    page.cameraControl &&
+    page.messageQueue.length === 0 &&
+    globals.sambotVizLook?.frames &&
+    "/~ambient" in globals.__viserSceneTree.getState(),
+  );
 };
 
 /** A function of viser's scene is called as soon as there is one. @param {() => void} then */
 function whenReady(then) {
-  if (isReady()) then(); else setTimeout(() => whenReady(then), 50);
+  if (isReady()) then();
+  else setTimeout(() => whenReady(then), 50);
 }
 
 /** In a narrower window the camera is farther away, so that as much is seen to the sides. */
 function makeRoom() {
   const { canvas, cameraControl, requestRender } = globals.__viserMutable;
-  const [width, height] = about.size, narrower = (width / height) / (canvas.clientWidth / canvas.clientHeight);
+  const [width, height] = about.size;
+  const narrower = width / height / (canvas.clientWidth / canvas.clientHeight);
   if (about.view.kind === "TopDownOrtho" || about.view.kind === "FPS" || !(narrower > 1)) return;
   cameraControl.dollyTo(cameraControl.distance * narrower, false);
   requestRender();
@@ -46,7 +53,7 @@ function followHeight() {
     const { canvas, cameraControl, requestRender } = globals.__viserMutable;
     const now = canvas.clientHeight;
     if (about.view.kind !== "TopDownOrtho" || !now || now === height) return;
-    cameraControl.dollyTo(cameraControl.distance * now / height, false);
+    cameraControl.dollyTo((cameraControl.distance * now) / height, false);
     height = now;
     requestRender();
   }, 100);
@@ -66,7 +73,8 @@ class Player {
   /** Show a time. @param {number} time [s] */
   go(time) {
     this.time = Math.max(0, Math.min(about.duration, time));
-    const page = globals.__viserMutable, messages = at(this.tracks, this.time * 1000);
+    const page = globals.__viserMutable;
+    const messages = at(this.tracks, this.time * 1000);
     if (messages.length) {
       page.messageQueue.push(...messages);
       page.requestRender();
@@ -91,12 +99,20 @@ class Player {
     this.last = now;
     if (next < about.duration) this.go(next);
     else if (this.loop) this.go(next % about.duration);
-    else { this.go(about.duration); this.play(false); return; }
+    else {
+      this.go(about.duration);
+      this.play(false);
+      return;
+    }
     requestAnimationFrame((then) => this.step(then));
   }
 }
 
-/** @param {string} tag @param {Record<string, string>} attributes @param {...(Node | string)} inside */
+/**
+ * @param {string} tag
+ * @param {Record<string, string>} attributes
+ * @param {...(Node | string)} inside
+ */
 function element(tag, attributes, ...inside) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
@@ -107,8 +123,16 @@ function element(tag, attributes, ...inside) {
 /** The line below the view. @param {Player} player */
 function bar(player) {
   const play = element("button", { class: "play", title: "Play or pause (space bar)" });
-  const slider = /** @type {HTMLInputElement} */ (element("input", { type: "range", "aria-label": "Time", min: "0",
-    max: String(about.duration), step: String(Math.min(0.1, about.duration / 20)), value: "0" }));
+  const slider = /** @type {HTMLInputElement} */ (
+    element("input", {
+      type: "range",
+      "aria-label": "Time",
+      min: "0",
+      max: String(about.duration),
+      step: String(Math.min(0.1, about.duration / 20)),
+      value: "0",
+    })
+  );
   const time = element("span", { class: "time", "aria-hidden": "true" });
   const loop = element("button", { title: "Begin again at the end" }, "Loop");
   player.changed = () => {
@@ -119,8 +143,14 @@ function bar(player) {
     time.textContent = `${shown(player.time)} / ${shown(about.duration)}`;
   };
   play.onclick = () => player.play(!player.playing);
-  loop.onclick = () => { player.loop = !player.loop; player.changed(); };
-  slider.oninput = () => { player.play(false); player.go(Number(slider.value)); };
+  loop.onclick = () => {
+    player.loop = !player.loop;
+    player.changed();
+  };
+  slider.oninput = () => {
+    player.play(false);
+    player.go(Number(slider.value));
+  };
   addEventListener("keydown", (event) => {
     if (event.key !== " " || event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
     if (event.target instanceof HTMLButtonElement) return;
@@ -128,7 +158,14 @@ function bar(player) {
     play.click();
   });
   player.changed();
-  return element("div", { class: "player", role: "group", "aria-label": "Motion" }, play, slider, time, loop);
+  return element(
+    "div",
+    { class: "player", role: "group", "aria-label": "Motion" },
+    play,
+    slider,
+    time,
+    loop,
+  );
 }
 
 async function start() {
@@ -145,10 +182,12 @@ async function start() {
   whenReady(() => {
     makeRoom();
     followHeight();
-    if (!tracks) line.append(element("p", { role: "status" }, "This browser is too old to play the motion."));
+    if (!tracks)
+      line.append(element("p", { role: "status" }, "This browser is too old to play the motion."));
     else if (tracks.length) line.append(bar(new Player(tracks)));
     host.dataset.ready = "yes";
   });
 }
 // The script may be there before the page's body is.
-if (document.readyState !== "loading") start(); else addEventListener("DOMContentLoaded", start);
+if (document.readyState !== "loading") start();
+else addEventListener("DOMContentLoaded", start);

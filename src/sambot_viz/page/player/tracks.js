@@ -7,8 +7,17 @@
  *   now: the number of the value that is shown; -1 for the first one, -2 when none is */
 
 /** @type {Record<string, any>} */
-const ARRAYS = { "<f4": Float32Array, "<f8": Float64Array, "|u1": Uint8Array, "<u2": Uint16Array, "<u4": Uint32Array,
-  "|i1": Int8Array, "<i2": Int16Array, "<i4": Int32Array, "<f2": Uint16Array };
+const ARRAYS = {
+  "<f4": Float32Array,
+  "<f8": Float64Array,
+  "|u1": Uint8Array,
+  "<u2": Uint16Array,
+  "<u4": Uint32Array,
+  "|i1": Int8Array,
+  "<i2": Int16Array,
+  "<i4": Int32Array,
+  "<f2": Uint16Array,
+};
 
 /** @param {string} text @returns {Uint8Array<ArrayBuffer>} */
 const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -36,12 +45,18 @@ export function unpack(tracks) {
   });
 }
 
-/** The number of the last value at a time; -1 before all of them. @param {number[]} times @param {number} time */
+/**
+ * The number of the last value at a time; -1 before all of them.
+ * @param {number[]} times
+ * @param {number} time
+ */
 function last(times, time) {
-  let low = -1, high = times.length - 1;
+  let low = -1;
+  let high = times.length - 1;
   while (low < high) {
     const middle = Math.ceil((low + high) / 2);
-    if (times[middle] <= time) low = middle; else high = middle - 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle - 1;
   }
   return low;
 }
@@ -62,7 +77,8 @@ export function at(tracks, time) {
 
   /** @param {Track} track */
   function step(track) {
-    const to = last(track.times, time), { type, name, prop } = track;
+    const to = last(track.times, time);
+    const { type, name, prop } = track;
     const value = to < 0 ? track.first : track.values[to];
     if (!type && !value) gone.add(name);
     if (to === track.now) return;
@@ -71,8 +87,11 @@ export function at(tracks, time) {
       for (const other of tracks) if (other.type && other.name === name) other.now = -2;
       messages.push(value || { type: "RemoveSceneNodeMessage", name, owner: "" });
     } else if (value !== null && value !== undefined) {
-      messages.push(type === "SceneNodeUpdateMessage" ? { type, name, owner: "", updates: { [prop]: value } }
-        : { type, name, owner: "", [prop]: value });
+      messages.push(
+        type === "SceneNodeUpdateMessage"
+          ? { type, name, owner: "", updates: { [prop]: value } }
+          : { type, name, owner: "", [prop]: value },
+      );
     }
   }
 }

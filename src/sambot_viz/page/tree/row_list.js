@@ -14,7 +14,10 @@ export class RowList {
     this.slots = new Map();
   }
 
-  /** Show rows in an order; those whose facts are as before are left alone. @param {Drawn[]} rows */
+  /**
+   * Show rows in an order; those whose facts are as before are left alone.
+   * @param {Drawn[]} rows
+   */
   show(rows) {
     const wanted = new Set(rows.map(({ id }) => id));
     for (const [id, { element }] of this.slots) {
@@ -50,5 +53,7 @@ export class RowList {
   }
 
   /** Take all rows out. */
-  clear() { this.show([]); }
+  clear() {
+    this.show([]);
+  }
 }

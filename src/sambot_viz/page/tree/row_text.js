@@ -13,7 +13,8 @@ export function valueText(row) {
   const { kind, value } = row;
   if (value === undefined || value === null || NO_TEXT.has(kind)) return "";
   if (kind === "color") return value.join("; ");
-  if (kind === "vector") return value.map((/** @type {number} */ part) => formatNumber(part, 6)).join("; ");
+  if (kind === "vector")
+    return value.map((/** @type {number} */ part) => formatNumber(part, 6)).join("; ");
   if (kind === "lines" && Array.isArray(value)) return value.map(([, line]) => line).join("\n");
   if (typeof value === "number") return formatNumber(value, 6);
   return String(value);
@@ -25,6 +26,7 @@ export function valueText(row) {
  */
 export function copyText(row, below) {
   if (row.kind === "note" || row.kind === "lines") return [row, ...below].map(valueText).join("\n");
-  if (row.kind === "status") return [row, ...below].map((one) => `${one.name}: ${valueText(one)}`).join("\n");
+  if (row.kind === "status")
+    return [row, ...below].map((one) => `${one.name}: ${valueText(one)}`).join("\n");
   return valueText(row) || row.name || "";
 }

@@ -14,7 +14,9 @@ import { Cell, fold, folds, isOpen, select, selected, splits, useRow } from "../
 /** @typedef {import("../wire/rows.js").Row} Row */
 /** @typedef {import("../window/menu.js").Item} Item */
 
-/** Rows of longer lists are only laid out near the screen; a screen reader knows their names then. */
+/**
+ * Rows of longer lists are only laid out near the screen; a screen reader knows their names then.
+ */
 const MANY = 150;
 
 const HIDDEN = new Set(["action", "names"]);
@@ -22,7 +24,9 @@ const HIDDEN = new Set(["action", "names"]);
 const SPLIT = 0.6;
 /** The row that is scrolled to, and gets the focus, as soon as it is there.
  * @type {Cell<{panel: string, id: string, focus: boolean} | null>} */
-const wantedFocus = new Cell(/** @type {{panel: string, id: string, focus: boolean} | null} */ (null));
+const wantedFocus = new Cell(
+  /** @type {{panel: string, id: string, focus: boolean} | null} */ (null),
+);
 
 /** The ids of the rows that are unfolded, with their depth, in order.
  * @param {string} panel @param {(row: Row) => boolean} [wanted] a search: only rows it finds */
@@ -44,10 +48,15 @@ export function visible(panel, wanted) {
 }
 
 /** @param {string} id */
-export function canOpen(id) { return rows.children(id).length > 0 || Boolean(rows.get(id)?.lazy); }
+export function canOpen(id) {
+  return rows.children(id).length > 0 || Boolean(rows.get(id)?.lazy);
+}
 
 /** Select a row, unfold what is above it, and give it the focus.
- * @param {string} panel @param {string} id @param {boolean} [focus] false: the focus stays where it is */
+ * @param {string} panel
+ * @param {string} id
+ * @param {boolean} [focus] false: the focus stays where it is
+ */
 export function reveal(panel, id, focus = true) {
   for (let above = rows.get(id)?.in; above; above = rows.get(above)?.in) fold(above, true);
   select(panel, id);
@@ -56,7 +65,9 @@ export function reveal(panel, id, focus = true) {
 
 /** All rows below one. @param {string} id @returns {Row[]} */
 function allBelow(id) {
-  return rows.children(id).flatMap((child) => [/** @type {Row} */ (rows.get(child)), ...allBelow(child)]);
+  return rows
+    .children(id)
+    .flatMap((child) => [/** @type {Row} */ (rows.get(child)), ...allBelow(child)]);
 }
 
 /** @param {Row} row */
@@ -66,8 +77,10 @@ function copyRow(row) {
 }
 
 /**
- * @param {{panel: string, label: string, wanted?: (row: Row) => boolean, split?: boolean, hover?: boolean,
- *   onKey?: (event: KeyboardEvent, row: Row) => boolean | void, menu?: (row: Row) => Item[], onDouble?: (row: Row) => boolean,
+ * @param {{panel: string, label: string, wanted?: (row: Row) => boolean, split?: boolean, hover?:
+ *   boolean,
+ *   onKey?: (event: KeyboardEvent, row: Row) => boolean | void, menu?: (row: Row) => Item[],
+ *   onDouble?: (row: Row) => boolean,
  *   renaming?: string, rename?: (id: string, name: string | null) => void,
  *   drag?: (event: any, row: Row, tree: HTMLElement) => void}} props
  *   onKey: keys of the panel on the selected row; it returns whether it used the key
@@ -76,18 +89,35 @@ function copyRow(row) {
  *   split: whether the width of the names can be moved
  *   hover: whether the help of a row is shown on hover
  */
-export function Tree({ panel, label, wanted, split = panel !== "joints", hover = true, onKey, onDouble, menu, renaming, rename, drag }) {
+export function Tree({
+  panel,
+  label,
+  wanted,
+  split = panel !== "joints",
+  hover = true,
+  onKey,
+  onDouble,
+  menu,
+  renaming,
+  rename,
+  drag,
+}) {
   useRow(`panel:${panel}`);
   folds.use();
-  const chosen = selected.use()[panel], focus = wantedFocus.use(), ratio = splits.use()[panel] ?? SPLIT;
+  const chosen = selected.use()[panel];
+  const focus = wantedFocus.use();
+  const ratio = splits.use()[panel] ?? SPLIT;
   const element = useRef(/** @type {any} */ (null));
-  const [opened, setOpened] = useState(/** @type {{row: Row, at: {x: number, y: number}} | null} */ (null));
+  const [opened, setOpened] = useState(
+    /** @type {{row: Row, at: {x: number, y: number}} | null} */ (null),
+  );
   const shown = visible(panel, wanted);
   const current = shown.some(({ id }) => id === chosen) ? chosen : shown[0]?.id;
   const list = useRef(/** @type {RowList | null} */ (null));
 
   /** @param {string | undefined} id @returns {HTMLElement | null} */
-  const find = (id) => (id ? element.current?.querySelector(`[data-row="${CSS.escape(id)}"]`) : null);
+  const find = (id) =>
+    id ? element.current?.querySelector(`[data-row="${CSS.escape(id)}"]`) : null;
   /** @param {string | undefined} id */
   const go = (id) => {
     if (!id) return;
@@ -102,7 +132,10 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
     const box = event.target.getBoundingClientRect();
     const byMouse = event.type === "contextmenu" && (event.clientX || event.clientY);
     go(row.id);
-    setOpened({ row, at: byMouse ? { x: event.clientX, y: event.clientY } : { x: box.left + 40, y: box.bottom } });
+    setOpened({
+      row,
+      at: byMouse ? { x: event.clientX, y: event.clientY } : { x: box.left + 40, y: box.bottom },
+    });
   };
   /** @param {any} event */
   const key = (event) => {
@@ -110,20 +143,26 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
     if (!row) return;
     const used = event.target.matches?.("input:not([type=checkbox]), select, textarea")
       ? event.key === "Escape" && (go(current), true)
-      : (onKey?.(event, row) || keyOnRow(event, row));
+      : onKey?.(event, row) || keyOnRow(event, row);
     if (!used) return;
     if (used !== "types") event.preventDefault();
     event.stopPropagation();
   };
-  /** @param {any} event @param {Row} row @returns {boolean | "types"} whether the key is used, or goes into a field */
+  /**
+   * @param {any} event
+   * @param {Row} row
+   * @returns {boolean | "types"} whether the key is used, or goes into a field
+   */
   const keyOnRow = (event, row) => {
-    const at = shown.findIndex(({ id }) => id === current), onRow = event.target.dataset?.row === current;
+    const at = shown.findIndex(({ id }) => id === current);
+    const onRow = event.target.dataset?.row === current;
     const open = canOpen(row.id) && isOpen(row.id);
     if (event.ctrlKey || event.metaKey) {
       if (event.key.toLowerCase() !== "c" || String(getSelection())) return false;
       copyRow(row);
     } else if (event.altKey) return false;
-    else if (event.key === "ContextMenu" || (event.shiftKey && event.key === "F10")) openMenu(event, row);
+    else if (event.key === "ContextMenu" || (event.shiftKey && event.key === "F10"))
+      openMenu(event, row);
     else if (event.key === "ArrowDown") go(shown[at + 1]?.id);
     else if (event.key === "ArrowUp") go(shown[at - 1]?.id);
     else if (event.key === "PageDown") go(shown[Math.min(shown.length - 1, at + 10)]?.id);
@@ -131,9 +170,11 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
     else if (event.key === "Home") go(shown[0]?.id);
     else if (event.key === "End") go(shown[shown.length - 1]?.id);
     else if (event.key === "ArrowRight") {
-      if (canOpen(row.id) && !open) fold(row.id, true); else if (open) go(shown[at + 1]?.id);
+      if (canOpen(row.id) && !open) fold(row.id, true);
+      else if (open) go(shown[at + 1]?.id);
     } else if (event.key === "ArrowLeft") {
-      if (open) fold(row.id, false); else go(row.in);
+      if (open) fold(row.id, false);
+      else go(row.in);
     } else if (!onRow) return false;
     else if (event.key === " " && typeof row.value === "boolean") {
       if (!row.fixed && !row.off) send(row.id, !row.value);
@@ -146,7 +187,9 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
   };
   /** What Enter does: edit, else tick, else fold. @param {any} event @param {Row} row */
   const edit = (event, row) => {
-    const field = event.target.querySelector("input:not([type=checkbox]):not([type=color]), select");
+    const field = event.target.querySelector(
+      "input:not([type=checkbox]):not([type=color]), select",
+    );
     if (field && !field.disabled) field.focus();
     else if (canOpen(row.id)) fold(row.id, !isOpen(row.id));
     else if (typeof row.value === "boolean" && !row.fixed && !row.off) send(row.id, !row.value);
@@ -154,16 +197,39 @@ export function Tree({ panel, label, wanted, split = panel !== "joints", hover =
   /** @param {Row} row @returns {Item[]} */
   const items = (row) => {
     const word = row.kind === "status" ? "status" : valueText(row) ? "value" : "name";
-    return [...(menu?.(row) || []), { label: `Copy ${word}`, keys: "Ctrl+C", act: () => copyRow(row) }];
+    return [
+      ...(menu?.(row) || []),
+      { label: `Copy ${word}`, keys: "Ctrl+C", act: () => copyRow(row) },
+    ];
   };
   // Rows get the same functions all the time: only rows with other facts are drawn again.
   const api = useRef(/** @type {any} */ ({}));
-  api.current = { panel, hover, go, openMenu, onDouble, rename, drag: (/** @type {any} */ e, /** @type {Row} */ row) => drag?.(e, row, element.current) };
+  api.current = {
+    panel,
+    hover,
+    go,
+    openMenu,
+    onDouble,
+    rename,
+    drag: (/** @type {any} */ e, /** @type {Row} */ row) => drag?.(e, row, element.current),
+  };
   /** @param {{id: string, depth: number}} one @returns {import("./row_list.js").Drawn} */
   const drawn = ({ id, depth }) => {
-    const opens = canOpen(id), open = opens && (Boolean(wanted) || isOpen(id));
-    const facts = { depth, opens, open, current: id === current, chosen: id === chosen, renaming: renaming === id };
-    return { id, facts: JSON.stringify(facts), view: () => html`<${RowView} id=${id} api=${api} ...${facts} />` };
+    const opens = canOpen(id);
+    const open = opens && (Boolean(wanted) || isOpen(id));
+    const facts = {
+      depth,
+      opens,
+      open,
+      current: id === current,
+      chosen: id === chosen,
+      renaming: renaming === id,
+    };
+    return {
+      id,
+      facts: JSON.stringify(facts),
+      view: () => html`<${RowView} id=${id} api=${api} ...${facts} />`,
+    };
   };
   useLayoutEffect(() => {
     list.current = new RowList(element.current);
@@ -207,7 +273,11 @@ function useLazy(panel, shown) {
 }
 
 /** When the selected row goes, the one in its place is selected, and gets the focus it had.
- * @param {string} panel @param {{id: string}[]} shown @param {string | undefined} chosen @param {{current: any}} element */
+ * @param {string} panel
+ * @param {{id: string}[]} shown
+ * @param {string | undefined} chosen
+ * @param {{current: any}} element
+ */
 function useKeptFocus(panel, shown, chosen, element) {
   const last = useRef({ at: -1, focused: false });
   useLayoutEffect(() => {
@@ -215,27 +285,37 @@ function useKeptFocus(panel, shown, chosen, element) {
     const lost = !document.activeElement || document.activeElement === document.body;
     const instead = shown[Math.min(last.current.at, shown.length - 1)]?.id;
     if (at < 0 && chosen && last.current.at >= 0 && instead && !rows.get(chosen)) {
-      if (last.current.focused && lost) reveal(panel, instead); else select(panel, instead);
+      if (last.current.focused && lost) reveal(panel, instead);
+      else select(panel, instead);
     }
     last.current = { at, focused: Boolean(element.current?.contains(document.activeElement)) };
   });
 }
 
-/** The line between names and values; a hand or the arrow keys move it. @param {{panel: string, ratio: number}} props */
+/**
+ * The line between names and values; a hand or the arrow keys move it.
+ * @param {{panel: string, ratio: number}} props
+ */
 function Divider({ panel, ratio }) {
   /** @param {number} to */
   const set = (to) => splits.set({ ...splits.value, [panel]: Math.min(0.85, Math.max(0.15, to)) });
   /** @param {any} event */
   const drag = (event) => {
-    const box = event.target.parentElement, { left } = box.getBoundingClientRect();
+    const box = event.target.parentElement;
+    const { left } = box.getBoundingClientRect();
     event.target.setPointerCapture(event.pointerId);
-    event.target.onpointermove = (/** @type {any} */ e) => set((e.clientX - left) / box.clientWidth);
-    event.target.onpointerup = () => { event.target.onpointermove = null; };
+    event.target.onpointermove = (/** @type {any} */ e) =>
+      set((e.clientX - left) / box.clientWidth);
+    event.target.onpointerup = () => {
+      event.target.onpointermove = null;
+    };
     event.preventDefault();
   };
   /** @param {any} event */
   const key = (event) => {
-    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 0.02, ArrowLeft: -0.02 })[event.key];
+    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 0.02, ArrowLeft: -0.02 })[
+      event.key
+    ];
     if (!by) return;
     set(ratio + by);
     event.preventDefault();

@@ -6,7 +6,9 @@ const HOVERS = 20;
 
 const canvas = () => window.__viserMutable?.canvas;
 
-/** @typedef {[number | null, number | null]} Place from left and top, 0 to 1; null outside the view */
+/**
+ * @typedef {[number | null, number | null]} Place from left and top, 0 to 1; null outside the view
+ */
 /** @type {Place} */
 const OUTSIDE = [null, null];
 let place = OUTSIDE;
@@ -23,7 +25,8 @@ function inView(target) {
 function placeOf(event) {
   const box = canvas()?.getBoundingClientRect();
   if (!box || !box.width || !box.height || !inView(event.target)) return OUTSIDE;
-  const x = (event.clientX - box.left) / box.width, y = (event.clientY - box.top) / box.height;
+  const x = (event.clientX - box.left) / box.width;
+  const y = (event.clientY - box.top) / box.height;
   return x >= 0 && x <= 1 && y >= 0 && y <= 1 ? [x, y] : OUTSIDE;
 }
 
@@ -40,13 +43,15 @@ const CLICK = 4;
 
 /**
  * Follow the mouse.
- * @param {{wantsHover: () => boolean, hover: (place: [number, number]) => void, rightClick: () => void}} to
+ * @param {{wantsHover: () => boolean, hover: (place: [number, number]) => void, rightClick: () =>
+ *   void}} to
  *   hover: called while the tool wants it, when the place has changed
  */
 export function followMouse({ wantsHover, hover, rightClick }) {
   /** @type {Place} */
   let sent = OUTSIDE;
-  let timer = 0, last = -Infinity;
+  let timer = 0;
+  let last = -Infinity;
   const sendLast = () => {
     timer = 0;
     const [x, y] = place;
@@ -55,29 +60,43 @@ export function followMouse({ wantsHover, hover, rightClick }) {
     sent = place;
     hover([x, y]);
   };
-  addEventListener("pointermove", (event) => {
-    // A finger does not hover, and with a button the mouse turns the view.
-    if (event.pointerType === "touch") return;
-    place = event.buttons ? OUTSIDE : placeOf(event);
-    const pause = last + 1000 / HOVERS - performance.now();
-    if (!timer && wantsHover()) timer = window.setTimeout(sendLast, Math.max(0, pause));
-  }, true);
-  document.addEventListener("pointerleave", () => { place = OUTSIDE; });
+  addEventListener(
+    "pointermove",
+    (event) => {
+      // A finger does not hover, and with a button the mouse turns the view.
+      if (event.pointerType === "touch") return;
+      place = event.buttons ? OUTSIDE : placeOf(event);
+      const pause = last + 1000 / HOVERS - performance.now();
+      if (!timer && wantsHover()) timer = window.setTimeout(sendLast, Math.max(0, pause));
+    },
+    true,
+  );
+  document.addEventListener("pointerleave", () => {
+    place = OUTSIDE;
+  });
   /** Where the right button was pressed in the view. @type {{x: number, y: number} | null} */
   let right = null;
-  addEventListener("pointerdown", (event) => {
-    right = null;
-    if (!inView(event.target)) return;
-    pressed = event.pointerId;
-    if (event.button === 2) right = { x: event.clientX, y: event.clientY };
-    focusView();
-  }, true);
-  addEventListener("pointerup", (event) => {
-    if (event.button !== 2 || !right) return;
-    const moved = Math.hypot(event.clientX - right.x, event.clientY - right.y);
-    right = null;
-    if (moved < CLICK) rightClick();
-  }, true);
+  addEventListener(
+    "pointerdown",
+    (event) => {
+      right = null;
+      if (!inView(event.target)) return;
+      pressed = event.pointerId;
+      if (event.button === 2) right = { x: event.clientX, y: event.clientY };
+      focusView();
+    },
+    true,
+  );
+  addEventListener(
+    "pointerup",
+    (event) => {
+      if (event.button !== 2 || !right) return;
+      const moved = Math.hypot(event.clientX - right.x, event.clientY - right.y);
+      right = null;
+      if (moved < CLICK) rightClick();
+    },
+    true,
+  );
 }
 
 /** After a click the view has the focus, and no text field any more. */

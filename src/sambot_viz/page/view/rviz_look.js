@@ -55,18 +55,25 @@ vec3 sambotEncode(vec3 c) {
   const adoptLabels = (material) => {
     const source = material.fragmentShader;
     if (source.includes("0.85 * vAlpha")) {
-      material.fragmentShader = ON_SCREEN + source.replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen");
+      material.fragmentShader =
+        ON_SCREEN + source.replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen");
       boxes.add(material);
       look.boxes += 1;
     } else if (source.includes("gl_FragColor = vec4(0.0, 0.0, 0.0, a)")) {
-      material.fragmentShader = ON_SCREEN + source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(vec3(1.0 - vOnScreen), a)");
+      material.fragmentShader =
+        ON_SCREEN + source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(vec3(1.0 - vOnScreen), a)");
       look.names += 1;
     } else return;
     // RViz puts the baseline 0.75 em below the frame; viser's top anchor puts it
     // 1.02 em below (measured in tests/golden).
     const corner = "vec2 local = (aRect.xy + corner * aRect.zw) * scale;";
-    material.vertexShader = ON_SCREEN + material.vertexShader.replace(
-      corner, corner + "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;");
+    material.vertexShader =
+      ON_SCREEN +
+      material.vertexShader.replace(
+        corner,
+        corner +
+          "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;",
+      );
     material.needsUpdate = true;
   };
 
@@ -80,7 +87,9 @@ vec3 sambotEncode(vec3 c) {
     const anchor = "gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);";
     if (!material.vertexShader.includes(anchor)) return;
     material.vertexShader = material.vertexShader.replace(
-      anchor, "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);");
+      anchor,
+      "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);",
+    );
     material.needsUpdate = true;
     object.frustumCulled = false;
     look.backgrounds += 1;
@@ -92,9 +101,12 @@ vec3 sambotEncode(vec3 c) {
     if (!known.has(material)) {
       known.add(material);
       if (material.isMeshStandardMaterial) {
-        rewrite(material, "lit",
+        rewrite(
+          material,
+          "lit",
           "outgoingLight = sambotEncode(totalEmissiveRadiance)" +
-          " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);");
+            " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);",
+        );
       } else if (material.isMeshToonMaterial) {
         rewrite(material, "unlit", "outgoingLight = sambotEncode(diffuseColor.rgb);");
       } else if (material === window.__viserMutable?.backgroundMaterial) {
@@ -124,12 +136,16 @@ vec3 sambotEncode(vec3 c) {
   let eye = null;
   /** The squared distance of an object from the camera. @param {any} object */
   const distance = (object) => {
-    const m = object.matrixWorld.elements, e = eye.elements;
+    const m = object.matrixWorld.elements;
+    const e = eye.elements;
     return (m[12] - e[12]) ** 2 + (m[13] - e[13]) ** 2 + (m[14] - e[14]) ** 2;
   };
   /** @param {any} a @param {any} b */
-  const farFirst = (a, b) => a.groupOrder - b.groupOrder || a.renderOrder - b.renderOrder
-    || distance(b.object) - distance(a.object) || a.id - b.id;
+  const farFirst = (a, b) =>
+    a.groupOrder - b.groupOrder ||
+    a.renderOrder - b.renderOrder ||
+    distance(b.object) - distance(a.object) ||
+    a.id - b.id;
 
   // viser has no orthographic camera: the server sends a far one with a field of view
   // below 1 degree, and the mouse zooms by moving it. The near plane must follow, or it
@@ -140,7 +156,8 @@ vec3 sambotEncode(vec3 c) {
     const { camera: main, cameraControl } = window.__viserMutable || {};
     if (camera !== main || !cameraControl || !(camera.fov < 1)) return;
     const away = cameraControl.distance;
-    const near = Math.max(0.01, away - HIGHEST), far = Math.max(100000, 2 * away);
+    const near = Math.max(0.01, away - HIGHEST);
+    const far = Math.max(100000, 2 * away);
     if (camera.near === near && camera.far === far) return;
     camera.near = near;
     camera.far = far;
@@ -155,7 +172,10 @@ vec3 sambotEncode(vec3 c) {
     if (!scene || scene === hooked) return;
     hooked = scene;
     scene.onBeforeRender = (
-      /** @type {any} */ renderer, /** @type {any} */ _, /** @type {any} */ camera) => {
+      /** @type {any} */ renderer,
+      /** @type {any} */ _,
+      /** @type {any} */ camera,
+    ) => {
       renderer.toneMapping = 0;
       followZoom(camera);
       eye = camera.matrixWorld;
@@ -187,7 +207,10 @@ vec3 sambotEncode(vec3 c) {
   // The page keeps its scene for its whole life, but it is made some frames after
   // this script may run, and again after a lost WebGL context.
   hook();
-  setInterval(() => { hook(); tidy(); }, 100);
+  setInterval(() => {
+    hook();
+    tidy();
+  }, 100);
 
   // viser only reconnects a page that has the focus: a wall display never would.
   document.hasFocus = () => true;

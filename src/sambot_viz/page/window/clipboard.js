@@ -37,7 +37,11 @@ function offer(text) {
   close.onclick = () => dialog.close();
   dialog.setAttribute("aria-label", "Text to copy");
   dialog.className = "copy";
-  dialog.append("This browser does not let the page copy. Press Ctrl+C (\u2318C on a Mac):", area, close);
+  dialog.append(
+    "This browser does not let the page copy. Press Ctrl+C (\u2318C on a Mac):",
+    area,
+    close,
+  );
   dialog.onclose = () => dialog.remove();
   (document.getElementById("sambot") || document.body).append(dialog);
   dialog.showModal();

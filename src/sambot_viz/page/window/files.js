@@ -11,7 +11,10 @@ import { SaveImage } from "../dialogs/save_image.js";
 import { tell } from "./notices.js";
 import { folds, selected, unfolded, useRow } from "../state.js";
 
-/** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
+/**
+ * @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}}
+ *   FileState
+ */
 
 /** @returns {FileState} */
 const state = () => rows.value("file/state") || {};
@@ -27,7 +30,8 @@ function takeTyped() {
   field.focus();
 }
 
-const sayNoDisk = () => tell("This config is yours alone: File > Download Config saves it on your computer", "info");
+const sayNoDisk = () =>
+  tell("This config is yours alone: File > Download Config saves it on your computer", "info");
 
 export function save() {
   if (!hasDisk()) return sayNoDisk();
@@ -39,36 +43,61 @@ export function saveAs() {
   takeTyped();
   return show(SaveAs);
 }
-export function open() { if (hasDisk()) { takeTyped(); show(OpenConfig); } }
-export function download() { takeTyped(); act("file/download"); }
-export function saveImage() { show(SaveImage); }
-export function exportPage() { show(ExportPage); }
+export function open() {
+  if (hasDisk()) {
+    takeTyped();
+    show(OpenConfig);
+  }
+}
+export function download() {
+  takeTyped();
+  act("file/download");
+}
+export function saveImage() {
+  show(SaveImage);
+}
+export function exportPage() {
+  show(ExportPage);
+}
 
 /** A name of more characters may be cut before its last ones. */
-const LONG = 24, TAIL = 14;
+const LONG = 24;
+const TAIL = 14;
 
 /** The name of the file, with a star after an edit; also the title of the page. */
 export function FileName() {
   const { name, own, modified } = useRow("file/state")?.value || {};
   const shown = (name || "no file yet") + (modified ? "*" : "");
-  useEffect(() => { document.title = `${shown} - sambot-viz`; }, [shown]);
+  useEffect(() => {
+    document.title = `${shown} - sambot-viz`;
+  }, [shown]);
   // Of a long name the middle is left out: its end has the star.
   const tail = shown.length > LONG ? shown.slice(-TAIL) : "";
-  const where = own ? "" : name ? "This config comes with the program; saving asks for a name." : "";
+  const where = own
+    ? ""
+    : name
+      ? "This config comes with the program; saving asks for a name."
+      : "";
   const title = `${name || "no file yet"}: ${modified ? "with changes that are not saved." : "without changes."} ${where}`;
   return html`<span class="file-name" title=${title}><bdi>${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
 }
 
 /** The keys of the file menu, which also act while a text is typed. */
 function keys() {
-  addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "s") return;
-    // The browser would save the page.
-    event.preventDefault();
-    event.stopPropagation();
-    if (event.repeat || document.querySelector("dialog[open]")) return;
-    if (event.shiftKey) saveAs(); else save();
-  }, true);
+  addEventListener(
+    "keydown",
+    (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "s")
+        return;
+      // The browser would save the page.
+      event.preventDefault();
+      event.stopPropagation();
+      if (event.repeat || document.querySelector("dialog[open]")) return;
+      if (event.shiftKey) saveAs();
+      else save();
+    },
+    true,
+  );
 }
 
 /** Follow the file from now on. */
@@ -80,12 +109,19 @@ export function followFile() {
   });
   // A document that was opened or read again is unfolded as its file says, and none of
   // its rows is selected.
-  const current = () => ({ session: rows.value("names/session")?.id, document: rows.value("names/document") });
+  const current = () => ({
+    session: rows.value("names/session")?.id,
+    document: rows.value("names/document"),
+  });
   let shown = current();
   const look = () => {
     const now = current();
     // A program that was started again counts from 0.
-    if (shown.document !== undefined && now.session === shown.session && now.document !== shown.document) {
+    if (
+      shown.document !== undefined &&
+      now.session === shown.session &&
+      now.document !== shown.document
+    ) {
       folds.set({});
       selected.set({ ...selected.value, displays: "", views: "" });
     }

@@ -9,7 +9,14 @@ import { useRow } from "../state.js";
 import { Toolbar } from "./toolbar.js";
 
 /** What is left out, from wide windows to narrow ones. */
-const STEPS = ["", "few-words", "few-words one-menu", "no-words one-menu", "no-words one-menu compact", "no-words one-menu compact no-name"];
+const STEPS = [
+  "",
+  "few-words",
+  "few-words one-menu",
+  "no-words one-menu",
+  "no-words one-menu compact",
+  "no-words one-menu compact no-name",
+];
 
 /** @param {{panels: () => import("./menus.js").PanelOf[], hideAll: () => void}} props */
 export function Top({ panels, hideAll }) {

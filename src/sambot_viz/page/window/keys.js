@@ -6,7 +6,16 @@
 /** What a key does: an action of a row with its values, or "hide" for the panels.
  * @typedef {{act: string, with?: any[]} | "hide"} Meaning */
 
-const NO_LETTERS = new Set(["checkbox", "range", "color", "radio", "button", "submit", "reset", "file"]);
+const NO_LETTERS = new Set([
+  "checkbox",
+  "range",
+  "color",
+  "radio",
+  "button",
+  "submit",
+  "reset",
+  "file",
+]);
 
 /** Whether what has the focus takes letters. @param {any} target */
 export function isTyping(target) {
@@ -15,7 +24,10 @@ export function isTyping(target) {
   return tag === "TEXTAREA" || tag === "SELECT" || Boolean(target?.isContentEditable);
 }
 
-/** The letter of a key; on a keyboard without Latin letters, the one at its place. @param {Key} event */
+/**
+ * The letter of a key; on a keyboard without Latin letters, the one at its place.
+ * @param {Key} event
+ */
 function letter({ key, code = "" }) {
   const named = key.length > 1 || /^[\x20-\x7e]$/.test(key);
   return (named ? key : code.replace(/^Key/, "")).toLowerCase();
@@ -62,7 +74,8 @@ export function listenToKeys({ tools, mouse, act, hide, cancelPress }) {
     const does = meaning(event, tools(), mouse());
     if (!does) return;
     if (event.key === "Escape") cancelPress();
-    if (does === "hide") hide(); else act(does.act, does.with);
+    if (does === "hide") hide();
+    else act(does.act, does.with);
     event.preventDefault();
   });
 }

@@ -4,14 +4,16 @@
 import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
 
 /**
- * @typedef {{label: string, keys?: string, off?: boolean, act: () => void} | null} Item null is a line
+ * @typedef {{label: string, keys?: string, off?: boolean, act: () => void} | null} Item null is a
+ *   line
  * @typedef {{x: number, y: number}} Place
  */
 
 /** What a key does in a menu, on one of its entries; whether it does anything.
  * @param {any} event @param {HTMLElement[]} entries */
 export function menuKey(event, entries) {
-  const now = entries.indexOf(event.target), last = entries.length - 1;
+  const now = entries.indexOf(event.target);
+  const last = entries.length - 1;
   if (event.ctrlKey || event.metaKey) return false;
   if (event.key === "ArrowDown") entries[now < last ? now + 1 : 0]?.focus();
   else if (event.key === "ArrowUp") entries[now > 0 ? now - 1 : last]?.focus();
@@ -20,7 +22,9 @@ export function menuKey(event, entries) {
   else if (event.key === "Enter" || event.key === " ") event.target.click();
   else if (/^\w$/.test(event.key)) {
     const letter = event.key.toLowerCase();
-    [...entries.slice(now + 1), ...entries].find((one) => one.textContent?.trim().toLowerCase().startsWith(letter))?.focus();
+    [...entries.slice(now + 1), ...entries]
+      .find((one) => one.textContent?.trim().toLowerCase().startsWith(letter))
+      ?.focus();
   } else return false;
   return true;
 }
@@ -33,7 +37,9 @@ export function Menu({ items, at, label, close }) {
   const element = useRef(/** @type {any} */ (null));
   const before = useRef(document.activeElement);
   /** @type {() => HTMLElement[]} */
-  const entries = () => [...element.current.querySelectorAll("[role=menuitem]:not([aria-disabled])")];
+  const entries = () => [
+    ...element.current.querySelectorAll("[role=menuitem]:not([aria-disabled])"),
+  ];
   useLayoutEffect(() => {
     const { width, height } = element.current.getBoundingClientRect();
     element.current.style.left = `${Math.max(0, Math.min(at.x, innerWidth - width - 4))}px`;
@@ -42,10 +48,15 @@ export function Menu({ items, at, label, close }) {
   }, []);
   useEffect(() => {
     /** @param {Event} event */
-    const outside = (event) => { if (!element.current?.contains(event.target)) close(); };
+    const outside = (event) => {
+      if (!element.current?.contains(event.target)) close();
+    };
     addEventListener("pointerdown", outside, true);
     addEventListener("resize", close);
-    return () => { removeEventListener("pointerdown", outside, true); removeEventListener("resize", close); };
+    return () => {
+      removeEventListener("pointerdown", outside, true);
+      removeEventListener("resize", close);
+    };
   }, []);
   const end = () => {
     close();
@@ -60,10 +71,21 @@ export function Menu({ items, at, label, close }) {
   };
   return html`<ul class="context" role="menu" aria-label=${label} ref=${element} onKeyDown=${key}
       onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
-    ${items.map((item) => (item === null ? html`<li role="separator"></li>` : html`<li role="menuitem" tabindex="-1"
+    ${items.map((item) =>
+      item === null
+        ? html`<li role="separator"></li>`
+        : html`<li role="menuitem" tabindex="-1"
         aria-disabled=${item.off ? "true" : undefined}
-        onClick=${() => { if (!item.off) { end(); item.act(); } }}
-        onPointerEnter=${(/** @type {any} */ e) => { if (!item.off) e.target.focus(); }}>
-      <span>${item.label}</span>${item.keys && html`<kbd>${item.keys}</kbd>`}</li>`))}
+        onClick=${() => {
+          if (!item.off) {
+            end();
+            item.act();
+          }
+        }}
+        onPointerEnter=${(/** @type {any} */ e) => {
+          if (!item.off) e.target.focus();
+        }}>
+      <span>${item.label}</span>${item.keys && html`<kbd>${item.keys}</kbd>`}</li>`,
+    )}
   </ul>`;
 }

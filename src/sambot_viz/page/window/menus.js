@@ -13,7 +13,8 @@ import { useRow } from "../state.js";
 
 /**
  * An entry of a menu, or null for a line between entries.
- * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} | null} Entry
+ * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} |
+ *   null} Entry
  * @typedef {{name: string, entries: () => Entry[]}} MenuOf
  * @typedef {{name: string, title: string, shown: boolean, toggle: () => void}} PanelOf
  */
@@ -27,25 +28,51 @@ function edit(id, keys) {
 
 /** @param {() => PanelOf[]} panels @param {() => void} hideAll @returns {MenuOf[]} */
 const menus = (panels, hideAll) => [
-  { name: "File", entries: () => [
-    ...(hasDisk() ? [
-      { name: "Open Config…", does: open }, null,
-      { name: "Save Config", keys: "Ctrl+S", does: save },
-      { name: "Save Config As…", keys: "Ctrl+Shift+S", does: saveAs },
-    ] : []),
-    { name: "Download Config", does: download }, null,
-    { name: "Save Image…", does: saveImage },
-    { name: "Export Page…", does: exportPage, off: !rows.get("file/page") },
-  ] },
-  { name: "Edit", entries: () => [
-    edit("edit/undo", "Ctrl+Z"), edit("edit/redo", "Ctrl+Shift+Z"), null,
-    { name: "Copy link to this view", does: copyLink, off: !rows.get("link/copy") },
-  ] },
-  { name: "Panels", entries: () => [
-    ...panels().map(({ title, shown, toggle }) => ({ name: title, checked: shown, does: toggle })), null,
-    { name: "Hide all", keys: "H", does: hideAll },
-  ] },
-  { name: "Help", entries: () => [{ name: "Keys", does: () => show(Keys) }, { name: "About", does: () => show(About) }] },
+  {
+    name: "File",
+    entries: () => [
+      ...(hasDisk()
+        ? [
+            { name: "Open Config…", does: open },
+            null,
+            { name: "Save Config", keys: "Ctrl+S", does: save },
+            { name: "Save Config As…", keys: "Ctrl+Shift+S", does: saveAs },
+          ]
+        : []),
+      { name: "Download Config", does: download },
+      null,
+      { name: "Save Image…", does: saveImage },
+      { name: "Export Page…", does: exportPage, off: !rows.get("file/page") },
+    ],
+  },
+  {
+    name: "Edit",
+    entries: () => [
+      edit("edit/undo", "Ctrl+Z"),
+      edit("edit/redo", "Ctrl+Shift+Z"),
+      null,
+      { name: "Copy link to this view", does: copyLink, off: !rows.get("link/copy") },
+    ],
+  },
+  {
+    name: "Panels",
+    entries: () => [
+      ...panels().map(({ title, shown, toggle }) => ({
+        name: title,
+        checked: shown,
+        does: toggle,
+      })),
+      null,
+      { name: "Hide all", keys: "H", does: hideAll },
+    ],
+  },
+  {
+    name: "Help",
+    entries: () => [
+      { name: "Keys", does: () => show(Keys) },
+      { name: "About", does: () => show(About) },
+    ],
+  },
 ];
 
 /**
@@ -55,25 +82,41 @@ const menus = (panels, hideAll) => [
 export function MenuBar({ panels, hideAll, small }) {
   const all = menus(panels, hideAll);
   /** @type {MenuOf[]} */
-  const bar = small ? [{ name: "Menu", entries: () => all.flatMap((menu, i) => [...(i ? [null] : []), ...menu.entries()]) }] : all;
+  const bar = small
+    ? [
+        {
+          name: "Menu",
+          entries: () => all.flatMap((menu, i) => [...(i ? [null] : []), ...menu.entries()]),
+        },
+      ]
+    : all;
   const [opened, setOpened] = useState(-1);
   const [stop, setStop] = useState(0);
   const element = useRef(/** @type {any} */ (null));
   /** @param {number} i */
   const headOf = (i) => element.current.querySelectorAll("[aria-haspopup]")[i];
   /** @param {number} i */
-  const focusHead = (i) => { setStop(i); headOf(i)?.focus(); };
+  const focusHead = (i) => {
+    setStop(i);
+    headOf(i)?.focus();
+  };
   /** @param {number} by */
   const next = (by) => {
-    const from = opened >= 0 ? opened : stop, to = (from + by + bar.length) % bar.length;
-    if (opened >= 0) { setStop(to); setOpened(to); } else focusHead(to);
+    const from = opened >= 0 ? opened : stop;
+    const to = (from + by + bar.length) % bar.length;
+    if (opened >= 0) {
+      setStop(to);
+      setOpened(to);
+    } else focusHead(to);
   };
   /** @param {any} event */
   const key = (event) => {
     if (event.key === "ArrowRight") next(1);
     else if (event.key === "ArrowLeft") next(-1);
-    else if (event.key === "Escape" && opened >= 0) { focusHead(opened); setOpened(-1); }
-    else if (opened < 0 && ["ArrowDown", "Enter", " "].includes(event.key)) setOpened(stop);
+    else if (event.key === "Escape" && opened >= 0) {
+      focusHead(opened);
+      setOpened(-1);
+    } else if (opened < 0 && ["ArrowDown", "Enter", " "].includes(event.key)) setOpened(stop);
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -81,22 +124,41 @@ export function MenuBar({ panels, hideAll, small }) {
   useEffect(() => {
     if (opened < 0) return undefined;
     /** @param {Event} event */
-    const outside = (event) => { if (!element.current?.contains(event.target)) setOpened(-1); };
+    const outside = (event) => {
+      if (!element.current?.contains(event.target)) setOpened(-1);
+    };
     addEventListener("pointerdown", outside, true);
     addEventListener("blur", outside);
-    return () => { removeEventListener("pointerdown", outside, true); removeEventListener("blur", outside); };
+    return () => {
+      removeEventListener("pointerdown", outside, true);
+      removeEventListener("blur", outside);
+    };
   }, [opened < 0]);
   /** @param {Entry} entry */
-  const choose = (entry) => { focusHead(Math.max(0, opened)); setOpened(-1); entry?.does(); };
+  const choose = (entry) => {
+    focusHead(Math.max(0, opened));
+    setOpened(-1);
+    entry?.does();
+  };
   return html`<div class="menubar" role="menubar" aria-label="Menus" ref=${element} onKeyDown=${key}>
-    ${bar.map((menu, i) => html`<div class="menu-place" key=${menu.name}>
+    ${bar.map(
+      (menu, i) => html`<div class="menu-place" key=${menu.name}>
       <button class="tool menu-head" role="menuitem" aria-haspopup="menu" aria-expanded=${String(opened === i)}
         aria-label=${menu.name} tabindex=${i === stop ? 0 : -1}
-        onClick=${() => { setStop(i); setOpened(opened === i ? -1 : i); }}
-        onPointerEnter=${(/** @type {any} */ e) => { if (opened >= 0 && e.pointerType === "mouse") { setStop(i); setOpened(i); } }}
+        onClick=${() => {
+          setStop(i);
+          setOpened(opened === i ? -1 : i);
+        }}
+        onPointerEnter=${(/** @type {any} */ e) => {
+          if (opened >= 0 && e.pointerType === "mouse") {
+            setStop(i);
+            setOpened(i);
+          }
+        }}
         >${small ? html`<${Icon} name="menu" />` : menu.name}</button>
       ${opened === i && html`<${Menu} menu=${menu} choose=${choose} leave=${() => setOpened(-1)} />`}
-    </div>`)}
+    </div>`,
+    )}
   </div>`;
 }
 
@@ -108,7 +170,9 @@ function Menu({ menu, choose, leave }) {
   const element = useRef(/** @type {any} */ (null));
   /** @returns {HTMLElement[]} */
   const items = () => [...element.current.querySelectorAll("[role^=menuitem]")];
-  useLayoutEffect(() => { items()[0]?.focus(); }, []);
+  useLayoutEffect(() => {
+    items()[0]?.focus();
+  }, []);
   /** @param {any} event */
   const key = (event) => {
     if (event.key === "Tab") return leave();
@@ -118,13 +182,18 @@ function Menu({ menu, choose, leave }) {
     return undefined;
   };
   return html`<div class="menu" role="menu" aria-label=${menu.name} ref=${element} onKeyDown=${key}>
-    ${menu.entries().map((entry, i) => (entry === null ? html`<div role="separator" key=${i}></div>`
-      : html`<div key=${entry.name} role=${entry.checked === undefined ? "menuitem" : "menuitemcheckbox"} tabindex="-1"
+    ${menu.entries().map((entry, i) =>
+      entry === null
+        ? html`<div role="separator" key=${i}></div>`
+        : html`<div key=${entry.name} role=${entry.checked === undefined ? "menuitem" : "menuitemcheckbox"} tabindex="-1"
           aria-checked=${entry.checked === undefined ? undefined : String(entry.checked)}
           aria-disabled=${entry.off ? "true" : undefined} aria-keyshortcuts=${entry.keys?.replace("Ctrl", "Control")}
-          onClick=${() => { if (!entry.off) choose(entry); }}
+          onClick=${() => {
+            if (!entry.off) choose(entry);
+          }}
           onPointerMove=${(/** @type {any} */ e) => e.currentTarget.focus()}>
         <span class="tick">${entry.checked ? html`<${Icon} name="ok" />` : ""}</span><span class="entry">${entry.name}</span>
-        ${entry.keys && html`<kbd>${entry.keys}</kbd>`}</div>`))}
+        ${entry.keys && html`<kbd>${entry.keys}</kbd>`}</div>`,
+    )}
   </div>`;
 }

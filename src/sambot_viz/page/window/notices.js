@@ -5,15 +5,23 @@
 import { EDITED, NOT_DONE, rows, WATCHING } from "../wire/channel.js";
 import { Cell } from "../state.js";
 
-/** @typedef {{text: string, level: string, row?: string}} Notice row: the one that has refused a value */
+/**
+ * @typedef {{text: string, level: string, row?: string}} Notice row: the one that has refused a
+ *   value
+ */
 
 /** The sentence that the status bar shows. @type {Cell<Notice | null>} */
 export const notice = new Cell(/** @type {Notice | null} */ (null));
 
 /** Show a sentence in the status bar. @param {string} text @param {string} [level] */
-export function tell(text, level = "ok") { notice.set({ text, level }); }
+export function tell(text, level = "ok") {
+  notice.set({ text, level });
+}
 
-/** Why the last value was refused, by the id of its row, until the next edit. @type {Map<string, string>} */
+/**
+ * Why the last value was refused, by the id of its row, until the next edit.
+ * @type {Map<string, string>}
+ */
 export const refusals = new Map();
 
 /** @param {string} id @param {string} [why] */
@@ -29,7 +37,11 @@ export function refuse(id, why) {
   for (const other of new Set([...told, id])) rows.notify(other);
 }
 
-/** Say why something was refused, at its place and in the status bar. @param {string} id @param {string} why */
+/**
+ * Say why something was refused, at its place and in the status bar.
+ * @param {string} id
+ * @param {string} why
+ */
 export function sayRefused(id, why) {
   notice.set({ text: why, level: "error", row: id });
   refuse(id, why);
@@ -43,10 +55,13 @@ rows.listen(EDITED, () => {
 
 rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
 
-rows.listen(WATCHING, () => tell("You are watching: ask for the wheel, or work on a copy of your own", "warn"));
+rows.listen(WATCHING, () =>
+  tell("You are watching: ask for the wheel, or work on a copy of your own", "warn"),
+);
 
 rows.listen("notice", () => {
   const said = rows.value("notice");
   if (!said || said.copy?.length) return;
-  if (said.row) sayRefused(said.row, said.text); else notice.set(said);
+  if (said.row) sayRefused(said.row, said.text);
+  else notice.set(said);
 });

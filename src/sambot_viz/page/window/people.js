@@ -30,7 +30,8 @@ export function followRole() {
 
 /** @returns {{state: State, me: Me} | null} */
 function usePeople() {
-  const state = useRow("people/state")?.value, me = useRow("role/me")?.value;
+  const state = useRow("people/state")?.value;
+  const me = useRow("role/me")?.value;
   return state && me ? { state, me } : null;
 }
 
@@ -40,14 +41,19 @@ export function People() {
   if (!now) return null;
   const { state, me } = now;
   if (!state.copy && !state.presented && state.browsers < 2) return null;
-  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me)}>${(/** @type {() => void} */ close) =>
+  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me)}>${(
+    /** @type {() => void} */ close,
+  ) =>
     html`<div class="people">
       <p>${inWords(state, me)}</p>
       ${state.presented && html`<${Wheel} state=${state} me=${me} close=${close} />`}
-      ${state.copy
-        ? html`<button onClick=${() => location.assign("../")}>Back to the shared robot</button>`
-        : !me.presenter && html`<button onClick=${() => location.assign("copy/")}
-            title="What you do there, only you see; you can come back at any time">Work on a copy of my own</button>`}
+      ${
+        state.copy
+          ? html`<button onClick=${() => location.assign("../")}>Back to the shared robot</button>`
+          : !me.presenter &&
+            html`<button onClick=${() => location.assign("copy/")}
+            title="What you do there, only you see; you can come back at any time">Work on a copy of my own</button>`
+      }
     </div>`}<//>`;
 }
 
@@ -80,7 +86,8 @@ function Wheel({ state, me, close }) {
     return html`<${AskList} asks=${state.asks} />
       ${state.given && html`<button onClick=${() => act("role/take")}>Take the wheel back</button>`}`;
   }
-  if (me.drives) return html`<button onClick=${() => act("role/back")}>Give the wheel back</button>`;
+  if (me.drives)
+    return html`<button onClick=${() => act("role/back")}>Give the wheel back</button>`;
   if (me.asks) {
     return html`<p>You have asked for the wheel.</p>
       <button onClick=${() => act("role/back")}>Do not ask any more</button>`;
@@ -90,7 +97,10 @@ function Wheel({ state, me, close }) {
     act("role/ask", [ownName.value]);
     close();
   };
-  return html`<form onSubmit=${(/** @type {Event} */ e) => { e.preventDefault(); ask(); }}>
+  return html`<form onSubmit=${(/** @type {Event} */ e) => {
+    e.preventDefault();
+    ask();
+  }}>
     <label>Your name <input class="field" maxlength="40" placeholder=${me.name} ref=${name} defaultValue=${ownName.value} /></label>
     <button type="submit">Ask for the wheel</button>
   </form>`;
@@ -98,9 +108,11 @@ function Wheel({ state, me, close }) {
 
 /** @param {{asks: [number, string][]}} props */
 function AskList({ asks }) {
-  return html`${asks.map(([id, name]) => html`<p class="ask" key=${id}>${`${name} asks for the wheel.`}
+  return html`${asks.map(
+    ([id, name]) => html`<p class="ask" key=${id}>${`${name} asks for the wheel.`}
     <button onClick=${() => act("role/give", [id])} aria-label=${`Give the wheel to ${name}`}>Give</button>
-    <button onClick=${() => act("role/refuse", [id])} aria-label=${`Not now, ${name}`}>Not now</button></p>`)}`;
+    <button onClick=${() => act("role/refuse", [id])} aria-label=${`Not now, ${name}`}>Not now</button></p>`,
+  )}`;
 }
 
 /** Over the view of a presenter: who asks. */

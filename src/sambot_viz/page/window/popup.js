@@ -14,21 +14,33 @@ const EDGE = 4;
  */
 export function Popup({ label, name, role, title, children }) {
   const [open, setOpen] = useState(false);
-  const button = useRef(/** @type {any} */ (null)), panel = useRef(/** @type {any} */ (null));
-  const close = () => { setOpen(false); button.current?.focus(); };
-  useLayoutEffect(() => { if (open) place(button.current, panel.current); });
+  const button = useRef(/** @type {any} */ (null));
+  const panel = useRef(/** @type {any} */ (null));
+  const close = () => {
+    setOpen(false);
+    button.current?.focus();
+  };
+  useLayoutEffect(() => {
+    if (open) place(button.current, panel.current);
+  });
   useLayoutEffect(() => {
     if (!open) return undefined;
     (panel.current.querySelector("button, input") || panel.current).focus();
     /** @param {any} event */
     const elsewhere = (event) => {
-      if (!panel.current?.contains(event.target) && !button.current.contains(event.target)) setOpen(false);
+      if (!panel.current?.contains(event.target) && !button.current.contains(event.target))
+        setOpen(false);
     };
     /** What had the focus may be gone. @param {KeyboardEvent} event */
-    const lost = (event) => { if (event.key === "Escape" && document.activeElement === document.body) close(); };
+    const lost = (event) => {
+      if (event.key === "Escape" && document.activeElement === document.body) close();
+    };
     addEventListener("pointerdown", elsewhere, true);
     addEventListener("keydown", lost);
-    return () => { removeEventListener("pointerdown", elsewhere, true); removeEventListener("keydown", lost); };
+    return () => {
+      removeEventListener("pointerdown", elsewhere, true);
+      removeEventListener("keydown", lost);
+    };
   }, [open]);
   /** @param {any} event */
   const key = (event) => {
@@ -54,7 +66,8 @@ export function Popup({ label, name, role, title, children }) {
 
 /** Below the button, inside the window. @param {HTMLElement} button @param {HTMLElement} panel */
 function place(button, panel) {
-  const at = button.getBoundingClientRect(), size = panel.getBoundingClientRect();
+  const at = button.getBoundingClientRect();
+  const size = panel.getBoundingClientRect();
   const below = at.bottom + size.height + EDGE < innerHeight;
   panel.style.left = `${Math.max(EDGE, Math.min(at.left, innerWidth - size.width - EDGE))}px`;
   panel.style.top = `${below ? at.bottom + 2 : Math.max(EDGE, at.top - size.height - 2)}px`;

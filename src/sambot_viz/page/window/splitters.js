@@ -15,16 +15,25 @@ const chosen = new Cell(/** @type {Chosen} */ ({}), "sizes");
 export const hidden = new Cell(/** @type {Record<string, boolean>} */ ({}), "hidden");
 
 /** Hide all panels, or bring them back. */
-export function togglePanels() { hidden.set({ ...hidden.value, all: !hidden.value.all }); }
+export function togglePanels() {
+  hidden.set({ ...hidden.value, all: !hidden.value.all });
+}
 /** Width and height of the window [px]. */
 export const room = new Cell({ width: innerWidth, height: innerHeight });
-/** "wide": panels at both sides of the view; "flat": all at one side; "tall" (a phone): below it. */
+/**
+ * "wide": panels at both sides of the view; "flat": all at one side; "tall" (a phone): below it.
+ */
 export const shape = new Cell(measure());
 
 /** Touch screens need more room for the panels, and so get one side for longer. */
 function measure() {
-  return matchMedia("(max-width: 640px) and (orientation: portrait)").matches ? "tall"
-    : matchMedia("(max-height: 480px), (max-width: 1099px), (pointer: coarse) and (max-width: 1400px)").matches ? "flat" : "wide";
+  return matchMedia("(max-width: 640px) and (orientation: portrait)").matches
+    ? "tall"
+    : matchMedia(
+          "(max-height: 480px), (max-width: 1099px), (pointer: coarse) and (max-width: 1400px)",
+        ).matches
+      ? "flat"
+      : "wide";
 }
 addEventListener("resize", () => {
   room.set({ width: innerWidth, height: innerHeight });
@@ -37,9 +46,13 @@ export function useSizes() {
   return fitted(chosen.use(), width, height, hidden.use());
 }
 
-/** An edge that a hand can move; arrow keys move it too. @param {{side: keyof Sizes, label: string}} props */
+/**
+ * An edge that a hand can move; arrow keys move it too.
+ * @param {{side: keyof Sizes, label: string}} props
+ */
 export function Splitter({ side, label }) {
-  const sizes = useSizes(), away = hidden.value;
+  const sizes = useSizes();
+  const away = hidden.value;
   const sign = side === "left" ? 1 : -1;
   const across = side === "left" || side === "right" || side === "side";
   const most = () => {
@@ -60,22 +73,33 @@ export function Splitter({ side, label }) {
   };
   /** @param {any} event */
   const drag = (event) => {
-    const from = across ? event.clientX : event.clientY, size = sizes[side];
+    const from = across ? event.clientX : event.clientY;
+    const size = sizes[side];
     event.target.setPointerCapture(event.pointerId);
-    event.target.onpointermove = (/** @type {any} */ e) => set(size + sign * ((across ? e.clientX : e.clientY) - from));
-    event.target.onpointerup = event.target.onpointercancel = () => { event.target.onpointermove = null; };
+    event.target.onpointermove = (/** @type {any} */ e) =>
+      set(size + sign * ((across ? e.clientX : e.clientY) - from));
+    event.target.onpointerup = event.target.onpointercancel = () => {
+      event.target.onpointermove = null;
+    };
     event.preventDefault();
   };
   /** @param {any} event */
   const key = (event) => {
-    const by = /** @type {Record<string, number>} */ ({ ArrowRight: 16, ArrowUp: across ? 0 : -16, ArrowLeft: -16, ArrowDown: across ? 0 : 16 })[event.key];
+    const by = /** @type {Record<string, number>} */ ({
+      ArrowRight: 16,
+      ArrowUp: across ? 0 : -16,
+      ArrowLeft: -16,
+      ArrowDown: across ? 0 : 16,
+    })[event.key];
     if (!by) return;
     set(sizes[side] + sign * by);
     event.preventDefault();
     event.stopPropagation();
   };
   const hide = side === "side" ? "Hide the panels" : `Hide the ${side} panels`;
-  const icon = across && html`<button class="tuck" tabindex="-1" aria-label=${hide} title=${hide}
+  const icon =
+    across &&
+    html`<button class="tuck" tabindex="-1" aria-label=${hide} title=${hide}
     onClick=${() => hidden.set({ ...hidden.value, [side]: true })}><${Icon} name=${side === "left" ? "fold" : "unfold"} /></button>`;
   return html`<div class=${`splitter ${across ? "across" : "down"} ${side}`}><div class="grip" role="separator" tabindex="0" aria-label=${label}
     aria-orientation=${across ? "vertical" : "horizontal"} aria-valuenow=${sizes[side]} aria-valuemin=${SMALLEST} aria-valuemax=${Math.round(most())}

@@ -11,7 +11,8 @@ import { Driving } from "../panels/drive.js";
 import { useRow } from "../state.js";
 
 /** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
-const SAID = 8000, REFUSED = 20000;
+const SAID = 8000;
+const REFUSED = 20000;
 
 /** @param {{problems: import("../panels/problems.js").Shown}} props */
 export function StatusBar({ problems }) {

@@ -9,10 +9,14 @@ import { togglePanels } from "./splitters.js";
 
 /** The keys of the tools. @returns {{name: string, key: string}[]} */
 export function toolKeys() {
-  return toolIds().map((id) => rows.get(id)).map((row) => ({ name: row?.name || "", key: row?.key || "" }));
+  return toolIds()
+    .map((id) => rows.get(id))
+    .map((row) => ({ name: row?.name || "", key: row?.key || "" }));
 }
 
-function toolIds() { return rows.children("panel:tools").filter((id) => id.startsWith("tool/")); }
+function toolIds() {
+  return rows.children("panel:tools").filter((id) => id.startsWith("tool/"));
+}
 
 export function Toolbar() {
   useRow("panel:tools");

@@ -24,14 +24,22 @@ export const tab = new Cell("joints", "tab");
 
 /**
  * The panels that are chosen by tabs; a new one is a file and a line here.
- * @type {Record<string, {title: string, short?: string, content: any}>} short: where there are many tabs
+ * @type {Record<string, {title: string, short?: string, content: any}>} short: where there are many
+ *   tabs
  */
 const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   frames: { title: "Frames", content: FramesPanel },
-  selection: { title: "Selection", content: () => html`<${Tree} panel="selection" label="Selection" />` },
+  selection: {
+    title: "Selection",
+    content: () => html`<${Tree} panel="selection" label="Selection" />`,
+  },
   drive: { title: "Drive", content: DrivePanel },
-  tool_properties: { title: "Tool Properties", short: "Tool", content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />` },
+  tool_properties: {
+    title: "Tool Properties",
+    short: "Tool",
+    content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />`,
+  },
 };
 const SHEET = {
   joints: TABS.joints,
@@ -59,24 +67,36 @@ function panelList() {
   const away = hidden.value;
   const has = (/** @type {string} */ name) => Boolean(rows.panels.get(name)?.length);
   const { displays, views, ...others } = SHEET;
-  return Object.entries({ displays, views, ...others }).filter(([name]) => has(name)).map(([name, { title }]) => {
-    const side = name in TABS ? "right" : name === "problems" ? "" : "left";
-    const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
-    const byTab = side === "right" || shape.value !== "wide";
-    const folded = shape.value === "wide" ? away.right : shape.value === "flat" && away.side;
-    const shown = byTab ? current === name && !folded
-      : side ? !away.left && !away[name] : away[name] === false;
-    const toggle = () => {
-      if (byTab && !shown) choose(name);
-      if (shape.value === "wide") hidden.set({ ...hidden.value, [name]: shown, ...(side && !shown ? { [side]: false } : {}) });
-    };
-    return { name, title, shown, toggle };
-  });
+  return Object.entries({ displays, views, ...others })
+    .filter(([name]) => has(name))
+    .map(([name, { title }]) => {
+      const side = name in TABS ? "right" : name === "problems" ? "" : "left";
+      const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
+      const byTab = side === "right" || shape.value !== "wide";
+      const folded = shape.value === "wide" ? away.right : shape.value === "flat" && away.side;
+      const shown = byTab
+        ? current === name && !folded
+        : side
+          ? !away.left && !away[name]
+          : away[name] === false;
+      const toggle = () => {
+        if (byTab && !shown) choose(name);
+        if (shape.value === "wide")
+          hidden.set({
+            ...hidden.value,
+            [name]: shown,
+            ...(side && !shown ? { [side]: false } : {}),
+          });
+      };
+      return { name, title, shown, toggle };
+    });
 }
 
 /** The names of the tabs that there are. @param {Record<string, any>} of */
 function tabNames(of) {
-  return Object.keys(of).filter((name) => rows.panels.get(name)?.length && !(shape.value === "wide" && hidden.value[name]));
+  return Object.keys(of).filter(
+    (name) => rows.panels.get(name)?.length && !(shape.value === "wide" && hidden.value[name]),
+  );
 }
 
 /** @param {Record<string, any>} of */
@@ -87,7 +107,9 @@ function shownTab(of) {
 
 export function Window() {
   tab.use();
-  const form = shape.use(), away = hidden.use(), size = useSizes();
+  const form = shape.use();
+  const away = hidden.use();
+  const size = useSizes();
   const view = useRef(/** @type {any} */ (null));
   useEffect(() => placeView(view.current), []);
   const style = `--left:${size.left}px;--right:${size.right}px;--side:${size.side}px;--bottom:${size.bottom}px`;
@@ -96,7 +118,13 @@ export function Window() {
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
-    ${away.all && html`<${Driving} /><${ProblemCorner} show=${() => { togglePanels(); showProblems(true); }} />`}
+    ${
+      away.all &&
+      html`<${Driving} /><${ProblemCorner} show=${() => {
+        togglePanels();
+        showProblems(true);
+      }} />`
+    }
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
     ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems" && !away.side, show: showProblems, byItself: form === "wide" }} />`}
@@ -111,8 +139,13 @@ function placeView(view) {
   const root = /** @type {HTMLElement} */ (document.getElementById("root"));
   const place = () => {
     const { left, top, width, height } = view.getBoundingClientRect();
-    Object.assign(root.style, { position: "fixed", left: `${left}px`, top: `${top}px`,
-      width: `${width}px`, height: `${height}px` });
+    Object.assign(root.style, {
+      position: "fixed",
+      left: `${left}px`,
+      top: `${top}px`,
+      width: `${width}px`,
+      height: `${height}px`,
+    });
   };
   const observer = new ResizeObserver(place);
   observer.observe(view);
@@ -127,8 +160,11 @@ function Left() {
   if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
   return html`<aside class="left">
     ${!away.displays && html`<${DisplaysPanel} />`}
-    ${views && html`<div class="lower" style=${`height:${useSizes().views}px`}>
-      <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`}
+    ${
+      views &&
+      html`<div class="lower" style=${`height:${useSizes().views}px`}>
+      <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`
+    }
     <${Splitter} side="left" label="Width of the left panels" />
   </aside>`;
 }
@@ -137,7 +173,8 @@ function Right() {
   const away = hidden.use();
   tab.use();
   for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
-  const names = tabNames(TABS), current = shownTab(TABS);
+  const names = tabNames(TABS);
+  const current = shownTab(TABS);
   if (away.right || !current) return html`<${Tab} side="right" />`;
   return html`<aside class="right">
     <${Tabs} names=${names} of=${TABS} current=${current} />
@@ -147,12 +184,14 @@ function Right() {
 }
 
 function Sheet() {
-  const beside = shape.use() === "flat", away = hidden.use();
+  const beside = shape.use() === "flat";
+  const away = hidden.use();
   tab.use();
   /** @type {Record<string, {title: string, content: any}>} */
   const of = SHEET;
   for (const name of Object.keys(of)) useRow(`panel:${name}`);
-  const names = tabNames(of), current = shownTab(of) || "joints";
+  const names = tabNames(of);
+  const current = shownTab(of) || "joints";
   if (beside && away.side) return html`<${Tab} side="side" />`;
   return html`<aside class="sheet">
     <${Tabs} names=${names} of=${of} current=${current} />
@@ -171,7 +210,10 @@ function fadeEdges(strip) {
   strip.style.setProperty("--after", `${Math.max(0, Math.min(EDGE, rest))}px`);
 }
 
-/** @param {{names: string[], of: Record<string, {title: string, short?: string}>, current: string}} props */
+/**
+ * @param {{names: string[], of: Record<string, {title: string, short?: string}>, current: string}}
+ *   props
+ */
 function Tabs({ names, of, current }) {
   /** @param {any} event */
   const key = (event) => {
@@ -187,7 +229,8 @@ function Tabs({ names, of, current }) {
   const fade = () => fadeEdges(element.current);
   // The chosen tab is in sight, and so is that there are others beside it.
   useLayoutEffect(() => {
-    const strip = element.current, { left, right } = strip.getBoundingClientRect();
+    const strip = element.current;
+    const { left, right } = strip.getBoundingClientRect();
     const chosen = strip.querySelector("[aria-selected=true]")?.getBoundingClientRect();
     if (chosen?.left < left + EDGE) strip.scrollLeft -= left + EDGE - chosen.left;
     if (chosen?.right > right - EDGE) strip.scrollLeft += chosen.right - right + EDGE;
@@ -199,9 +242,13 @@ function Tabs({ names, of, current }) {
     return () => observer.disconnect();
   }, []);
   return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key} onScroll=${fade}>
-    ${names.map((name) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
+    ${names.map(
+      (
+        name,
+      ) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
       aria-controls=${name === current ? "panel-right" : undefined} tabindex=${name === current ? 0 : -1}
-      aria-label=${of[name].title} onClick=${() => tab.set(name)}>${(of !== TABS && of[name].short) || of[name].title}</button>`)}
+      aria-label=${of[name].title} onClick=${() => tab.set(name)}>${(of !== TABS && of[name].short) || of[name].title}</button>`,
+    )}
   </div>`;
 }
 
@@ -225,10 +272,14 @@ function Tab({ side }) {
     onClick=${() => unfoldSide(side)}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
 }
 
-/** Show the panels of a side again; when each was hidden by itself, all of them. @param {string} side */
+/**
+ * Show the panels of a side again; when each was hidden by itself, all of them.
+ * @param {string} side
+ */
 function unfoldSide(side) {
   const names = side === "left" ? ["displays", "views"] : side === "right" ? Object.keys(TABS) : [];
   const next = { ...hidden.value, [side]: false };
-  if (names.every((name) => next[name] || !rows.panels.get(name)?.length)) for (const name of names) delete next[name];
+  if (names.every((name) => next[name] || !rows.panels.get(name)?.length))
+    for (const name of names) delete next[name];
   hidden.set(next);
 }

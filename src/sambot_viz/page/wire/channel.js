@@ -26,7 +26,8 @@ export const WATCHING = "watching";
 /** The action that reports where the mouse is. */
 export const HOVER = "tools/hover";
 /** What a page sends without a user who means it. @param {string} id */
-const byItself = (id) => id === HOVER || ["/unfold", "/shown", "/again"].some((end) => id.endsWith(end));
+const byItself = (id) =>
+  id === HOVER || ["/unfold", "/shown", "/again"].some((end) => id.endsWith(end));
 /** What was sent so shortly before the connection was lost may be lost with it [ms]. */
 const DOUBTFUL = 1000;
 
@@ -48,7 +49,8 @@ export function send(id, value, gesture) {
   }
   if (!byItself(id)) rows.notify(EDITED);
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
-  const action = rows.get(id)?.kind === "action", there = isConnected();
+  const action = rows.get(id)?.kind === "action";
+  const there = isConnected();
   // Who hears it notes how things were, and holds edits back.
   if (online && !there && sent.size) rows.notify(CUT);
   if (online) {
@@ -61,7 +63,11 @@ export function send(id, value, gesture) {
 
 /** @param {any[]} edit */
 function post(edit) {
-  window.__viserMutable?.sendMessage({ type: "GuiUpdateMessage", uuid: CHANNEL, updates: { value: edit } });
+  window.__viserMutable?.sendMessage({
+    type: "GuiUpdateMessage",
+    uuid: CHANNEL,
+    updates: { value: edit },
+  });
 }
 
 let online = true;
@@ -87,16 +93,24 @@ export function disconnect() {
   const { postMessage } = Worker.prototype;
   /** @type {Worker | undefined} */
   let worker;
-  Worker.prototype.postMessage = /** @this {Worker} */ function () { worker = this; };
-  try { post([]); } finally { Worker.prototype.postMessage = postMessage; }
+  Worker.prototype.postMessage = /** @this {Worker} */ function () {
+    worker = this;
+  };
+  try {
+    post([]);
+  } finally {
+    Worker.prototype.postMessage = postMessage;
+  }
   worker?.terminate();
 }
 
 /** Hold edits back from now on. */
 export function goOffline() {
   online = false;
-  const doubtful = [...sent.values()].filter(({ edit: [id, value], at }) =>
-    performance.now() - at < DOUBTFUL && !same(rows.value(id), shown(id, value)));
+  const doubtful = [...sent.values()].filter(
+    ({ edit: [id, value], at }) =>
+      performance.now() - at < DOUBTFUL && !same(rows.value(id), shown(id, value)),
+  );
   sent.clear();
   holdBack(doubtful.map(({ edit }) => edit));
 }
@@ -104,14 +118,19 @@ export function goOffline() {
 /** Let edits wait, and show what they set. @param {any[][]} edits */
 export function holdBack(edits) {
   for (const edit of edits) {
-    const [id, value] = edit, seen = shown(id, value);
+    const [id, value] = edit;
+    const seen = shown(id, value);
     waiting.set(id, edit);
     if (seen !== undefined) rows.hope(id, seen);
   }
   if (edits.length) rows.notify(WAITING);
 }
 
-/** What a row shows when an edit sets it, as far as the page knows. @param {string} id @param {any} value */
+/**
+ * What a row shows when an edit sets it, as far as the page knows.
+ * @param {string} id
+ * @param {any} value
+ */
 function shown(id, value) {
   if (rows.get(id)?.kind !== "color" || typeof value !== "string") return value;
   const hex = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(value);
@@ -137,7 +156,8 @@ export function sendHeldBack(now = (id) => id) {
     const there = now(id);
     if (there === undefined) continue;
     waiting.delete(id);
-    if (there === null) dropped += 1; else post([there, ...edit.slice(1)]);
+    if (there === null) dropped += 1;
+    else post([there, ...edit.slice(1)]);
   }
   return dropped;
 }

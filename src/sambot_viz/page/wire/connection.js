@@ -6,13 +6,39 @@
  * was shown: it would stay connected, and count as one that is looked at. */
 
 import { html } from "../vendor/preact.js";
-import { act, CUT, disconnect, goOffline, goOnline, heldBack, holdBack, isConnected, rows, sendHeldBack, WAITING } from "./channel.js";
-import { foldsNow, hasJoints, idsNow, jointsToBringBack, listed, lost as lostOf, otherConfig, remember, showView, withoutRobot } from "./reconnect.js";
+import {
+  act,
+  CUT,
+  disconnect,
+  goOffline,
+  goOnline,
+  heldBack,
+  holdBack,
+  isConnected,
+  rows,
+  sendHeldBack,
+  WAITING,
+} from "./channel.js";
+import {
+  foldsNow,
+  hasJoints,
+  idsNow,
+  jointsToBringBack,
+  listed,
+  lost as lostOf,
+  otherConfig,
+  remember,
+  showView,
+  withoutRobot,
+} from "./reconnect.js";
 import { hasDisk } from "../window/files.js";
 import { Cell, folds, useRow } from "../state.js";
 
 /** @typedef {import("./reconnect.js").Memory} Memory */
-/** @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is loaded again has kept */
+/**
+ * @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is
+ *   loaded again has kept
+ */
 
 /** How often the page looks [ms]. */
 const PERIOD = 250;
@@ -24,12 +50,16 @@ const KEPT = "sambot-viz-again";
 const BACK = 8000;
 
 /** What is said over the view: that the connection is lost, or what came back.
- * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
+ * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory}
+ *   | null>}
+ */
 const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
 export function followConnection() {
-  let was = false, lost = false, stuck = false;
+  let was = false;
+  let lost = false;
+  let stuck = false;
   let kept = takeKept();
   /** How things were before the connection was lost. @type {Memory | null} */
   let before = kept;
@@ -41,7 +71,13 @@ export function followConnection() {
     before = remember();
     goOffline();
     said.set("lost");
-    startAgainWhenStuck(() => lost, () => { stuck = true; location.reload(); });
+    startAgainWhenStuck(
+      () => lost,
+      () => {
+        stuck = true;
+        location.reload();
+      },
+    );
   };
   rows.listen(CUT, cut);
   setInterval(() => {
@@ -52,7 +88,9 @@ export function followConnection() {
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
     if (!before || !(lost || kept)) return;
-    const then = before, silent = kept && !kept.stuck, again = rows.value("names/session");
+    const then = before;
+    const silent = kept && !kept.stuck;
+    const again = rows.value("names/session");
     const loaded = Boolean(kept);
     lost = false;
     kept = null;
@@ -65,11 +103,12 @@ export function followConnection() {
     }
     folds.set(foldsNow(then, folds.value));
     const there = idsNow(then);
-    const flush = () => sendHeldBack((id) => {
-      const now = there(id);
-      if (now && rows.get(now)) return now;
-      return now?.startsWith("j/") && !hasJoints() ? undefined : null;
-    });
+    const flush = () =>
+      sendHeldBack((id) => {
+        const now = there(id);
+        if (now && rows.get(now)) return now;
+        return now?.startsWith("j/") && !hasJoints() ? undefined : null;
+      });
     whenJoints = () => {
       if (!hasJoints()) return;
       whenJoints = () => {};
@@ -83,27 +122,54 @@ export function followConnection() {
   rows.listen("panel:joints_again", () => whenJoints());
   addEventListener("pagehide", (event) => {
     const now = lost && before ? before : remember();
-    if (kept || now.session) keep(kept || { ...now, folds: folds.value, waiting: heldBack(), stuck, at: location.pathname });
+    if (kept || now.session)
+      keep(
+        kept || { ...now, folds: folds.value, waiting: heldBack(), stuck, at: location.pathname },
+      );
     if (event.persisted) disconnect();
   });
-  addEventListener("pageshow", (event) => { if (event.persisted) location.reload(); });
+  addEventListener("pageshow", (event) => {
+    if (event.persisted) location.reload();
+  });
 }
 
 /** Say that the connection is back, and what is not as before.
- * @param {string} again why @param {Memory} before @param {number} dropped edits @param {boolean} [quiet] when all is as before */
+ * @param {string} again why
+ * @param {Memory} before
+ * @param {number} dropped edits
+ * @param {boolean} [quiet] when all is as before
+ */
 function say(again, before, dropped, quiet = false) {
-  const lost = lostOf(before), other = otherConfig(before);
-  if (dropped) lost.push(dropped > 1 ? `${dropped} changes that you made meanwhile` : "a change that you made meanwhile");
+  const lost = lostOf(before);
+  const other = otherConfig(before);
+  if (dropped)
+    lost.push(
+      dropped > 1
+        ? `${dropped} changes that you made meanwhile`
+        : "a change that you made meanwhile",
+    );
   if (quiet && !lost.length && !other) return said.set(null);
   // A user who has loaded the page again has lost no connection.
-  const back = { text: quiet ? again : `The connection is back. ${again}`.trim(), lost, other, before };
+  const back = {
+    text: quiet ? again : `The connection is back. ${again}`.trim(),
+    lost,
+    other,
+    before,
+  };
   said.set(back);
-  if (!lost.length && !other) setTimeout(() => { if (said.value === back) said.set(null); }, BACK);
+  if (!lost.length && !other)
+    setTimeout(() => {
+      if (said.value === back) said.set(null);
+    }, BACK);
 }
 
 /** Keep what a page that is loaded again has to know. @param {Kept} kept */
 function keep(kept) {
-  try { sessionStorage.setItem(KEPT, JSON.stringify(kept)); } catch { /* private windows have none */ }
+  try {
+    sessionStorage.setItem(KEPT, JSON.stringify(kept));
+  } catch {
+    /* private windows have none */
+  }
 }
 
 /** @param {() => boolean} lost @param {() => void} startAgain loads the page again */
@@ -111,7 +177,10 @@ function startAgainWhenStuck(lost, startAgain) {
   let answered = 0;
   const look = setInterval(async () => {
     if (!lost()) return clearInterval(look);
-    const there = await fetch("./", { cache: "no-cache" }).then((answer) => answer.ok, () => false);
+    const there = await fetch("./", { cache: "no-cache" }).then(
+      (answer) => answer.ok,
+      () => false,
+    );
     if (!there) answered = 0;
     else if (!answered) answered = Date.now();
     else if (lost() && Date.now() - answered > STUCK) startAgain();
@@ -124,16 +193,22 @@ function takeKept() {
     const kept = JSON.parse(sessionStorage.getItem(KEPT) || "null");
     sessionStorage.removeItem(KEPT);
     // A copy of one's own is another robot: only the view and the folds go there and back.
-    if (kept && kept.at !== location.pathname) Object.assign(kept, withoutRobot(kept), { waiting: [], stuck: false });
+    if (kept && kept.at !== location.pathname)
+      Object.assign(kept, withoutRobot(kept), { waiting: [], stuck: false });
     if (kept) {
       folds.set(kept.folds);
       holdBack(kept.waiting);
     }
     return kept;
-  } catch { return null; }
+  } catch {
+    return null;
+  }
 }
 
-/** Open the config that was open before, with the rows that were unfolded. @param {Memory} before */
+/**
+ * Open the config that was open before, with the rows that were unfolded.
+ * @param {Memory} before
+ */
 function openAgain(before) {
   const stop = rows.listen("names/document", () => {
     stop();
@@ -154,7 +229,12 @@ export function Connection() {
 function Lost() {
   useRow(WAITING);
   const count = heldBack().length;
-  const waits = count > 1 ? ` ${count} changes wait and are sent then.` : count ? " A change waits and is sent then." : "";
+  const waits =
+    count > 1
+      ? ` ${count} changes wait and are sent then.`
+      : count
+        ? " A change waits and is sent then."
+        : "";
   return html`<p class="l-error">Connection lost. Trying again…${waits}</p>`;
 }
 

@@ -17,7 +17,11 @@ export function partsOf(hash) {
   return [pairs.map(([name]) => name), pairs.map(([, value]) => value)];
 }
 
-/** The address of a page that shows this. @param {string[][]} parts @param {{origin: string, pathname: string}} of */
+/**
+ * The address of a page that shows this.
+ * @param {string[][]} parts
+ * @param {{origin: string, pathname: string}} of
+ */
 export function addressOf(parts, { origin, pathname }) {
   const written = new URLSearchParams(parts).toString();
   // These need no code there, and the names of joints and links are read more easily.
@@ -25,7 +29,9 @@ export function addressOf(parts, { origin, pathname }) {
 }
 
 /** Copy a link to what this browser sees. */
-export function copyLink() { act("link/copy"); }
+export function copyLink() {
+  act("link/copy");
+}
 
 /** Open links from now on: that of the page's own address, and those that come later. */
 export function followLinks() {
@@ -48,7 +54,10 @@ export function followLinks() {
     // A page that is loaded again shows what is there then.
     if (location.hash) history.replaceState(null, "", location.pathname + location.search);
     patient = true;
-    setTimeout(() => { patient = false; open(); }, PATIENCE);
+    setTimeout(() => {
+      patient = false;
+      open();
+    }, PATIENCE);
     open();
   };
   let made = 0;

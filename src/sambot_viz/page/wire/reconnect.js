@@ -6,9 +6,12 @@ import { act, rows } from "./channel.js";
 import { folds } from "../state.js";
 
 /**
- * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string, string>, view: Record<string, any>,
- *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[], turning: boolean,
- *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}} Memory
+ * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string,
+ *   string>, view: Record<string, any>,
+ *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[],
+ *   turning: boolean,
+ *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}}
+ *   Memory
  *   places: where each display is, by its id
  *   joints: those that were moved, and where they were at first
  */
@@ -17,33 +20,64 @@ import { folds } from "../state.js";
 export function remember() {
   const { name, own, folder, modified } = rows.value("file/state") || {};
   return {
-    session: rows.value("names/session")?.id, folds: folds.value, places: places(), view: view(), joints: moved(), frames: frames(),
-    poses: rows.value("poses") || [], turning: Boolean(rows.value("joints/turning")?.length),
-    selected: ids("selection").some((id) => id.startsWith("selected/")), modified: Boolean(modified), file: { name, own, folder },
+    session: rows.value("names/session")?.id,
+    folds: folds.value,
+    places: places(),
+    view: view(),
+    joints: moved(),
+    frames: frames(),
+    poses: rows.value("poses") || [],
+    turning: Boolean(rows.value("joints/turning")?.length),
+    selected: ids("selection").some((id) => id.startsWith("selected/")),
+    modified: Boolean(modified),
+    file: { name, own, folder },
   };
 }
 
 /** Of a memory what another robot can take over. @param {Memory} before @returns {Memory} */
-export const withoutRobot = ({ session, folds, places, view }) => (
-  { session, folds, places, view, joints: {}, frames: [], poses: [], turning: false, selected: false, modified: false, file: {} });
+export const withoutRobot = ({ session, folds, places, view }) => ({
+  session,
+  folds,
+  places,
+  view,
+  joints: {},
+  frames: [],
+  poses: [],
+  turning: false,
+  selected: false,
+  modified: false,
+  file: {},
+});
 
 /** @param {string} panel */
 const ids = (panel) => rows.panels.get(panel) || [];
 /** @param {string} id */
 const first = (id) => rows.value("joints/first")?.[id] ?? 0;
-const frames = () => ids("frames").filter((id) => rows.get(id)?.static).map((id) => rows.get(id)?.name || "");
+const frames = () =>
+  ids("frames")
+    .filter((id) => rows.get(id)?.static)
+    .map((id) => rows.get(id)?.name || "");
 
 /** The joints that are not where they were at first. */
 function moved() {
-  const sliders = ids("joints").filter((id) => rows.get(id)?.kind === "slider" && !rows.get(id)?.fixed);
-  return Object.fromEntries(sliders.filter((id) => rows.value(id) !== first(id))
-    .map((id) => [id, { value: rows.value(id), first: first(id) }]));
+  const sliders = ids("joints").filter(
+    (id) => rows.get(id)?.kind === "slider" && !rows.get(id)?.fixed,
+  );
+  return Object.fromEntries(
+    sliders
+      .filter((id) => rows.value(id) !== first(id))
+      .map((id) => [id, { value: rows.value(id), first: first(id) }]),
+  );
 }
 
-/** Where each display is: its name, and those above, each with its number among those of the same name. */
+/**
+ * Where each display is: its name, and those above, each with its number among those of the same
+ * name.
+ */
 function places() {
   /** @type {Record<string, string>} */
-  const found = {}, /** @type {Record<string, number>} */ seen = {};
+  const found = {};
+  const /** @type {Record<string, number>} */ seen = {};
   for (const id of ids("displays")) {
     const row = rows.get(id);
     if (!row?.display) continue;
@@ -60,33 +94,51 @@ function places() {
 export function idsNow(before) {
   const now = Object.fromEntries(Object.entries(places()).map(([id, place]) => [place, id]));
   return (id) => {
-    const [head, ...rest] = id.split("/"), place = before.places[head];
+    const [head, ...rest] = id.split("/");
+    const place = before.places[head];
     if (place === undefined) return id;
     return now[place] ? [now[place], ...rest].join("/") : null;
   };
 }
 
-/** The folds of displays that are still there. @param {Memory} before @param {Record<string, boolean>} of */
+/**
+ * The folds of displays that are still there.
+ * @param {Memory} before
+ * @param {Record<string, boolean>} of
+ */
 export function foldsNow(before, of) {
   const now = idsNow(before);
-  return Object.fromEntries(Object.entries(of).flatMap(([id, open]) => {
-    const there = now(id);
-    return there === null ? [] : [[there, open]];
-  }));
+  return Object.fromEntries(
+    Object.entries(of).flatMap(([id, open]) => {
+      const there = now(id);
+      return there === null ? [] : [[there, open]];
+    }),
+  );
 }
 
 /** The values of this page's view. @returns {Record<string, any>} */
 function view() {
-  const set = ids("views").map((id) => rows.get(id)).filter((row) => row?.id.startsWith("view/") && !row.fixed
-    && row.part === undefined && row.id !== "view/:follow");
+  const set = ids("views")
+    .map((id) => rows.get(id))
+    .filter(
+      (row) =>
+        row?.id.startsWith("view/") &&
+        !row.fixed &&
+        row.part === undefined &&
+        row.id !== "view/:follow",
+    );
   return Object.fromEntries(set.map((row) => [row?.id, row?.value]));
 }
 
 /** Show the view that this page had.
- * @param {Memory} before @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since */
+ * @param {Memory} before
+ * @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since
+ */
 export function showView({ view: { "view/type": type, ...values } }, camera = true) {
   if (type === undefined) return;
-  const kept = Object.entries(values).filter(([id, value]) => camera || typeof value === "boolean" || rows.get(id)?.kind === "frame");
+  const kept = Object.entries(values).filter(
+    ([id, value]) => camera || typeof value === "boolean" || rows.get(id)?.kind === "frame",
+  );
   act("views/again", [type, JSON.stringify(Object.fromEntries(kept))]);
 }
 
@@ -99,7 +151,13 @@ export const hasJoints = () => Boolean(rows.get("joints/again"));
 export function jointsToBringBack(before) {
   const wanted = Object.entries(before.joints).filter(([id, { value, first: was }]) => {
     const row = rows.get(id);
-    return row && first(id) === was && row.value !== value && value >= (row.min ?? -Infinity) && value <= (row.max ?? Infinity);
+    return (
+      row &&
+      first(id) === was &&
+      row.value !== value &&
+      value >= (row.min ?? -Infinity) &&
+      value <= (row.max ?? Infinity)
+    );
   });
   return [wanted.map(([id]) => id), wanted.map(([, { value }]) => value)];
 }
@@ -107,25 +165,33 @@ export function jointsToBringBack(before) {
 /** What there was and is not any more, in words. @param {Memory} before @returns {string[]} */
 export function lost(before) {
   const again = before.session !== rows.value("names/session")?.id;
-  const gone = before.frames.filter((name) => !frames().includes(name)), known = rows.value("poses") || before.poses;
+  const gone = before.frames.filter((name) => !frames().includes(name));
+  const known = rows.value("poses") || before.poses;
   const poses = before.poses.filter((name) => !known.includes(name));
   return [
     gone.length && `the static transform${gone.length > 1 ? "s of" : " of"} ${listed(gone)}`,
     poses.length && `the pose${poses.length > 1 ? "s" : ""} ${listed(poses)}`,
-    again && before.modified && `changes of ${before.file.name || "the config"} that were not saved`,
+    again &&
+      before.modified &&
+      `changes of ${before.file.name || "the config"} that were not saved`,
     again && before.turning && "the turning of wheels",
-    before.selected && !ids("selection").some((id) => id.startsWith("selected/")) && "the selection",
+    before.selected &&
+      !ids("selection").some((id) => id.startsWith("selected/")) &&
+      "the selection",
   ].filter((part) => typeof part === "string");
 }
 
 /** The config that was open, when another one is open now. @param {Memory} before */
 export function otherConfig(before) {
-  const { name, folder } = before.file, now = rows.value("file/state");
+  const { name, folder } = before.file;
+  const now = rows.value("file/state");
   return name && now && (name !== now.name || folder !== now.folder) ? before.file : null;
 }
 
 /** A list in a sentence. @param {string[]} parts */
 export function listed(parts) {
   const few = parts.length > 4 ? [...parts.slice(0, 3), `${parts.length - 3} more`] : parts;
-  return few.length < 2 ? few.join("") : `${few.slice(0, -1).join(", ")} and ${few[few.length - 1]}`;
+  return few.length < 2
+    ? few.join("")
+    : `${few.slice(0, -1).join(", ")} and ${few[few.length - 1]}`;
 }

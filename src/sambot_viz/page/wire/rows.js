@@ -12,7 +12,8 @@
  *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean, own?: boolean,
  *   open?: boolean, bold?: boolean, lazy?: boolean, part?: number, [key: string]: any,
  * }} Row
- * @typedef {{base: number, from?: string, panels: Record<string, Row[]>, rows?: Record<string, any>}} Part
+ * @typedef {{base: number, from?: string, panels: Record<string, Row[]>, rows?: Record<string,
+ *   any>}} Part
  *   from: another one is of another connection or program
  */
 
@@ -54,7 +55,8 @@ export class Rows {
     const touched = new Set();
     if (what === "rows") {
       // A server that was started again may have fewer panels.
-      for (const name of Object.keys(this.whole.get(scope)?.panels || {})) if (!(name in part.panels)) this.replace(name, [], touched);
+      for (const name of Object.keys(this.whole.get(scope)?.panels || {}))
+        if (!(name in part.panels)) this.replace(name, [], touched);
       this.whole.set(scope, part);
       touched.add(`whole:${scope}`);
       for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
@@ -74,7 +76,11 @@ export class Rows {
     const ids = rows.map((row) => row.id);
     const kept = new Set(ids);
     for (const id of before) {
-      if (!kept.has(id)) { this.byId.delete(id); this.below.delete(id); touched.add(id); }
+      if (!kept.has(id)) {
+        this.byId.delete(id);
+        this.below.delete(id);
+        touched.add(id);
+      }
     }
     this.panels.set(name, ids);
     const below = new Map([[`panel:${name}`, /** @type {string[]} */ ([])]]);
@@ -83,12 +89,18 @@ export class Rows {
       if (!below.has(key)) below.set(key, []);
       /** @type {string[]} */ (below.get(key)).push(row.id);
       this.held.delete(row.id);
-      if (!same(this.byId.get(row.id), row)) { this.byId.set(row.id, row); touched.add(row.id); }
+      if (!same(this.byId.get(row.id), row)) {
+        this.byId.set(row.id, row);
+        touched.add(row.id);
+      }
     }
     for (const id of ids) if (!below.has(id)) this.below.delete(id);
     let moved = !same(before, ids);
     for (const [key, list] of below) {
-      if (!same(this.below.get(key), list)) { this.below.set(key, list); moved = true; }
+      if (!same(this.below.get(key), list)) {
+        this.below.set(key, list);
+        moved = true;
+      }
     }
     if (moved) touched.add(`panel:${name}`);
   }
@@ -132,7 +144,8 @@ export class Rows {
     /** @type {Row} */
     const next = { ...row };
     for (const key of changed) {
-      if (patch[key] === null) delete next[key]; else next[key] = patch[key];
+      if (patch[key] === null) delete next[key];
+      else next[key] = patch[key];
     }
     this.byId.set(id, next);
     touched.add(id);
@@ -152,10 +165,14 @@ export class Rows {
   }
 
   /** The value of a row, for rows that are only data. @param {string} id */
-  value(id) { return this.byId.get(id)?.value; }
+  value(id) {
+    return this.byId.get(id)?.value;
+  }
 
   /** The ids below a row, or at the top of a panel ("panel:NAME"). @param {string} key */
-  children(key) { return this.below.get(key) || []; }
+  children(key) {
+    return this.below.get(key) || [];
+  }
 
   /**
    * Call a function after each change of a row, of the list of a panel ("panel:NAME"), or
@@ -166,7 +183,10 @@ export class Rows {
     if (!this.listeners.has(key)) this.listeners.set(key, new Set());
     const set = /** @type {Set<() => void>} */ (this.listeners.get(key));
     set.add(listener);
-    return () => { set.delete(listener); if (!set.size) this.listeners.delete(key); };
+    return () => {
+      set.delete(listener);
+      if (!set.size) this.listeners.delete(key);
+    };
   }
 
   /** @param {string} key */
@@ -179,9 +199,20 @@ export class Rows {
 function partsOf(row) {
   if (row.kind !== "vector" || !row.parts) return [];
   const { unit, step, fixed, off, own, help } = row;
-  const shared = Object.fromEntries(Object.entries({ unit, step, fixed, off, own, help }).filter(([, value]) => value !== undefined));
-  return row.parts.map((/** @type {string} */ name, /** @type {number} */ part) => (
-    { id: `${row.id}/.${name}`, in: row.id, kind: "float", name, value: row.value[part], part, ...shared }));
+  const shared = Object.fromEntries(
+    Object.entries({ unit, step, fixed, off, own, help }).filter(
+      ([, value]) => value !== undefined,
+    ),
+  );
+  return row.parts.map((/** @type {string} */ name, /** @type {number} */ part) => ({
+    id: `${row.id}/.${name}`,
+    in: row.id,
+    kind: "float",
+    name,
+    value: row.value[part],
+    part,
+    ...shared,
+  }));
 }
 
 /** Whether two values from JSON are equal. @param {any} a @param {any} b @returns {boolean} */
