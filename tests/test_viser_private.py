@@ -11,14 +11,13 @@ from protocol_client import decode_frame
 
 from sambot_viz import viser_private
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.listener import listen
 
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
-    server = listen(Options())
-    yield server
-    close(server)
+    with listen(Options()) as listener:
+        yield listener.viser
 
 
 def test_widgets_are_found_by_their_id(server: viser.ViserServer) -> None:
@@ -66,8 +65,7 @@ def test_messages_are_packed_as_for_a_browser_also_after_one_that_cannot_be(
 def test_starting_and_stopping_prints_nothing(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    server = listen(Options())
-    close(server)
+    listen(Options()).close()
     out, err = capfd.readouterr()
     assert (out, err) == ("", "")
 

@@ -25,11 +25,11 @@ from sambot_viz.jupyter.notebook import remember, stop_former
 from sambot_viz.options import Options, keyword_help
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.server.documents import Documents
+from sambot_viz.server.config_store import ConfigStore, Sources
+from sambot_viz.server.listener import Listener
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
-from sambot_viz.server.sources import Sources
 from sambot_viz.session import Session
 from sambot_viz.session.config_file import take_root
 from sambot_viz.session.frame_view import FrameView
@@ -98,16 +98,14 @@ class Visualizer:
             remember(notebook, self)
 
     @classmethod
-    def of_inputs(
-        cls, inputs: Inputs, listening: viser.ViserServer | None = None
-    ) -> Visualizer:
+    def of_inputs(cls, inputs: Inputs, listening: Listener | None = None) -> Visualizer:
         """Show files that are opened already.
 
         Args:
             inputs: the model and the config, with their options. What is broken in
                 them, if they may be, is shown by its problem, and itself as soon as
                 the file is saved right.
-            listening: a viser server that listens already, so that the options' host
+            listening: a server that listens already, so that the options' host
                 and port do not count; it is stopped with the visualizer.
 
         Raises:
@@ -118,13 +116,13 @@ class Visualizer:
         visualizer._start(inputs, listening)
         return visualizer
 
-    def _start(self, inputs: Inputs, listening: viser.ViserServer | None) -> None:
+    def _start(self, inputs: Inputs, listening: Listener | None) -> None:
         options = inputs.options
         inputs.begin()
         document = inputs.document()
         prepare = partial(_set_fixed_frame, fixed_frame=options.fixed_frame)
         prepare(document)
-        self._documents = Documents(
+        self._configs = ConfigStore(
             document,
             options.session == "shared",
             prepare,
@@ -137,11 +135,11 @@ class Visualizer:
         models = ModelThread(inputs.load, options.package_path)
         self._server = Server(
             options,
-            self._documents,
+            self._configs,
             models,
             listening,
             inputs.presets(),
-            self._documents,
+            self._configs,
             ask_page,
         )
         try:
@@ -159,8 +157,8 @@ class Visualizer:
 
     def _show(self, robot: Robot) -> None:
         """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
-        if self._server.robot is None and self._stand_in is self._documents.current:
-            self._fit_fixed_frame(self._documents.current, robot)
+        if self._server.robot is None and self._stand_in is self._configs.current:
+            self._fit_fixed_frame(self._configs.current, robot)
             for session in self._server.sessions():
                 with session.change(session.signals.config):
                     self._fit_fixed_frame(session.config, robot)
@@ -179,7 +177,7 @@ class Visualizer:
             model,
             inputs.load,
             self._show,
-            self._documents,
+            self._configs,
             inputs.opened,
         )
         reloader = Reloader(self._server, sources, inputs.options.on_reload)

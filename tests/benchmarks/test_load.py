@@ -33,7 +33,7 @@ from viewer_page import viewer_url
 from sambot_viz import viser_private
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.listener import listen
 
 RunServer = Callable[[Sequence[str]], AbstractContextManager[Any]]
 Join = Callable[[int], ProtocolClient]
@@ -253,8 +253,8 @@ def test_memory_stays_flat_over_a_million_updates(run_server: RunServer) -> None
 def test_who_joins_late_starts_as_fast_as_the_first(
     compare: Callable[..., Any], protocol: Join
 ) -> None:
-    new, old = listen(Options(port=0)), listen(Options(port=0))
-    try:
+    with listen(Options()) as one, listen(Options()) as other:
+        new, old = one.viser, other.viser
         for server in (new, old):
             for number in range(200):
                 server.scene.add_frame(f"/{number}")
@@ -272,9 +272,6 @@ def test_who_joins_late_starts_as_fast_as_the_first(
             lambda: join(old),
             lambda: join(new),
         )
-    finally:
-        for server in (new, old):
-            close(server)
     assert result.ratio < 1.5, str(result)
 
 

@@ -19,7 +19,7 @@ from viewer_page import viewer_url
 from sambot_viz.export.browser_page import BrowserPage
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.listener import listen
 
 RunServer = Callable[[list[str]], AbstractContextManager[Any]]
 PARTS = 1000
@@ -58,7 +58,8 @@ DRAW_FORTY = """new Promise(resolve => {
 @contextmanager
 def thousand_boxes() -> Iterator[viser.ViserServer]:
     """As many parts as a large robot has, half of them translucent."""
-    server = listen(Options(panels=False))
+    listener = listen(Options(panels=False))
+    server = listener.viser
     for i in range(PARTS):
         server.scene.add_box(
             f"/{i}",
@@ -72,7 +73,7 @@ def thousand_boxes() -> Iterator[viser.ViserServer]:
     try:
         yield server
     finally:
-        close(server)
+        listener.close()
 
 
 def test_a_frame_of_a_thousand_parts(chromium: Chromium) -> None:

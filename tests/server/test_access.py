@@ -21,7 +21,7 @@ from sambot_viz.server.access import (
     only_this_machine,
     without_base,
 )
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.listener import listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
@@ -115,9 +115,8 @@ def test_an_allowed_origin_is_welcome_through_a_proxy() -> None:
 
 @pytest.fixture
 def port() -> Iterator[int]:
-    server = listen(Options())
-    yield server.get_port()
-    close(server)
+    with listen(Options()) as listener:
+        yield listener.viser.get_port()
 
 
 def test_a_foreign_page_gets_no_connection(port: int) -> None:

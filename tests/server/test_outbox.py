@@ -12,7 +12,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import viser_private
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.listener import listen
 
 Connect = Callable[..., ProtocolClient]
 A_LONG_TIME = 50_000_000
@@ -31,9 +31,8 @@ class Asked(dict[int, Any]):
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
-    server = listen(Options(port=0))
-    yield server
-    close(server)
+    with listen(Options(port=0)) as listener:
+        yield listener.viser
 
 
 def nodes(client: ProtocolClient) -> list[str]:

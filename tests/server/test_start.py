@@ -20,13 +20,17 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
-from sambot_viz.server import bind, door, outbox, sending
+from sambot_viz.server import inbound_filter, listener, outbox
+from sambot_viz.server.client_writer import ClientWriter
+from sambot_viz.server.inbound_filter import NoSessions
 
 Early = Callable[[viser.ViserServer], object]
 
 
 @contextmanager
-def started(early: Early, monkeypatch: pytest.MonkeyPatch) -> Generator[Any]:
+def started(
+    early: Early, monkeypatch: pytest.MonkeyPatch
+) -> Generator[listener.Listener]:
     """A server, with something that happens when it listens but is not ready."""
     prepare = outbox.prepare
 
@@ -35,11 +39,8 @@ def started(early: Early, monkeypatch: pytest.MonkeyPatch) -> Generator[Any]:
         prepare(server)
 
     monkeypatch.setattr(outbox, "prepare", prepare_late)
-    server = bind.listen(Options())
-    try:
-        yield server
-    finally:
-        bind.close(server)
+    with listener.listen(Options()) as made:
+        yield made
 
 
 def early_client(server: viser.ViserServer) -> ClientConnection:
@@ -73,9 +74,9 @@ def test_a_client_that_comes_and_goes_while_the_program_starts_does_not_end_it(
         live.extend(cast(Any, server)._websock_server._live_connections)
         reset(client)
 
-    with started(early, monkeypatch) as server:
+    with started(early, monkeypatch) as made:
         assert live == [], "viser had a connection without the filter"
-        assert protocol(server.get_port()).replayed
+        assert protocol(made.viser.get_port()).replayed
 
 
 def test_a_connection_that_is_closed_already_can_be_prepared() -> None:
@@ -85,15 +86,15 @@ def test_a_connection_that_is_closed_already_can_be_prepared() -> None:
     closed = SimpleNamespace(family=family, setsockopt=line.setsockopt)
     transport = SimpleNamespace()
     transport.get_extra_info = {"socket": closed}.get
-    connection = SimpleNamespace(transport=transport, send=None)
-    sending.Sending(cast(Any, connection))
+    connection = SimpleNamespace(transport=transport)
+    ClientWriter(cast(Any, connection)).prepare()
 
 
 def test_the_filter_sees_all_that_a_client_sends_while_the_program_starts(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level(logging.WARNING)
-    monkeypatch.setattr(door, "_next_report", 0.0)
+    monkeypatch.setattr(inbound_filter, "_next_report", 0.0)
     clients: list[ClientConnection] = []
     taken = threading.Event()
 
@@ -105,14 +106,13 @@ def test_the_filter_sees_all_that_a_client_sends_while_the_program_starts(
             clients[0].send(msgspec.msgpack.encode(message))
         assert clients[0].ping().wait(10.0)
 
-    with started(early, monkeypatch) as server:
-        edits = door.Edits(
-            take=lambda _, __: taken.set(),
-            may=lambda _: True,
-            behind=lambda _, done: done(),
-        )
-        door.give_edits(server, edits)
-        edit = {"uuid": door.EDITS, "updates": {"value": ["row", 1]}}
+    class Taker(NoSessions):
+        def take_edit(self, client_id: int, edit: object) -> None:
+            taken.set()
+
+    with started(early, monkeypatch) as made:
+        made.handler = Taker()
+        edit = {"uuid": inbound_filter.EDITS, "updates": {"value": ["row", 1]}}
         clients[0].send(msgspec.msgpack.encode({"type": "GuiUpdateMessage", **edit}))
         assert taken.wait(10.0), "the camera was not seen"
         dropped = [record.getMessage() for record in caplog.records]
@@ -127,7 +127,7 @@ def test_a_message_that_is_too_long_is_refused_also_while_the_program_starts(
 
     def early(server: viser.ViserServer) -> None:
         client = early_client(server)
-        client.send(b"x" * (door.LARGEST_MESSAGE + 1))
+        client.send(b"x" * (inbound_filter.LARGEST_MESSAGE + 1))
         with pytest.raises(ConnectionClosed) as closed:
             client.recv(timeout=10.0)
         assert closed.value.rcvd is not None

@@ -18,22 +18,21 @@ from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
 from sambot_viz.server import token_check
-from sambot_viz.server.bind import close, listen, url_of
+from sambot_viz.server.listener import Listener, listen
 
 TOKEN = "s3cret-of.the_lab"
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
 
 @pytest.fixture
-def server() -> Iterator[viser.ViserServer]:
-    server = listen(Options(token=TOKEN))
-    yield server
-    close(server)
+def listener() -> Iterator[Listener]:
+    with listen(Options(token=TOKEN)) as listener:
+        yield listener
 
 
 @pytest.fixture
-def port(server: viser.ViserServer) -> int:
-    return server.get_port()
+def port(listener: Listener) -> int:
+    return listener.viser.get_port()
 
 
 @dataclass(frozen=True)
@@ -66,12 +65,9 @@ def cookie_of(answer: Answered) -> str:
 
 
 def test_the_printed_link_lets_in_and_leaves_the_address_bar(
-    server: viser.ViserServer, port: int
+    listener: Listener, port: int
 ) -> None:
-    assert (
-        url_of(server, Options(token=TOKEN))
-        == f"http://127.0.0.1:{port}/?token={TOKEN}"
-    )
+    assert listener.url() == f"http://127.0.0.1:{port}/?token={TOKEN}"
     first = ask(port, f"/?fixedDpr=1&token={TOKEN}")
     assert (first.status, first.headers["Location"]) == (303, "./?fixedDpr=1")
     cookie = first.headers["Set-Cookie"]
@@ -85,9 +81,8 @@ def test_the_printed_link_lets_in_and_leaves_the_address_bar(
 def test_the_cookie_goes_where_the_page_was_opened(port: int) -> None:
     # A browser takes the folder of the address, also below the path of a proxy.
     assert "Path" not in ask(port, f"/?token={TOKEN}").headers["Set-Cookie"]
-    server = listen(Options(token=TOKEN, base_path="/robot"))
-    answer = ask(server.get_port(), f"/robot?token={TOKEN}")
-    close(server)
+    with listen(Options(token=TOKEN, base_path="/robot")) as listener:
+        answer = ask(listener.viser.get_port(), f"/robot?token={TOKEN}")
     assert "; Path=/robot; " in answer.headers["Set-Cookie"]
 
 

@@ -16,7 +16,7 @@ from websockets.typing import Subprotocol
 
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen, url_of
+from sambot_viz.server.listener import listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
@@ -30,22 +30,19 @@ def path() -> Iterator[Path]:
 
 def test_only_its_user_can_open_it_and_it_goes_with_the_server(path: Path) -> None:
     options = Options(unix_socket=path)
-    server = listen(options)
-    try:
-        assert url_of(server, options) == f"unix:{path}"
+    with listen(options) as listener:
+        assert listener.url() == f"unix:{path}"
         assert stat.S_IMODE(os.stat(path).st_mode) == 0o600
         uri = "ws://localhost/"
         with unix_connect(str(path), uri=uri, subprotocols=[PROTOCOL]):
             pass
-    finally:
-        close(server)
     assert not path.exists()
 
 
 def test_what_a_killed_program_has_left_is_replaced(path: Path) -> None:
     with socket.socket(socket.AF_UNIX) as left:
         left.bind(str(path))
-    close(listen(Options(unix_socket=path)))
+    listen(Options(unix_socket=path)).close()
 
 
 @pytest.mark.parametrize("kind", ["server", "file"])

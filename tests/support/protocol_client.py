@@ -60,7 +60,7 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.panels.publisher import PERIOD
-from sambot_viz.server.door import EDITS
+from sambot_viz.server.inbound_filter import EDITS
 from sambot_viz.session.worker import Worker
 
 FENCE_REQUEST = "~fence request"

@@ -8,7 +8,6 @@ import signal
 import sys
 import threading
 from collections.abc import Sequence
-from functools import partial
 
 from sambot_viz import problem_text
 from sambot_viz._version import __version__
@@ -64,17 +63,14 @@ def run(words: list[str]) -> int:
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
     from sambot_viz.server.access import only_this_machine
-    from sambot_viz.server.bind import close, listen, reachable_at, url_of
+    from sambot_viz.server.listener import listen, reachable_at
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)
-    server = listen(options)
+    listener = listen(options)
     try:
         _refuse_early(inputs)
-        presented, link = (
-            options.presenter is not None,
-            partial(url_of, server, options),
-        )
+        presented, link = options.presenter is not None, listener.url
         _announce(link(), given.open and not presented)
         if presented:
             _announce(link(presenter=True), given.open)
@@ -83,17 +79,17 @@ def run(words: list[str]) -> int:
             here = reachable_at(options.host)
             _invite(link(here), link(here, presenter=True) if presented else None)
             if options.token is None:
-                sys.stderr.write(_OPEN_TO_ALL.format(server.get_port()))
+                sys.stderr.write(_OPEN_TO_ALL.format(listener.viser.get_port()))
         inputs.begin()
         from sambot_viz.visualizer import Visualizer
 
-        with Visualizer.of_inputs(inputs, server):
+        with Visualizer.of_inputs(inputs, listener):
             _report_start(inputs)
             stop.wait()
     except KeyboardInterrupt:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:
-        close(server)
+        listener.close()
     return 0
 
 

@@ -29,6 +29,7 @@ import ipaddress
 import re
 import socket
 from collections.abc import Awaitable, Callable, Generator, Sequence
+from functools import partial
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -40,8 +41,9 @@ from websockets.http11 import Request, Response
 from websockets.protocol import State
 
 from sambot_viz.options import Options
-from sambot_viz.server import page_files, visitors
-from sambot_viz.server.crowd import Crowd
+from sambot_viz.server import page_files
+from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.connection_limit import ConnectionLimiter
 from sambot_viz.server.token_check import TokenCheck
 
 _PROTOCOL = f"viser-v{viser.__version__}"
@@ -50,6 +52,8 @@ _HOST = re.compile(r"([A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(:[0-9]+)?")
 """A Host header; it goes into the policy of the page."""
 _NOT_FOR_SALE = (".local", ".lan", ".internal", ".home.arpa")
 """Names with these ends are only known in one network."""
+COPY = "/copy"
+"""Below this path, a page shows a private copy of the shared robot."""
 _ONCE = ("Origin", "Upgrade", "If-None-Match", "Accept-Encoding")
 """Headers that are read, and so may be there once at most."""
 
@@ -120,6 +124,14 @@ def without_base(path: str, base: str) -> str:
     return rest if rest.startswith("/") else f"/{rest}"
 
 
+def without_copy(path: str) -> tuple[str, bool]:
+    """Return the path of a request without `COPY`, and whether that was in it."""
+    where, mark, query = path.partition("?")
+    if where != COPY and not where.startswith(f"{COPY}/"):
+        return path, False
+    return f"{where[len(COPY) :] or '/'}{mark}{query}", True
+
+
 def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
     try:
         return ipaddress.ip_address(host)
@@ -174,13 +186,13 @@ def checked(
     original: Callable[..., Any] = module.serve
     check_token = TokenCheck(options.token, options.presenter, options.base_path)
     page_files.prepare(options.panels)
-    crowd = Crowd()
+    limiter = ConnectionLimiter()
 
     def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
         answer = settings.get("process_request")
 
         def check(
-            connection: ServerConnection, request: Request
+            connection: Connection, request: Request
         ) -> Response | Awaitable[Response] | None:
             refused = _refusal(request, options) or check_token.refusal(request)
             if refused:
@@ -188,13 +200,13 @@ def checked(
             if folder := _folder(request, options.base_path):
                 return _plain(http.HTTPStatus.SEE_OTHER, "See there.", folder)
             request.path = without_base(request.path, options.base_path)
-            request.path, copy = visitors.without_copy(request.path)
+            request.path, copy = without_copy(request.path)
             presenter = check_token.is_presenter(request)
             is_page = page_files.is_page(request) and not presenter
-            if is_page and crowd.is_full(connection):
-                return crowd.refusal()
+            if is_page and limiter.is_full(connection):
+                return limiter.refusal()
             if page_files.is_websocket(request):
-                visitors.note(connection, visitors.Visitor(presenter, copy))
+                connection.context = ClientContext(presenter, copy)
             try:
                 response = page_files.answer(request, options.panels)
                 if response is None and answer:
@@ -220,7 +232,7 @@ def checked(
                 await connection.close(_VERSION_MISMATCH, "Version mismatch.")
 
         settings["process_request"] = check
-        settings["create_connection"] = crowd.connection
+        settings["create_connection"] = partial(Connection, limiter)
         # Also for what is sent before the filter reads it.
         settings["max_size"] = largest_message
         if listening is not None:
@@ -266,7 +278,7 @@ def _folder(request: Request, base: str) -> str:
     The page names its files relative to the folder it is in.
     """
     path, mark, query = request.path.partition("?")
-    lacks_slash = path == base != "/" or without_base(path, base) == visitors.COPY
+    lacks_slash = path == base != "/" or without_base(path, base) == COPY
     if page_files.is_websocket(request) or not lacks_slash:
         return ""
     return f"./{path.rpartition('/')[2]}/{mark}{query}"

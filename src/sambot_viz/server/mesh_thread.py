@@ -17,7 +17,7 @@ LARGE = 500_000
 """Before a file above this size is read, the others are handed over [B]."""
 
 
-class Listener(Protocol):
+class MeshListener(Protocol):
     """A session that waits for files."""
 
     def arrived(self, assets: frozenset[Asset]) -> None:
@@ -39,12 +39,12 @@ class MeshThread:
         self._cache = cache
         self._on_error = on_error
         self._changed = threading.Condition()
-        self._wanted: dict[Asset, list[Listener]] = {}
+        self._wanted: dict[Asset, list[MeshListener]] = {}
         self._thread: threading.Thread | None = None
         self._closed = False
         self._reporting = threading.RLock()
 
-    def request(self, asset: Asset, listener: Listener) -> None:
+    def request(self, asset: Asset, listener: MeshListener) -> None:
         """Read a file soon, then call the listener, with several files at a time."""
         with self._changed:
             if self._closed:
@@ -69,7 +69,7 @@ class MeshThread:
             return
 
     def _run(self) -> None:
-        done: dict[Listener, set[Asset]] = {}
+        done: dict[MeshListener, set[Asset]] = {}
         reported = float("-inf")
         while not self._closed:
             asset = self._next(wait=not done)
@@ -84,7 +84,7 @@ class MeshThread:
                     for listener in self._wanted.pop(asset, ()):
                         done.setdefault(listener, set()).add(asset)
 
-    def _report(self, done: dict[Listener, set[Asset]]) -> None:
+    def _report(self, done: dict[MeshListener, set[Asset]]) -> None:
         with self._reporting:
             for listener, assets in done.items():
                 if self._closed:

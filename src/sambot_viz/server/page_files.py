@@ -1,4 +1,4 @@
-"""Answers requests for the page, which is that of viser with our scripts in it."""
+"""Answer requests for the page, which is that of viser with our scripts in it."""
 
 from __future__ import annotations
 
@@ -16,6 +16,12 @@ from sambot_viz import page
 
 LICENSES = "/sambot/licenses.txt"
 """Where the licences of the libraries in the page are."""
+_PLAIN_PAGE = """\
+<!doctype html><meta charset="utf-8">
+<meta name="viewport" content="width=device-width"><title>sambot-viz</title>
+<style>body {{ font: 16px/1.5 sans-serif; max-width: 34em; margin: 4em auto }}</style>
+<h1>{title}</h1><p>{text}</p>
+"""
 
 
 def prepare(panels: bool = True) -> None:
@@ -91,3 +97,30 @@ def _packed(panels: bool) -> bytes:
 @cache
 def _tag(panels: bool) -> str:
     return f'"{hashlib.sha256(_page(panels)).hexdigest()[:20]}"'
+
+
+def plain_page(
+    status: http.HTTPStatus,
+    title: str,
+    text: str,
+    more: dict[str, str] | None = None,
+) -> Response:
+    """Return an answer that a browser shows as a page: one heading and a sentence.
+
+    Args:
+        status: of the answer.
+        title: the heading; nothing that a request has brought.
+        text: the sentence; as `title`.
+        more: further headers.
+    """
+    content = _PLAIN_PAGE.format(title=title, text=text).encode()
+    headers = Headers(
+        {
+            "Content-Type": "text/html; charset=utf-8",
+            "Content-Length": str(len(content)),
+            "Cache-Control": "no-store",
+            "Referrer-Policy": "no-referrer",
+            **(more or {}),
+        }
+    )
+    return Response(status, status.phrase, headers, content)

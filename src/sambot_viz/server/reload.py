@@ -18,8 +18,8 @@ from sambot_viz.robot.shape_files import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
+from sambot_viz.server.config_store import Sources
 from sambot_viz.server.server import Server
-from sambot_viz.server.sources import Sources
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 
@@ -51,7 +51,7 @@ class Reloader:
         robot = server.robot
         files = () if robot is None else robot.files
         self._model = sources.model or next(iter(files), None)
-        self._documents = sources.documents
+        self._documents = sources.configs
         self._documents.on_open.append(self._opened)
         self._suspects: tuple[Path, ...] = ()
         self._of_model = () if robot is None else robot.problems

@@ -19,8 +19,7 @@ from sambot_viz.options import Options
 from sambot_viz.panels.files import AskPage, Files
 from sambot_viz.robot.model import Robot
 from sambot_viz.server import outbox
-from sambot_viz.server.bind import close, listen, url_of
-from sambot_viz.server.door import Edits, give_edits
+from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.session import Reloaded, Session
@@ -38,7 +37,7 @@ class Server:
         options: where to listen, for whom, and what every session begins with.
         make_config: a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
-        listening: a viser server that listens already; None makes one.
+        listening: a server that listens already; None makes one.
         poses: the named poses; a private session has a copy that writes no file.
         files: opens and follows .rviz files for the shared session; None leaves Open
             and Save out.
@@ -54,7 +53,7 @@ class Server:
         options: Options,
         make_config: MakeConfig,
         models: ModelThread | None = None,
-        listening: viser.ViserServer | None = None,
+        listening: Listener | None = None,
         poses: Presets | None = None,
         files: Files | None = None,
         ask_page: AskPage | None = None,
@@ -62,13 +61,13 @@ class Server:
         self.options = options
         self._open = threading.Semaphore()
         self._stopped = threading.Event()
-        self._viser = listening or listen(options)
+        self._listener = listening or listen(options)
+        self._viser = self._listener.viser
         sessions = Sessions(
             self._viser, options, make_config, models, poses, files, ask_page
         )
         self._sessions = sessions
-        edits = Edits(sessions.take_edit, sessions.may_edit, sessions.behind)
-        give_edits(self._viser, edits)
+        self._listener.handler = sessions
         prepare_page(self._viser)
         outbox.keep_apart(self._viser, sessions.has_copy)
         if options.session == "shared":
@@ -83,14 +82,14 @@ class Server:
     @property
     def url(self) -> str:
         """The address to open: "http://127.0.0.1:8080"."""
-        return url_of(self._viser, self.options)
+        return self._listener.url()
 
     @property
     def presenter_url(self) -> str | None:
-        """The secret address for who drives; None when everyone may."""
+        """The presenter's link; None when everyone may change the robot."""
         if self.options.presenter is None:
             return None
-        return url_of(self._viser, self.options, presenter=True)
+        return self._listener.url(presenter=True)
 
     @property
     def robot(self) -> Robot | None:
@@ -161,7 +160,7 @@ class Server:
         self._stopped.set()
         self._sessions.close()
         _run_what_waits(self._viser.get_event_loop())
-        close(self._viser)
+        self._listener.close()
 
 
 def prepare_page(server: viser.ViserServer) -> None:

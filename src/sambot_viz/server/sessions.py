@@ -20,9 +20,9 @@ from sambot_viz.panels.files import AskPage, Files
 from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
-from sambot_viz.server.visitors import Visitor, visitor_of
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.checks import CheckResults
 from sambot_viz.session.session_copy import SessionCopy
@@ -280,23 +280,24 @@ class Sessions:
             self._private.get(client_id) if client_id in self._workers else self.shared
         )
 
-    def _visitor(self, client_id: int) -> Visitor:
+    def _context(self, client_id: int) -> ClientContext:
         try:
-            return visitor_of(viser_private.connection_of(self._server, client_id))
+            connection = viser_private.connection_of(self._server, client_id)
         except KeyError:
             # It has left already.
-            return Visitor()
+            return ClientContext()
+        return cast(Connection, connection).context
 
     def has_copy(self, client_id: int) -> bool:
         """Whether a browser sees a copy, and so nothing of the shared session."""
-        return self.shared is not None and self._visitor(client_id).copy
+        return self.shared is not None and self._context(client_id).copy
 
     async def join(self, client: viser.ClientHandle) -> None:
         """A browser has opened the page."""
         viser_private.allow_late_messages(client)
-        shared, visitor = self.shared, self._visitor(client.client_id)
-        if shared is not None and not visitor.copy:
-            shared.worker.post(partial(self._give_view, shared, client, visitor))
+        shared, context = self.shared, self._context(client.client_id)
+        if shared is not None and not context.copy:
+            shared.worker.post(partial(self._give_view, shared, client, context))
             return
         with self._lock:
             if self._closed:
@@ -313,9 +314,9 @@ class Sessions:
         return worker
 
     def _give_view(
-        self, session: Session, client: viser.ClientHandle, visitor: Visitor
+        self, session: Session, client: viser.ClientHandle, context: ClientContext
     ) -> None:
-        session.join_browser(client, presenter=visitor.presenter)
+        session.join_browser(client, presenter=context.presenter)
         with self._joined:
             self._joined.notify_all()
 
@@ -349,7 +350,7 @@ class Sessions:
         for of, found in problems.items():
             session.problems.set_saves(of, found)
         self._add_panels(session)
-        self._give_view(session, client, Visitor())
+        self._give_view(session, client, ClientContext())
 
     async def leave(self, client: viser.ClientHandle) -> None:
         """A browser has closed the page: a session of its own ends."""

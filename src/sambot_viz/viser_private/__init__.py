@@ -10,10 +10,11 @@ from sambot_viz.viser_private.connections import (
     larger_messages,
     on_connection,
     quiet_websockets,
-    replace_methods,
     without_banner,
 )
 from sambot_viz.viser_private.outgoing import (
+    Message,
+    MessageBuffer,
     Packer,
     WindowLoop,
     broadcast_buffer,
@@ -37,6 +38,8 @@ from sambot_viz.viser_private.widgets import (
 )
 
 __all__ = [
+    "Message",
+    "MessageBuffer",
     "Packer",
     "Recorder",
     "WindowLoop",
@@ -54,7 +57,6 @@ __all__ = [
     "own_buffer",
     "quiet_websockets",
     "remember_prop_types",
-    "replace_methods",
     "replace_window_loop",
     "send_value",
     "set_pose",

@@ -30,11 +30,6 @@ def on_connection(
     websocket.on_client_connect(connected)
 
 
-def replace_methods(connection: ServerConnection, **methods: Any) -> None:
-    """Have viser call other functions in place of methods of a connection."""
-    vars(connection).update(methods)
-
-
 def connection_of(server: viser.ViserServer, client_id: int) -> ServerConnection:
     """The connection of a browser.
 

@@ -1,7 +1,9 @@
-"""What goes out to browsers: its buffers, and how it is packed."""
+"""What goes out to clients: the buffers of messages, and how these are packed."""
 
 from __future__ import annotations
 
+import asyncio
+import threading
 from collections.abc import (
     Awaitable,
     Callable,
@@ -17,13 +19,58 @@ from viser.infra import (
 )
 
 
+class Message(Protocol):
+    """The fields of a message of viser that are read.
+
+    Attributes:
+        excluded_self_client: the number of a client that does not get it.
+    """
+
+    excluded_self_client: int | None
+
+
+class MessageBuffer(Protocol):
+    """The fields of viser's buffer of messages that `server.outbox` uses.
+
+    Attributes:
+        event_loop: that of the server.
+        persistent_messages: whether messages stay for clients that come later.
+        message_event: set when there is something new.
+        flush_event: set when what there is shall go out at once.
+        message_counter: the number of the next message.
+        message_from_id: the messages by number, in this order.
+        buffer_lock: for changes of `message_from_id`.
+        max_window_size: messages that go out together at most.
+        window_duration_sec: how long messages are collected [s].
+        done: whether the server or the client has ended.
+        atomic_counter: above 0 nothing goes out.
+        generator_cursors: the number of the last message that each client had.
+    """
+
+    event_loop: asyncio.AbstractEventLoop
+    persistent_messages: bool
+    message_event: asyncio.Event
+    flush_event: asyncio.Event
+    message_counter: int
+    message_from_id: dict[int, Any]
+    buffer_lock: threading.Lock
+    max_window_size: int
+    window_duration_sec: float
+    done: bool
+    atomic_counter: int
+    generator_cursors: dict[int, int]
+
+    def pop_message_locked(self, message_id: int) -> Any:
+        """Take a message out; the caller holds `buffer_lock`."""
+
+
 def broadcast_buffer(server: viser.ViserServer) -> Any:
-    """The messages for all browsers of a server."""
+    """Return the buffer of the messages for all clients of a server."""
     return cast(Any, server)._websock_server._broadcast_buffer
 
 
 def own_buffer(server: viser.ViserServer, client_id: int) -> Any:
-    """The messages for one browser of a server."""
+    """Return the buffer of the messages for one client of a server."""
     return (
         cast(Any, server)
         ._websock_server._client_state_from_id[client_id]

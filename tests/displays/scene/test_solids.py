@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import pytest
-import viser
 
 from sambot_viz.displays.scene.solids import Arrow, add_arrows, linear
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.listener import listen
 
 
 def encoded(value: float) -> float:
@@ -23,8 +22,8 @@ def test_linear_undoes_the_encoding_of_the_page() -> None:
 
 
 def test_arrows_are_shown_in_their_colours_to_four_steps() -> None:
-    server: viser.ViserServer = listen(Options())
-    try:
+    with listen(Options()) as listener:
+        server = listener.viser
         arrow = Arrow((0, 0, 0), (1, 0, 0), (0.4, 0.01), (0.1, 0.04))
         shafts, heads = add_arrows(
             server.scene, "/a", [arrow], (204, 204, 76), (255, 25, 153)
@@ -32,5 +31,3 @@ def test_arrows_are_shown_in_their_colours_to_four_steps() -> None:
         for node, color in ((shafts, (204, 204, 76)), (heads, (255, 25, 153))):
             shown = [encoded(c / 255) for c in node.batched_colors[0]]
             assert shown == pytest.approx(color, abs=4)
-    finally:
-        close(server)

@@ -5,36 +5,35 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-import viser
 from protocol_client import ProtocolClient
 
 from sambot_viz.options import Options
-from sambot_viz.server import door
-from sambot_viz.server.backlog import WINDOW
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server.inbound_filter import NoSessions
+from sambot_viz.server.listener import Listener, listen
+from sambot_viz.server.rate_limit import WINDOW
 
 
 @pytest.fixture
-def server() -> Iterator[viser.ViserServer]:
-    server = listen(Options())
-    yield server
-    close(server)
+def listener() -> Iterator[Listener]:
+    with listen(Options()) as listener:
+        yield listener
 
 
 def test_what_a_session_has_not_done_yet_waits_in_the_connection(
-    server: viser.ViserServer, protocol: Callable[..., ProtocolClient]
+    listener: Listener, protocol: Callable[..., ProtocolClient]
 ) -> None:
     taken: list[object] = []
     waiting: list[Callable[[], None]] = []
-    door.give_edits(
-        server,
-        door.Edits(
-            take=lambda _, edit: taken.append(edit),
-            may=lambda _: True,
-            behind=lambda _, done: waiting.append(done),
-        ),
-    )
-    client = protocol(server.get_port())
+
+    class Slow(NoSessions):
+        def take_edit(self, client_id: int, edit: object) -> None:
+            taken.append(edit)
+
+        def behind(self, client_id: int, action: Callable[[], None]) -> None:
+            waiting.append(action)
+
+    listener.handler = Slow()
+    client = protocol(listener.viser.get_port())
     last = 5 * WINDOW
     for number in range(last):
         client.edit("row", number)

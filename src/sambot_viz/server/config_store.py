@@ -1,13 +1,15 @@
-"""The .rviz document of a server, and the file it comes from."""
+"""The config of a server, and the files that it shows."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import ConfigError
 from sambot_viz.open_config import load_config
+from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
@@ -17,7 +19,7 @@ from sambot_viz.session.config_file import fit_own_config
 _MANAGER = "Visualization Manager"
 
 
-class Documents:
+class ConfigStore:
     """The .rviz document of the server: one for all browsers, or a copy for each.
 
     Args:
@@ -107,3 +109,22 @@ def _view_of(document: RvizConfig) -> Plain:
     manager = root.get(_MANAGER) if isinstance(root, dict) else None
     views = manager.get("Views") if isinstance(manager, dict) else None
     return views.get("Current") if isinstance(views, dict) else None
+
+
+@dataclass(frozen=True, slots=True)
+class Sources:
+    """The files of a server, and how they are read and shown.
+
+    Attributes:
+        model: the model file; None follows that of the robot that is shown.
+        load: reads a model from its file.
+        show: shows a robot in all sessions.
+        configs: where sessions take their config from, and which file it is in.
+        opened: when the files were opened first [ns].
+    """
+
+    model: Path | None
+    load: Callable[[Path], Robot]
+    show: Callable[[Robot], None]
+    configs: ConfigStore
+    opened: int

@@ -13,24 +13,25 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
-from sambot_viz.server import door
-from sambot_viz.server.bind import close, listen
-from sambot_viz.server.frames import BURST
+from sambot_viz.server import inbound_filter
+from sambot_viz.server.connection import SMALL_FRAMES_AT_ONCE
+from sambot_viz.server.listener import listen
 
 
 @pytest.fixture
 def client(monkeypatch: pytest.MonkeyPatch) -> Iterator[ClientConnection]:
-    monkeypatch.setattr(door, "CLOSE_TIME", 0.1)
-    server = listen(Options())
+    monkeypatch.setattr(inbound_filter, "CLOSE_TIME", 0.1)
     protocol = Subprotocol(f"viser-v{viser.__version__}")
-    with connect(
-        f"ws://127.0.0.1:{server.get_port()}",
-        subprotocols=[protocol],
-        compression=None,
-        max_size=None,
-    ) as client:
+    with (
+        listen(Options()) as listener,
+        connect(
+            f"ws://127.0.0.1:{listener.viser.get_port()}",
+            subprotocols=[protocol],
+            compression=None,
+            max_size=None,
+        ) as client,
+    ):
         yield client
-    close(server)
 
 
 FLOODS = {
@@ -45,7 +46,7 @@ def test_a_flood_of_small_frames_ends_its_connection(
     client: ClientConnection, name: str
 ) -> None:
     first, part = Frame(Opcode.BINARY, b"", fin=False), FLOODS[name]
-    frames = [first, *[part] * (2 * int(BURST))]
+    frames = [first, *[part] * (2 * int(SMALL_FRAMES_AT_ONCE))]
     data = b"".join(frame.serialize(mask=True) for frame in frames)
     client.socket.sendall(data)
     with pytest.raises(ConnectionClosed) as closed:

@@ -1,4 +1,4 @@
-"""The messages that a browser may send: their fields, with types and limits.
+"""The messages of viser that a client may send: their fields, types and limits.
 
 The names are viser's own; what is not in this list is not a message.
 """
@@ -16,11 +16,11 @@ _Id = Annotated[str, msgspec.Meta(max_length=100)]
 
 
 class _Message(msgspec.Struct, tag_field="type", forbid_unknown_fields=True):
-    """A message that a browser may send."""
+    """A message that a client may send."""
 
 
 class CameraMoved(_Message, tag="ViewerCameraMessage"):
-    """Where a browser's camera is."""
+    """Where a client's camera is."""
 
     wxyz: tuple[_Number, _Number, _Number, _Number]
     position: _Vector
@@ -53,18 +53,18 @@ class Point(_Message, tag="ScenePointerMessage"):
 
 
 class PictureDrawn(_Message, tag="GetRenderResponseMessage"):
-    """The picture that the server has asked this browser for."""
+    """The picture that the server has asked this client for."""
 
     payload: bytes
     render_uuid: _Id
 
 
-BrowserMessage = CameraMoved | SetValue | Point | PictureDrawn
-_DECODER = msgspec.msgpack.Decoder(BrowserMessage)
+ClientMessage = CameraMoved | SetValue | Point | PictureDrawn
+_DECODER = msgspec.msgpack.Decoder(ClientMessage)
 
 
-def decode(raw: bytes) -> BrowserMessage | None:
-    """The message in a frame from a browser; None when it is not one of these."""
+def decode(raw: bytes) -> ClientMessage | None:
+    """Return the message in a websocket frame; None when it is not one of these."""
     try:
         return _DECODER.decode(raw)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):

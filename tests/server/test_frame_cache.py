@@ -16,15 +16,14 @@ from viser.infra import Message
 
 from sambot_viz import viser_private
 from sambot_viz.options import Options
-from sambot_viz.server.bind import close, listen
-from sambot_viz.server.parcels import HEAVY, RECENT, Batch, Parcels, weight
+from sambot_viz.server.frame_cache import HEAVY, RECENT, Batch, FrameCache, weight
+from sambot_viz.server.listener import listen
 
 
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
-    server = listen(Options(port=0))
-    yield server
-    close(server)
+    with listen(Options(port=0)) as listener:
+        yield listener.viser
 
 
 def longest(server: viser.ViserServer) -> Message:
@@ -62,10 +61,10 @@ def test_a_mesh_is_packed_once_for_all_that_join_together(
         return pack(packer, messages)
 
     monkeypatch.setattr(viser_private.Packer, "pack", counted)
-    mesh, parcels = heavy(server), Parcels()
+    mesh, cache = heavy(server), FrameCache()
 
     async def join() -> None:
-        alike = await asyncio.gather(*(parcels.parcel(mesh) for _ in range(30)))
+        alike = await asyncio.gather(*(cache.packed(mesh) for _ in range(30)))
         assert len(set(map(id, alike))) == 1
 
     asyncio.run(join())
@@ -75,12 +74,12 @@ def test_a_mesh_is_packed_once_for_all_that_join_together(
 def test_a_browser_that_leaves_meanwhile_does_not_take_it_from_the_others(
     server: viser.ViserServer,
 ) -> None:
-    mesh, parcels = heavy(server), Parcels()
+    mesh, cache = heavy(server), FrameCache()
 
     async def leave() -> bytes:
-        first = asyncio.create_task(parcels.parcel(mesh))
+        first = asyncio.create_task(cache.packed(mesh))
         await asyncio.sleep(0)
-        second = asyncio.create_task(parcels.parcel(mesh))
+        second = asyncio.create_task(cache.packed(mesh))
         await asyncio.sleep(0)
         first.cancel()
         return (await second).content
@@ -91,14 +90,14 @@ def test_a_browser_that_leaves_meanwhile_does_not_take_it_from_the_others(
 def test_what_is_heavy_is_let_go_and_of_what_is_light_the_newest_stay(
     server: viser.ViserServer,
 ) -> None:
-    parcels, light = Parcels(), batch(server)
+    cache, light = FrameCache(), batch(server)
 
     async def send(what: Batch) -> weakref.ref[Any]:
-        return weakref.ref(await parcels.parcel(what))
+        return weakref.ref(await cache.packed(what))
 
-    def there(parcel: weakref.ref[Any]) -> bool:
+    def there(frame: weakref.ref[Any]) -> bool:
         gc.collect()
-        return parcel() is not None
+        return frame() is not None
 
     first = asyncio.run(send(light))
     assert not there(asyncio.run(send(heavy(server, 1))))

@@ -1,4 +1,4 @@
-"""Opening the port: all that must happen before a page can be opened, and no more.
+"""Open the port: all that must happen before a page can be opened, and no more.
 
 Nothing but viser is imported here, so that the address is there as soon as viser
 itself can have it; the rest of the program is imported while a browser loads the page.
@@ -10,52 +10,97 @@ import errno
 import os
 import socket
 import stat
-import weakref
 from contextlib import suppress
+from typing import cast
 
 import viser
+from websockets.asyncio.server import ServerConnection
 
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import access, outbox
-from sambot_viz.server.door import LARGEST_MESSAGE, guard
+from sambot_viz.server.connection import Connection
+from sambot_viz.server.inbound_filter import (
+    CLOSE_TIME,
+    LARGEST_MESSAGE,
+    ClientHandler,
+    InboundFilter,
+    NoSessions,
+)
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
-_paths: weakref.WeakKeyDictionary[viser.ViserServer, str] = weakref.WeakKeyDictionary()
-"""The sockets in the file system that servers listen on."""
 
 
-def url_of(
-    server: viser.ViserServer,
-    options: Options,
-    host: str = "",
-    *,
-    presenter: bool = False,
-) -> str:
-    """The address to open in a browser: "http://127.0.0.1:8080".
-
-    A socket in the file system, which no browser can open, is named "unix:PATH".
+class Listener:
+    """A viser server that listens, and whose clients pass the inbound filter.
 
     Args:
-        server: the server.
-        options: the base path, and the secrets of the links.
-        host: the name to reach it by, instead of the address it listens on.
-        presenter: the link for who drives, instead of that for everyone.
+        server: the viser server; it has no client yet.
+        options: the address, the base path, and the secrets of the links.
+
+    Attributes:
+        viser: the viser server.
+        handler: takes what the clients edit.
     """
-    if options.unix_socket is not None:
-        return f"unix:{options.unix_socket}"
-    token = options.presenter if presenter else options.token
-    host = host or _ANYWHERE.get(server.get_host(), server.get_host())
-    address = f"http://{f'[{host}]' if ':' in host else host}:{server.get_port()}"
-    path = "" if options.base_path == "/" else options.base_path
-    query = "" if token is None else f"/?token={token}"
-    return f"{address}{path}{query}"
+
+    def __init__(self, server: viser.ViserServer, options: Options) -> None:
+        self.viser = server
+        self.handler: ClientHandler = NoSessions()
+        self._options = options
+        self._socket_file = options.unix_socket
+        outbox.prepare(server)
+        viser_private.on_connection(server, self._prepare)
+
+    def _prepare(self, client_id: int, connection: ServerConnection) -> None:
+        """Prepare the connection of a client before anything is read or sent."""
+        own = cast(Connection, connection)
+        own.writer.prepare()
+        outbox.prepare_own(self.viser, client_id)
+        own.close_timeout = CLOSE_TIME
+        own.read = InboundFilter(self.viser, lambda: self.handler, client_id, own).read
+
+    def url(self, host: str = "", *, presenter: bool = False) -> str:
+        """Return the address to open in a browser: "http://127.0.0.1:8080".
+
+        A socket in the file system, which no browser can open, is named "unix:PATH".
+
+        Args:
+            host: the name to reach it by, instead of the address it listens on.
+            presenter: the presenter's link, instead of that for everyone.
+        """
+        options = self._options
+        if options.unix_socket is not None:
+            return f"unix:{options.unix_socket}"
+        token = options.presenter if presenter else options.token
+        own = self.viser.get_host()
+        host = host or _ANYWHERE.get(own, own)
+        name = f"[{host}]" if ":" in host else host
+        path = "" if options.base_path == "/" else options.base_path
+        query = "" if token is None else f"/?token={token}"
+        return f"http://{name}:{self.viser.get_port()}{path}{query}"
+
+    def __enter__(self) -> Listener:
+        """Return this listener, which the end of the block closes."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Close."""
+        self.close()
+
+    def close(self) -> None:
+        """Stop the server and print nothing; a second call does nothing."""
+        with viser_private.without_banner():
+            self.viser.stop()
+        path, self._socket_file = self._socket_file, None
+        if path is not None:
+            with suppress(OSError):
+                os.unlink(path)
 
 
 def reachable_at(host: str) -> str:
-    """The address by which other machines reach a server that listens on `host`.
+    """Return the address by which other machines reach a server that listens on `host`.
 
     For a server on all networks that is the address of the one through which this
     machine reaches others; nothing is sent to find it out.
@@ -75,8 +120,8 @@ def reachable_at(host: str) -> str:
         return str(probe.getsockname()[0])
 
 
-def listen(options: Options) -> viser.ViserServer:
-    """A viser server on exactly the address that the options name.
+def listen(options: Options) -> Listener:
+    """Start a viser server on exactly the address that the options name.
 
     viser itself takes the next free port without a message, and tries forever on an
     address that this machine does not have.
@@ -99,17 +144,14 @@ def listen(options: Options) -> viser.ViserServer:
     checked = access.checked(options, listening, LARGEST_MESSAGE)
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
-    outbox.prepare(server)
-    guard(server)
+    listener = Listener(server, options)
     # Clients that were quicker than this wait for it; also those of a server that is
     # closed at once, which would wait for them.
     server.get_event_loop().call_soon_threadsafe(ready.set)
-    if path is not None:
-        _paths[server] = path
-    elif port not in (0, server.get_port()):
-        close(server)
+    if path is None and port not in (0, server.get_port()):
+        listener.close()
         raise _taken(host, port)
-    return server
+    return listener
 
 
 def _try_to_bind(host: str, port: int) -> None:
@@ -136,7 +178,7 @@ def _try_to_bind(host: str, port: int) -> None:
 
 
 def _bind_in_file_system(path: str) -> socket.socket:
-    """A socket that only programs of the same user can open.
+    """Make a socket that only programs of the same user can open.
 
     Raises:
         ServerError: it cannot be made.
@@ -173,13 +215,3 @@ def _taken(host: str, port: int) -> ServerError:
         f"port {port} on {host} is taken by another program; choose another with "
         "--port, or --port 0 for any free one"
     )
-
-
-def close(server: viser.ViserServer) -> None:
-    """Stop a server and print nothing; a second call does nothing."""
-    with viser_private.without_banner():
-        server.stop()
-    path = _paths.pop(server, None)
-    if path is not None:
-        with suppress(OSError):
-            os.unlink(path)

@@ -9,8 +9,8 @@ from typing import Any, cast
 
 import pytest
 
-from sambot_viz.server import sending
-from sambot_viz.server.sending import PIECE, Sending
+from sambot_viz.server import client_writer
+from sambot_viz.server.client_writer import PIECE, ClientWriter
 
 
 class Line:
@@ -47,11 +47,11 @@ class Line:
 
 
 def send(line: Line, size: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sending, "STALL_PERIOD", 0.001)
+    monkeypatch.setattr(client_writer, "STALL_PERIOD", 0.001)
 
     async def run() -> None:
         line.send = cast(Any, line.send)
-        await Sending(cast(Any, line)).send(bytes(size))
+        await ClientWriter(cast(Any, line)).send(bytes(size))
 
     asyncio.run(asyncio.wait_for(run(), 10.0))
 

@@ -1,7 +1,7 @@
-"""What a browser may send: a short list of messages, each checked before viser sees it.
+"""The inbound filter: a short list of messages, each checked before viser sees it.
 
 viser itself takes any message from anyone: any attribute of a widget, uploads of any
-size, values that cannot be sent to the other browsers. Here a browser may report its
+size, values that cannot be sent to the other browsers. Here a client may report its
 camera, edit a row of the panels, set a visible and enabled widget that a script has
 added to a value of the widget's type, click or draw a rectangle with the current tool,
 and send the picture that it was asked for. Everything else is dropped: clicks on nodes,
@@ -20,29 +20,23 @@ import asyncio
 import logging
 import math
 import time
-import weakref
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import partial
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import viser
-from websockets.asyncio.server import ServerConnection
 from websockets.protocol import State
 
 from sambot_viz import viser_private
 from sambot_viz.panels import gate
-from sambot_viz.server import outbox
-from sambot_viz.server.backlog import Backlog
-from sambot_viz.server.browser_messages import (
-    BrowserMessage,
+from sambot_viz.server.client_messages import (
     CameraMoved,
+    ClientMessage,
     Point,
     SetValue,
     decode,
 )
-from sambot_viz.server.rate import Rate
-from sambot_viz.server.sending import Sending
+from sambot_viz.server.connection import Connection
+from sambot_viz.server.rate_limit import InFlightLimit, TokenBucket
 
 LARGEST_MESSAGE = 64 * 1024
 """A connection that sends a longer message is closed [bytes]."""
@@ -65,102 +59,88 @@ EDITS = "sambot-viz"
 """A value for the widget of this id is an edit of one of our rows."""
 
 
-@dataclass(frozen=True, slots=True)
-class Edits:
-    """Who takes what browsers edit; the arguments are numbers of browsers.
+class ClientHandler(Protocol):
+    """Takes what has passed the filter; the clients are named by their numbers."""
 
-    Attributes:
-        take: gets every edit of a row; it checks who may do what. It is called on the
-            event loop.
-        may: whether a browser may set the widgets of a program.
-        behind: runs an action, in any thread, behind all that the browser has caused.
-    """
+    def take_edit(self, client_id: int, edit: object) -> None:
+        """Take an edit of a row, on the event loop; it is checked who may do what."""
+        ...
 
-    take: Callable[[int, object], None]
-    may: Callable[[int], bool]
-    behind: Callable[[int, Callable[[], None]], None]
+    def may_edit(self, client_id: int) -> bool:
+        """Return whether a client may set the widgets of a program, which all have."""
+        ...
 
-
-_edits: weakref.WeakKeyDictionary[viser.ViserServer, Edits] = (
-    weakref.WeakKeyDictionary()
-)
+    def behind(self, client_id: int, action: Callable[[], None]) -> None:
+        """Run an action, in any thread, behind all that a client has caused."""
+        ...
 
 
-def give_edits(server: viser.ViserServer, edits: Edits) -> None:
-    """Give what the browsers of a server edit to a program.
+class NoSessions:
+    """Handles clients as long as there is no session: their edits are dropped."""
 
-    viser never sees these messages: it would send them on to the other browsers.
-    """
-    _edits[server] = edits
+    def take_edit(self, client_id: int, edit: object) -> None:
+        """Drop an edit."""
 
+    def may_edit(self, client_id: int) -> bool:
+        """Return that a client may set widgets."""
+        return True
 
-def guard(server: viser.ViserServer) -> None:
-    """Check all that the browsers of a server send; no browser may be there yet."""
-    viser_private.on_connection(server, partial(_meet, server))
-
-
-def _meet(
-    server: viser.ViserServer, client_id: int, connection: ServerConnection
-) -> None:
-    Sending(connection)
-    outbox.prepare_own(server, client_id)
-    Door(server, client_id, connection)
+    def behind(self, client_id: int, action: Callable[[], None]) -> None:
+        """Run an action."""
+        action()
 
 
-class Door:
-    """Checks what one browser sends.
+class InboundFilter:
+    """Checks what one client sends.
 
     Args:
         server: the server.
-        client_id: the browser's number.
-        connection: the browser's connection; its `recv` is replaced.
+        handler: gives who takes the edits at present.
+        client_id: the client's number.
+        connection: the client's connection.
     """
 
     def __init__(
-        self, server: viser.ViserServer, client_id: int, connection: ServerConnection
+        self,
+        server: viser.ViserServer,
+        handler: Callable[[], ClientHandler],
+        client_id: int,
+        connection: Connection,
     ) -> None:
         self._server = server
+        self._handler = handler
         self._client_id = client_id
         self._connection = connection
         self._known = False
-        self._rate = Rate(MESSAGES_PER_SECOND, BURST)
-        self._backlog = Backlog(self._behind)
-        self._recv = connection.recv
-        connection.close_timeout = CLOSE_TIME
-        viser_private.replace_methods(connection, recv=self.recv)
+        self._rate = TokenBucket(MESSAGES_PER_SECOND, BURST)
+        self._in_flight = InFlightLimit(self._behind)
 
-    async def recv(self) -> bytes:
-        """The next message that may be handled."""
+    async def read(self) -> bytes:
+        """Return the next message that may be handled."""
         while True:
-            raw = await self._recv()
+            raw = await self._connection.receive()
             pause = self._rate.take()
             if pause > 0.0:
                 if self._connection.state is not State.OPEN:
                     # It has left a flood, which nobody has to wait for.
                     continue
                 await asyncio.sleep(pause)
-            await self._backlog.wait()
+            await self._in_flight.wait()
             message = decode(raw) if isinstance(raw, bytes) else None
             reason = self._reason_against(message)
             if reason is not None:
                 _report(self._client_id, reason)
             elif isinstance(message, SetValue) and message.uuid == EDITS:
-                self._give(message.updates["value"])
+                edit = message.updates["value"]
+                self._handler().take_edit(self._client_id, edit)
             else:
                 return cast(bytes, raw)
 
-    def _give(self, edit: object) -> None:
-        if self._server in _edits:
-            _edits[self._server].take(self._client_id, edit)
-
     def _behind(self, action: Callable[[], None]) -> None:
-        if self._server in _edits:
-            _edits[self._server].behind(self._client_id, action)
-        else:
-            action()
+        self._handler().behind(self._client_id, action)
 
-    def _reason_against(self, message: BrowserMessage | None) -> str | None:
-        """Why a message is refused; None when it may be handled."""
+    def _reason_against(self, message: ClientMessage | None) -> str | None:
+        """Return why a message is refused; None when it may be handled."""
         if message is None:
             return "not one of the messages that a page of this server sends"
         if isinstance(message, CameraMoved):
@@ -196,20 +176,19 @@ class Door:
         return "a value that is not of its widget's type"
 
     def _may_set(self, uuid: str) -> bool:
-        """Whether the user may set a widget: one of this browser alone, or any."""
-        edits = _edits.get(self._server)
+        """Return whether a client may set a widget: its own, or one of all."""
         shared = viser_private.is_for_all(self._server, uuid)
-        return edits is None or not shared or edits.may(self._client_id)
+        return not shared or self._handler().may_edit(self._client_id)
 
     def _usable(self, uuid: str) -> viser.GuiInputHandle[Any] | None:
-        """The widget, if a user of this browser can see and use it."""
+        """Return the widget, if a user of this client can see and use it."""
         handle = viser_private.input_handle(self._server, self._client_id, uuid)
         usable = handle is not None and handle.visible and not handle.disabled
         return handle if usable else None
 
 
 def fits(held: object, value: object) -> bool:
-    """Whether a value from a browser has the type of the value that a widget holds."""
+    """Return whether a value has the type of the value that a widget holds."""
     if isinstance(held, bool):
         return isinstance(value, bool)
     if isinstance(held, int | float):

@@ -1,6 +1,6 @@
-"""Messages packed for the wire: once, however many browsers get them.
+"""Pack messages for the wire once, however many clients get them.
 
-viser packs and compresses every message for every browser. Thirty browsers that open a
+viser packs and compresses every message for every client. Thirty clients that open a
 scene of 50 MB would take 3 GB and half a minute of computing.
 """
 
@@ -18,7 +18,7 @@ from sambot_viz import viser_private
 HEAVY = 256 * 1024
 """More than that is packed in a thread, and is not kept once it is sent [bytes]."""
 RECENT = 32
-"""So many light parcels are kept for the browsers that are a little behind."""
+"""So many light frames are kept for the clients that are a little behind."""
 MARKER = -1
 """The number of a message that is in no buffer."""
 
@@ -44,7 +44,7 @@ class Batch:
 
 
 def weight(message: Any) -> int:
-    """About how long a message is [bytes], of what may be long in it."""
+    """Return about how long a message is [bytes], by what may be long in it."""
     holder: Any = getattr(message, "props", message)
     fields = cast(dict[str, Any], holder.__dict__)
     return sum(map(_length, fields.values()))
@@ -58,8 +58,8 @@ def _length(value: Any) -> int:
     return getattr(value, "nbytes", 8)
 
 
-class Parcel:
-    """A batch as it goes over the wire.
+class PackedFrame:
+    """A batch as it goes over the wire, in one websocket frame.
 
     Attributes:
         content: its bytes.
@@ -69,43 +69,45 @@ class Parcel:
         self.content = content
 
 
-class Parcels:
-    """The batches of one buffer, each packed when a browser first wants it."""
+class FrameCache:
+    """Keep the packed frames of one buffer, each made when a client first wants it."""
 
     def __init__(self) -> None:
         self._packer = viser_private.Packer()
-        self._recent: deque[Parcel] = deque(maxlen=RECENT)
-        self._there: weakref.WeakValueDictionary[tuple[int, ...], Parcel] = (
+        self._recent: deque[PackedFrame] = deque(maxlen=RECENT)
+        self._there: weakref.WeakValueDictionary[tuple[int, ...], PackedFrame] = (
             weakref.WeakValueDictionary()
         )
-        self._packing: dict[tuple[int, ...], asyncio.Task[Parcel]] = {}
+        self._packing: dict[tuple[int, ...], asyncio.Task[PackedFrame]] = {}
         self._one_at_a_time = asyncio.Lock()
 
-    async def parcel(self, batch: Batch) -> Parcel:
+    async def packed(self, batch: Batch) -> PackedFrame:
         """Pack a batch, unless it is there already.
 
-        A heavy one is there only as long as a browser holds it.
+        A heavy one is there only as long as a client holds it.
         """
         numbers = batch.numbers
         found = self._there.get(numbers)
         if found is not None:
             return found
         if batch.weight <= HEAVY:
-            parcel = self._there[numbers] = Parcel(self._packer.pack(batch.messages))
-            self._recent.append(parcel)
-            return parcel
+            frame = self._there[numbers] = PackedFrame(
+                self._packer.pack(batch.messages)
+            )
+            self._recent.append(frame)
+            return frame
         task = self._packing.get(numbers)
         if task is None:
             task = asyncio.get_running_loop().create_task(self._pack_heavy(batch))
             self._packing[numbers] = task
             task.add_done_callback(lambda _: self._packing.pop(numbers))
-        # A browser that leaves does not take it away from the others.
+        # A client that leaves does not take it away from the others.
         return await asyncio.shield(task)
 
-    async def _pack_heavy(self, batch: Batch) -> Parcel:
+    async def _pack_heavy(self, batch: Batch) -> PackedFrame:
         # Each takes three times its length while it is packed.
         async with self._one_at_a_time:
             pack = viser_private.Packer().pack
-            parcel = Parcel(await asyncio.to_thread(pack, batch.messages))
-        self._there[batch.numbers] = parcel
-        return parcel
+            frame = PackedFrame(await asyncio.to_thread(pack, batch.messages))
+        self._there[batch.numbers] = frame
+        return frame

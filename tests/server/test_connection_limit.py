@@ -15,8 +15,8 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
-from sambot_viz.server import crowd
-from sambot_viz.server.bind import close, listen
+from sambot_viz.server import connection_limit
+from sambot_viz.server.listener import listen
 
 MOST = 3
 PRESENTER = "teach-the-class"
@@ -24,11 +24,10 @@ PRESENTER = "teach-the-class"
 
 @pytest.fixture
 def port(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    monkeypatch.setattr(crowd, "MOST_BROWSERS", MOST)
-    monkeypatch.setattr(crowd, "MOST_CONNECTIONS", 10)
-    server = listen(Options(presenter=PRESENTER))
-    yield server.get_port()
-    close(server)
+    monkeypatch.setattr(connection_limit, "MOST_PAGES", MOST)
+    monkeypatch.setattr(connection_limit, "MOST_CONNECTIONS", 10)
+    with listen(Options(presenter=PRESENTER)) as listener:
+        yield listener.viser.get_port()
 
 
 def page(port: int, query: str = "") -> ClientConnection:

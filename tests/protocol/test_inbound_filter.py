@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import Visualizer
-from sambot_viz.server import door, sending
+from sambot_viz.server import client_writer, inbound_filter
 
 Connect = Callable[..., ProtocolClient]
 SLIDER = "joints", "drivewhl_l_joint"
@@ -148,7 +148,7 @@ def test_an_upload_does_nothing(
     client.wait_until(lambda: "take" in client.widgets)
     upload(client, client.uuid_of("take"), b"hello")
     upload(client, client.uuid_of("take"), b"x" * 1000, parts=2)
-    upload(client, door.EDITS, b"hello")
+    upload(client, inbound_filter.EDITS, b"hello")
     client.send_camera()
     client.settle(viz.viser)
     assert client.types()["FileTransferPartAck"] == 0
@@ -177,7 +177,7 @@ def test_a_browser_cannot_break_the_widgets_of_its_private_session(
         for client in (first, second):
             client.settle(viz.viser)
         html = [m for m in first.messages if m.type == "GuiHtmlMessage"]
-        uuids = [door.EDITS, *(m.fields["uuid"] for m in html)]
+        uuids = [inbound_filter.EDITS, *(m.fields["uuid"] for m in html)]
         assert len(uuids) > 2
         for updates in ({"removed": True}, {"props": None}, {"content": "<b>"}):
             for uuid in uuids:
@@ -247,7 +247,7 @@ def test_a_message_that_is_too_long_ends_its_connection_only(
     viz: Visualizer, witness: ProtocolClient, protocol: Connect
 ) -> None:
     client = protocol(viz.viser.get_port())
-    client.edit(client.id_of(*FRAME), "x" * door.LARGEST_MESSAGE)
+    client.edit(client.id_of(*FRAME), "x" * inbound_filter.LARGEST_MESSAGE)
     with pytest.raises(AssertionError, match="the connection ended"):
         client.wait_until(lambda: False)
     assert still_works(viz, witness, protocol)
@@ -262,7 +262,7 @@ def test_a_flood_of_bad_values_is_one_line_in_the_log(
     with caplog.at_level(logging.DEBUG, "asyncio"):
         for _ in range(300):
             client.edit(client.id_of(*SLIDER), "fast")
-            client.set_value(door.EDITS, ["no edit"])
+            client.set_value(inbound_filter.EDITS, ["no edit"])
         client.settle(viz.viser)
     assert len(caplog.records) <= 1
     assert all("dropped" in record.getMessage() for record in caplog.records)
@@ -299,7 +299,7 @@ def test_a_picture_that_was_not_asked_for_is_dropped(
 def test_a_browser_that_does_not_read_is_disconnected(
     viz: Visualizer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sending, "STALL_PERIOD", 0.1)
+    monkeypatch.setattr(client_writer, "STALL_PERIOD", 0.1)
     gone = threading.Event()
     viz.viser.on_client_disconnect(lambda _: gone.set())
     socket = connect(
@@ -326,8 +326,8 @@ def noise() -> np.ndarray:
 def test_a_flood_is_slowed_down_and_its_rest_keeps_nobody_waiting(
     protocol: Connect, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(door, "BURST", 1.0)
-    monkeypatch.setattr(door, "MESSAGES_PER_SECOND", 0.5)
+    monkeypatch.setattr(inbound_filter, "BURST", 1.0)
+    monkeypatch.setattr(inbound_filter, "MESSAGES_PER_SECOND", 0.5)
     gone = threading.Event()
     with Visualizer(port=0) as viz:
         client = protocol(viz.viser.get_port())

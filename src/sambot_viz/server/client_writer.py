@@ -1,0 +1,101 @@
+"""Send to one client in pieces, as fast as it reads (backpressure)."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import socket
+from collections.abc import AsyncIterator
+from contextlib import suppress
+
+from websockets.asyncio.server import ServerConnection
+
+PIECE = 128 * 1024
+"""A longer message is sent in pieces: so much of it is copied at a time [bytes]."""
+STALL_PERIOD = 10.0
+"""A client that hardly reads is disconnected after one to two of these [s]."""
+SLOWEST = 1000.0
+"""A slower client hardly reads [bytes/s]."""
+
+
+class ClientWriter:
+    """Send to one client.
+
+    Args:
+        connection: of the client.
+    """
+
+    def __init__(self, connection: ServerConnection) -> None:
+        self._connection = connection
+        self._given = 0
+
+    def prepare(self) -> None:
+        """Have the system take no more than a piece that the line cannot take yet.
+
+        It takes megabytes otherwise. On a slow line a question whether the client is
+        still there then waits behind them for longer than the answer is waited for, and
+        nothing seems to move for as long.
+        """
+        line = self._connection.transport.get_extra_info("socket")
+        option = getattr(socket, "TCP_NOTSENT_LOWAT", None)
+        if option is not None and line.family in (socket.AF_INET, socket.AF_INET6):
+            # A client that has left already has closed it.
+            with suppress(OSError):
+                line.setsockopt(socket.IPPROTO_TCP, option, PIECE)
+
+    async def send(self, message: bytes) -> None:
+        """Send a message; disconnect a client that does not take it."""
+        timer = StallTimer(self)
+        try:
+            if len(message) <= PIECE:
+                self._given += len(message)
+                await self._connection.send(message)
+            else:
+                await self._connection.send(self._pieces(message))
+        finally:
+            timer.cancel()
+
+    async def _pieces(self, message: bytes) -> AsyncIterator[memoryview]:
+        view = memoryview(message)
+        for start in range(0, len(view), PIECE):
+            piece = view[start : start + PIECE]
+            self._given += len(piece)
+            yield piece
+            # A client that reads at once would keep all others waiting.
+            await asyncio.sleep(0)
+
+    def taken(self) -> int:
+        """Return how much the client has taken since it came [bytes]."""
+        return self._given - self._connection.transport.get_write_buffer_size()
+
+    def abort(self) -> None:
+        """End the connection at once."""
+        self._connection.transport.abort()
+
+
+class StallTimer:
+    """Disconnect a client that hardly reads, while something is sent to it.
+
+    Args:
+        writer: sends to it.
+    """
+
+    def __init__(self, writer: ClientWriter) -> None:
+        self._writer = writer
+        self._taken = -math.inf
+        self._start()
+
+    def _start(self) -> None:
+        loop = asyncio.get_running_loop()
+        self._timer = loop.call_later(STALL_PERIOD, self._look)
+
+    def _look(self) -> None:
+        before, self._taken = self._taken, self._writer.taken()
+        if self._taken - before < SLOWEST * STALL_PERIOD:
+            self._writer.abort()
+        else:
+            self._start()
+
+    def cancel(self) -> None:
+        """Stop: everything was sent."""
+        self._timer.cancel()

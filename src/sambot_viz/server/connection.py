@@ -1,0 +1,105 @@
+"""One websocket of a client, with all that this server keeps of it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from typing import Any
+
+from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import ProtocolError
+from websockets.frames import CTRL_OPCODES, Frame, Opcode
+from websockets.typing import Data
+
+from sambot_viz.server.client_writer import ClientWriter
+from sambot_viz.server.connection_limit import ConnectionLimiter
+from sambot_viz.server.rate_limit import TokenBucket
+
+SMALL_FRAME = 1000
+"""The size of larger parts is limited with that of their message [bytes]."""
+SMALL_FRAMES_PER_SECOND = 10.0
+"""The answers to the pings of the server itself are three in a minute."""
+SMALL_FRAMES_AT_ONCE = 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class ClientContext:
+    """What the request for a connection says of its client.
+
+    Attributes:
+        presenter: whether it was opened by the presenter's link.
+        copy: whether it is to show a private copy of the shared session.
+    """
+
+    presenter: bool = False
+    copy: bool = False
+
+
+class Connection(ServerConnection):
+    """A connection that is counted, reads through a filter and writes in pieces.
+
+    Args:
+        limiter: counts it; one too many is closed at once.
+
+    Attributes:
+        context: what its request has said.
+        writer: sends to it.
+        read: reads the next message that may be handled; the inbound filter when
+            there is one.
+    """
+
+    def __init__(
+        self, limiter: ConnectionLimiter, *arguments: Any, **settings: Any
+    ) -> None:
+        super().__init__(*arguments, **settings)
+        self.context = ClientContext()
+        self.writer = ClientWriter(self)
+        self.read: Callable[[], Awaitable[Data]] = self.receive
+        self._limiter = limiter
+        self._limit_small_frames()
+
+    def _limit_small_frames(self) -> None:
+        """End a connection that floods the server below what is counted as messages.
+
+        The websockets library answers a ping as soon as it arrives, however many
+        answers wait to be read, and collects the parts of a message, however many of
+        them are empty. Browsers send neither pings nor messages in small parts.
+        """
+        take = self.protocol.recv_frame
+        rate = TokenBucket(SMALL_FRAMES_PER_SECOND, SMALL_FRAMES_AT_ONCE)
+
+        def recv_frame(frame: Frame) -> None:
+            part = frame.opcode is Opcode.CONT or frame.opcode in CTRL_OPCODES
+            if part and len(frame.data) < SMALL_FRAME and rate.take() > 0.0:
+                raise ProtocolError("too many small frames")
+            take(frame)
+
+        self.protocol.recv_frame = recv_frame  # type: ignore[method-assign]
+
+    async def recv(self, decode: bool | None = None) -> Any:
+        """Return the next message; viser calls it, and gets what has passed `read`."""
+        return await self.read()
+
+    async def receive(self) -> Data:
+        """Return the next message, whatever it is."""
+        return await super().recv()
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Count a new connection."""
+        super().connection_made(transport)
+        if not self._limiter.admit(self):
+            self.transport.abort()
+
+    def data_received(self, data: bytes) -> None:
+        """Read on, but not for ever from one that was told to close."""
+        end = self.close_deadline
+        if end is not None and self.loop.time() > end:
+            self.transport.abort()
+        else:
+            super().data_received(data)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Make place for another one."""
+        self._limiter.lost(self)
+        super().connection_lost(exc)

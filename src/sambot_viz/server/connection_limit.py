@@ -1,0 +1,70 @@
+"""Limit the number of open pages and connections.
+
+Every page costs memory, every connection a file number of the system. A page too many
+says so, and loads again by itself when another one was closed.
+
+What stays weak: whoever may use the server can also take all its places. Places are not
+counted by address, because all who come through a proxy, or from one school, have the
+same one.
+"""
+
+from __future__ import annotations
+
+import http
+
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Response
+
+from sambot_viz.server.page_files import plain_page
+
+MOST_PAGES = 200
+"""So many pages may be open."""
+MOST_CONNECTIONS = 500
+"""So many connections, also of those that have not asked for anything yet."""
+_OWN_FILES = 400
+"""Of the system's file numbers, so many are left: for files, and for connections that
+the event loop accepts, 100 at a time, before they are counted."""
+_AGAIN = 10
+"""A page that found no place loads again after so long [s]."""
+
+
+class ConnectionLimiter:
+    """Count the connections of one server, and refuse those that are too many."""
+
+    def __init__(self) -> None:
+        least, free = _OWN_FILES // 4, _file_numbers() - _OWN_FILES
+        self._most = min(MOST_CONNECTIONS, max(least, free))
+        self._open: set[ServerConnection] = set()
+
+    def admit(self, connection: ServerConnection) -> bool:
+        """Count a connection; returns whether it may stay."""
+        self._open.add(connection)
+        return len(self._open) <= self._most
+
+    def lost(self, connection: ServerConnection) -> None:
+        """Forget a connection that has ended."""
+        self._open.discard(connection)
+
+    def is_full(self, connection: ServerConnection) -> bool:
+        """Return whether so many pages are open that this one has no place."""
+        return len(connection.server.connections) >= MOST_PAGES
+
+    def refusal(self) -> Response:
+        """Return the answer to a page too many."""
+        return plain_page(
+            http.HTTPStatus.SERVICE_UNAVAILABLE,
+            "Too many pages are open",
+            f"This robot is shown in {MOST_PAGES} pages already. This page loads "
+            "again by itself, until one is closed.",
+            {"Retry-After": str(_AGAIN), "Refresh": str(_AGAIN)},
+        )
+
+
+def _file_numbers() -> int:
+    """Return how many files and connections the system lets this program have."""
+    try:
+        import resource
+    except ImportError:
+        return 10 * MOST_CONNECTIONS
+    soft, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    return 10 * MOST_CONNECTIONS if soft == resource.RLIM_INFINITY else soft
