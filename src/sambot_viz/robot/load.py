@@ -14,15 +14,18 @@ from sambot_viz.robot.opened_model import OpenedModel, PathLike, open_model
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.read_urdf import read_urdf
-from sambot_viz.robot.xacro.answer import ExpandedModel
-from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
-from sambot_viz.robot.xacro.diagnose.library import report_library
-from sambot_viz.robot.xacro.diagnose.prefix import missing_prefixes, undeclared_prefix
-from sambot_viz.robot.xacro.expand import expand_model
-from sambot_viz.robot.xacro.result import (
+from sambot_viz.robot.xacro.child_result import (
+    ExpandedModel,
     ExpansionError,
     ExpansionXmlError,
     XacroFailure,
+)
+from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
+from sambot_viz.robot.xacro.expand import expand_model
+from sambot_viz.robot.xacro.unexpanded import (
+    explain_without_links,
+    missing_prefixes,
+    undeclared_prefix,
 )
 from sambot_viz.robot.xml.decode import declared_as_utf8
 from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
@@ -144,7 +147,7 @@ class _Loader:
         read = expanded.files if expanded is not None else ()
         if urdf is None or findings.rejected:
             raise RobotError(
-                report_library(problems, self.opened.document, source.path), read
+                explain_without_links(problems, self.opened.document, source.path), read
             )
         own = (Path(os.path.abspath(source.path)),) if source.path is not None else ()
         return Robot(

@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
+from sambot_viz.robot.xacro.child_result import ExpansionError
 from sambot_viz.robot.xacro.expand import Limits, expand_model
-from sambot_viz.robot.xacro.result import ExpansionError
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ENDLESS = f"""{HEAD}

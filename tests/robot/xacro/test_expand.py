@@ -7,8 +7,8 @@ import pytest
 
 from sambot_viz.errors import Place, Problem, RobotError
 from sambot_viz.robot import expand, load_robot
+from sambot_viz.robot.xacro.child_result import ExpansionError
 from sambot_viz.robot.xacro.expand import Limits, expand_model
-from sambot_viz.robot.xacro.result import ExpansionError
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 

@@ -19,8 +19,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from sambot_viz.robot.xacro.answer import ExpandedModel, read_answer
-from sambot_viz.robot.xacro.result import ExpansionError, XacroFailure
+from sambot_viz.robot.xacro.child_result import (
+    ExpandedModel,
+    ExpansionError,
+    XacroFailure,
+    read_result,
+)
 
 _CHILD = Path(__file__).parent / "child" / "main.py"
 _SECRET_NAME = re.compile(
@@ -78,7 +82,7 @@ def expand_model(
         "output_limit": limits.characters,
         "import_path": _import_path(),
     }
-    return read_answer(_run_child(job, limits), file)
+    return read_result(_run_child(job, limits), file)
 
 
 def _environment(trusted: bool) -> dict[str, str]:

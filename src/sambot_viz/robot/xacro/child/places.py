@@ -98,7 +98,7 @@ def elements(root: Any) -> Iterator[Any]:
 
 
 def packed(root: Any) -> tuple[list[list[Any]], list[str]]:
-    """The tree as plain lists for the parent process, see `answer.py`.
+    """The tree as plain lists for the parent process, see `child_result.py`.
 
     Returns:
         One list per element in document order: tag, attributes, text, number of

@@ -1,1 +1,1 @@
-"""Why an expansion failed: the line, the cause and the fix."""
+"""Explain why an expansion failed: the line, the cause and the fix."""

@@ -10,14 +10,13 @@ import re
 from collections.abc import Callable
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.xacro.diagnose.facts import Facts
+from sambot_viz.robot.xacro.child_result import XacroFailure
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion
 from sambot_viz.robot.xacro.diagnose.unknown_names import (
     undefined_argument,
     undefined_name,
     unknown_macro,
 )
-from sambot_viz.robot.xacro.result import XacroFailure
 
 _ELEMENT = "the element that xacro was working on"
 _EXPRESSION = "the expression that failed"
@@ -29,8 +28,7 @@ _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (
     (r"Undefined substitution argument:?\s*(\w[\w.\-]*)", undefined_argument),
     (r"^ArgException.*?(\S+)$", undefined_argument),
 )
-"""Names that xacro does not know: what it reports, and the function that looks for
-what was meant."""
+"""What xacro reports about an unknown name, and what looks for the one meant."""
 
 _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
@@ -51,9 +49,9 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
         r"Undefined parameters \[([^\]]*)\]",
         "xacro-parameter-missing",
-        "the call of {x.called} lacks the parameter{x.plural} {x.listed}{x.declared}",
+        "the call of {x.called} lacks the {x.lacking}{x.declared}",
         "add {x.values}, or give a default where it is declared: "
-        'params="… {x.first}:=1"',
+        'params="… {x.listed[0]}:=1"',
         _CALL,
     ),
     (
@@ -260,9 +258,9 @@ _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     ),
 )
 """Pattern of "kind in macro: text", code, message, hint, and where to point: one of the
-three places above, or a pattern to look for in the files, in which %s and %2s are the
-first and the second group. The groups are {0} and {1} in the sentences, {x.…} is a
-property of `Facts`. The first row that fits counts."""
+three places above, or a pattern to look for, with the groups as %s and %2s. Sentences
+have the groups as {0} and {1}, and properties of `FailedExpansion` as {x.…}. The first
+row that fits counts."""
 
 
 def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
@@ -276,28 +274,27 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
         At least one problem of severity "error" with a place in a file of the user.
     """
     failed = FailedExpansion.of(failure, main_file)
-    reported = failed.report
     for pattern, explain in _NAMES:
-        match = re.search(pattern, reported)
+        match = re.search(pattern, failed.report)
         if match:
             return [explain(failed, match[1])]
     for pattern, code, message, hint, where in _ROWS:
-        match = re.search(pattern, reported, re.DOTALL)
+        match = re.search(pattern, failed.report, re.DOTALL)
         if match:
-            facts = Facts(failed, match, _place(failed, match, where))
-            message = message.format(*match.groups(), x=facts)
-            hint = hint.format(*match.groups(), x=facts)
-            return [failed.error(code, message, hint, facts.at)]
+            groups = match.groups()
+            x = failed.pointing_at(_place(failed, groups, where), groups)
+            message, hint = message.format(*groups, x=x), hint.format(*groups, x=x)
+            return [x.error(code, message, hint)]
     raise AssertionError("the last row fits everything")
 
 
-def _place(failed: FailedExpansion, match: re.Match[str], where: str) -> Place:
+def _place(failed: FailedExpansion, groups: tuple[str, ...], where: str) -> Place:
     if where == _ELEMENT:
-        return failed.place
+        return failed.at
     if where == _EXPRESSION:
         return failed.expression_place()
     if where == _CALL:
-        return failed.called_macro()[1]
-    first, second = (*map(re.escape, match.groups()), "", "")[:2]
+        return failed.call_place()
+    first, second = (*map(re.escape, groups), "", "")[:2]
     pattern = where.replace("%s", first).replace("%2s", second)
-    return failed.sources.find(pattern, failed.place) or failed.place
+    return failed.sources.find(pattern, failed.at) or failed.at

@@ -1,26 +1,41 @@
-"""A failed expansion together with the files it came from."""
+"""A failed expansion: the files it came from, and the facts for sentences about it."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
-from sambot_viz.errors import Place, Problem
+from sambot_viz.errors import Place, Problem, did_you_mean
+from sambot_viz.robot.xacro.child_result import XacroFailure
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement, SourceSet
-from sambot_viz.robot.xacro.result import XacroFailure
 
 
 @dataclass(frozen=True)
 class FailedExpansion:
-    """A failure, the main file, and the sources in which things can be found."""
+    """A failure, and parts of sentences about it, "" where there is nothing to say.
+
+    Attributes:
+        failure: what xacro and the child process reported.
+        main_file: the model as the user wrote it.
+        sources: the files in which names and expressions are looked for.
+        at: the place that the problem points at.
+        found: the groups that a row of `explain_xacro` found in the report.
+    """
 
     failure: XacroFailure
     main_file: str
     sources: SourceSet
+    at: Place
+    found: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, failure: XacroFailure, main_file: str) -> FailedExpansion:
-        """Prepare the search; the file being processed is searched first."""
+        """Prepare the search; the file being processed is searched first.
+
+        It points at the element that xacro was working on, as far as the child
+        process knows it.
+        """
         files = [
             failure.file,
             *(file for _, file in failure.macros),
@@ -28,7 +43,12 @@ class FailedExpansion:
             main_file,
             *(definition.file for definition in failure.definitions),
         ]
-        return cls(failure, main_file, SourceSet.of(files))
+        at = Place(failure.file or main_file, failure.line or 1, failure.column)
+        return cls(failure, main_file, SourceSet.of(files), at)
+
+    def pointing_at(self, at: Place, found: tuple[str, ...] = ()) -> FailedExpansion:
+        """Return the same failure with another place and other groups."""
+        return replace(self, at=at, found=found)
 
     @property
     def report(self) -> str:
@@ -40,12 +60,6 @@ class FailedExpansion:
         return f"{failure.kind}{inside}: {failure.text}"
 
     @property
-    def place(self) -> Place:
-        """The element that xacro was working on, as far as the child knows it."""
-        file = self.failure.file or self.main_file
-        return Place(file, self.failure.line or 1, self.failure.column)
-
-    @property
     def expression(self) -> str:
         """The innermost expression without ${ and }, or ""."""
         text = (*self.failure.expressions, "")[0].strip()
@@ -55,13 +69,14 @@ class FailedExpansion:
     def expression_place(self) -> Place:
         """Where the failed expression is written, else the element's place."""
         if not self.expression:
-            return self.place
+            return self.at
         pattern = r"\$[({]\s*(?:eval\s+)?" + re.escape(self.expression) + r"\s*[)}]"
-        return self.sources.find(pattern, self.place) or self.place
+        return self.sources.find(pattern, self.at) or self.at
 
-    def trail(self, at: Place) -> str:
+    @property
+    def trail(self) -> str:
         """The macro calls on the way: " (in macro wheel, called on line 31)"."""
-        calls = self.failure.calls
+        calls, at = self.failure.calls, self.at
         if not calls or (calls[0].line == at.line and calls[0].file == at.file):
             return ""
         steps = [
@@ -71,35 +86,123 @@ class FailedExpansion:
         ]
         return f" ({'; '.join(steps)})"
 
-    def error(self, code: str, message: str, hint: str, at: Place) -> Problem:
-        """A problem of severity "error" at a place."""
-        return Problem("error", code, message, hint, at.file, at.line, at.column)
+    @property
+    def text(self) -> str:
+        """Xacro's message on one line, or the kind of error when it is empty."""
+        said = re.sub(r"\s*\(<expression>, line \d+\)", "", self.failure.text)
+        return " ".join(said.split()) or self.failure.kind
+
+    @property
+    def in_expression(self) -> str:
+        """The innermost expression: " in ${a / b}"."""
+        return f" in ${{{self.expression}}}" if self.expression else ""
+
+    @property
+    def searched(self) -> str:
+        """Where a package was looked for."""
+        package = self.failure.missing_package
+        return ", ".join(package.searched[:6]) if package else "nowhere"
+
+    @property
+    def near_package(self) -> str:
+        """A package that was found and has nearly the name: "; did you mean …?"."""
+        package = self.failure.missing_package
+        if package is None or not package.known:
+            return ""
+        return f"; {did_you_mean(package.name, package.known)}"
+
+    @property
+    def folder_missing(self) -> str:
+        """A remark when even the folder of the file does not exist."""
+        folder = Path(self.found[0].strip()).parent
+        return "" if folder.is_dir() else f"; the folder {folder} does not exist either"
+
+    @property
+    def near_file(self) -> str:
+        """A file of the folder that has nearly the name: "; did you mean …?"."""
+        folder = Path(self.found[0].strip()).parent
+        try:
+            files = sorted(path.name for path in folder.iterdir() if path.is_file())
+        except OSError:
+            return ""
+        near = did_you_mean(self.found[1], files[:500])
+        return f"; {near}" if near.startswith("did") else ""
+
+    @property
+    def identifier(self) -> str:
+        """The name as Python could read it."""
+        return re.sub(r"\W", "_", self.found[0]).lstrip("_") or "x"
+
+    @property
+    def called(self) -> str:
+        """The macro that is called."""
+        name = self.failure.macros[0][0] if self.failure.macros else ""
+        return (name or (self.failure.element or "")).removeprefix("xacro:")
+
+    @property
+    def declared(self) -> str:
+        """Where the called macro is: " (declared on line 3)"."""
+        macro = self._called_macro
+        return f" (declared on {line_in(macro.place, self.at)})" if macro else ""
+
+    @property
+    def near_parameter(self) -> str:
+        """A parameter of the called macro with nearly the name."""
+        macro = self._called_macro
+        return did_you_mean(self.found[0], parameters(macro.params) if macro else [])
+
+    @property
+    def blocks(self) -> str:
+        """The blocks that the called macro takes: " (*origin, *shape)"."""
+        macro = self._called_macro
+        names = re.findall(r"\*+([^\s:]+)", macro.params) if macro else []
+        return f" ({', '.join('*' + name for name in names)})" if names else ""
+
+    @property
+    def listed(self) -> list[str]:
+        """The names of a comma list."""
+        names = [name.strip() for name in self.found[0].split(",")]
+        return [name for name in names if name] or ["x"]
+
+    @property
+    def lacking(self) -> str:
+        """The names of a comma list: "parameters side and y"."""
+        plural = "s" if len(self.listed) > 1 else ""
+        return f"parameter{plural} {' and '.join(self.listed)}"
+
+    @property
+    def values(self) -> str:
+        """Attributes for the names of a comma list: side="…" y="…"."""
+        return " ".join(f'{name}="…"' for name in self.listed)
+
+    def error(self, code: str, message: str, hint: str) -> Problem:
+        """Make a problem of severity "error" at the place."""
+        return Problem.at(self.at, "error", code, message, hint)
 
     def is_root(self, place: Place) -> bool:
-        """Whether a place is inside the root tag of its file."""
+        """Tell whether a place is inside the root tag of its file."""
         source = self.sources.get(place.file)
         root = next((t for t in source.tags if not t.closes), None) if source else None
         if source is None or root is None:
             return False
         return root.start <= source.offset(place.line, place.column or 1) < root.end
 
-    def called_macro(self) -> tuple[str, Place, NamedElement | None]:
-        """The macro whose call failed, the place of the call, its definition."""
-        failure = self.failure
-        name = failure.macros[0][0] if failure.macros else ""
-        name = (name or (failure.element or "")).removeprefix("xacro:")
-        at = self.place
-        if self.sources.tag_at(at, f"xacro:{name}") is None:
-            calls = [place for place, _ in self.sources.calls(f"xacro:{name}")]
-            inner = failure.calls[0] if failure.calls else None
-            if inner is not None and inner.macro.removeprefix("xacro:") == name:
-                at = Place(inner.file, inner.line)
-            elif calls:
-                at = calls[0]
-        return name, at, next((m for m in self.named("macro") if m.name == name), None)
+    def call_place(self) -> Place:
+        """Return the place of the macro call that failed."""
+        tag, calls = f"xacro:{self.called}", self.failure.calls
+        if self.sources.tag_at(self.at, tag) is not None:
+            return self.at
+        if calls and calls[0].macro.removeprefix("xacro:") == self.called:
+            return Place(calls[0].file, calls[0].line)
+        return next((place for place, _ in self.sources.calls(tag)), self.at)
+
+    @property
+    def _called_macro(self) -> NamedElement | None:
+        macros = self.named("macro")
+        return next((macro for macro in macros if macro.name == self.called), None)
 
     def named(self, kind: str) -> list[NamedElement]:
-        """Definitions in the files, and those that only xacro has seen."""
+        """Return the definitions in the files, and those that only xacro has seen."""
         found = self.sources.named(kind)
         names = {one.name for one in found if one.prefixed}
         return found + [
@@ -110,7 +213,15 @@ class FailedExpansion:
 
 
 def line_in(place: Place, seen_from: Place) -> str:
-    """A line for a message: "line 12", with the file when it is another one."""
+    """Name a line in a message: "line 12", with the file when it is another one."""
     if place.file == seen_from.file:
         return f"line {place.line}"
     return f"line {place.line} of {place.file}"
+
+
+def parameters(params: str) -> list[str]:
+    """Return the names in params="a b:=1 *c **d"."""
+    without_values = re.sub(
+        r":?=\s*(?:'[^']*'|\"[^\"]*\"|\$\{[^}]*\}|\S+)", " ", params
+    )
+    return [name.strip("*") for name in without_values.split() if name.strip("*")]

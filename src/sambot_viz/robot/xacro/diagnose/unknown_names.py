@@ -6,8 +6,11 @@ import difflib
 import re
 
 from sambot_viz.errors import Place, Problem, did_you_mean
-from sambot_viz.robot.xacro.diagnose.facts import parameters
-from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion, line_in
+from sambot_viz.robot.xacro.diagnose.failed_expansion import (
+    FailedExpansion,
+    line_in,
+    parameters,
+)
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement
 
 _OWN_TAGS = (
@@ -31,37 +34,33 @@ _ELSEWHERE = {
 
 
 def undefined_name(failed: FailedExpansion, name: str) -> Problem:
-    """A name in ${…} that is not a property, parameter or function."""
-    at = failed.sources.find(
-        rf"\$[({{][^}}]*(?<![\w.]){re.escape(name)}(?!\w)[^}}]*[}})]",
-        failed.expression_place(),
-    )
-    at = failed.expression_place() if failed.expression else at or failed.place
+    """Explain a name in ${…} that is not a property, parameter or function."""
+    at = failed.expression_place()
+    if not failed.expression:
+        pattern = rf"\$[({{][^}}]*(?<![\w.]){re.escape(name)}(?!\w)[^}}]*[}})]"
+        at = failed.sources.find(pattern, at) or at
+    here = failed.pointing_at(at)
     known = [p for p in failed.named("property") if p.name == name]
     unprefixed = next((p for p in known if not p.prefixed), None)
     if unprefixed and not any(p.prefixed for p in known):
-        return _prefix_forgotten(failed, unprefixed, at)
+        return _prefix_forgotten(here, unprefixed)
     outside = [p for p in known if p.prefixed and not p.inside]
     if outside:
-        return _defined_after_use(failed, outside[0], at)
+        return _defined_after_use(here, outside[0])
+    code = "xacro-undefined-name"
     local = next((p for p in known if p.prefixed and p.inside), None)
     if local:
-        return failed.error(
-            "xacro-undefined-name",
+        return here.error(
+            code,
             f"{name} is not defined here: {line_in(local.place, at)} defines it only "
-            f"inside the macro {local.inside}{failed.trail(at)}",
+            f"inside the macro {local.inside}{here.trail}",
             'move the property out of the macro, or add scope="parent" to it',
-            at,
         )
-    return failed.error(
-        "xacro-undefined-name",
-        f"{name} is not defined{failed.trail(at)}",
-        _near_name(failed, name, at),
-        at,
-    )
+    message = f"{name} is not defined{here.trail}"
+    return here.error(code, message, _near_name(here, name))
 
 
-def _near_name(failed: FailedExpansion, name: str, at: Place) -> str:
+def _near_name(failed: FailedExpansion, name: str) -> str:
     if name in _ELSEWHERE:
         return _ELSEWHERE[name]
     if any(a.name == name for a in failed.named("arg")):
@@ -72,7 +71,7 @@ def _near_name(failed: FailedExpansion, name: str, at: Place) -> str:
             things.update({p: macro.place for p in parameters(macro.params)})
     near = difflib.get_close_matches(name, [*things, *_BUILT_IN], n=1, cutoff=0.6)
     if near and near[0] in things:
-        where = line_in(things[near[0]], at)
+        where = line_in(things[near[0]], failed.at)
         return f"did you mean {near[0]} (defined on {where})?"
     if near:
         return f"did you mean {near[0]}?"
@@ -81,24 +80,19 @@ def _near_name(failed: FailedExpansion, name: str, at: Place) -> str:
     )
 
 
-def _prefix_forgotten(
-    failed: FailedExpansion, thing: NamedElement, at: Place
-) -> Problem:
+def _prefix_forgotten(failed: FailedExpansion, thing: NamedElement) -> Problem:
     tag = f'<{thing.kind} name="{thing.name}" …>'
-    return failed.error(
+    return failed.pointing_at(thing.place).error(
         "xacro-prefix-forgotten",
-        f"{thing.name} is not defined (used on {line_in(at, thing.place)}): "
+        f"{thing.name} is not defined (used on {line_in(failed.at, thing.place)}): "
         f"{tag} on line {thing.place.line} lacks the prefix xacro:, so xacro does "
         "not see it",
         f'write <xacro:{thing.kind} name="{thing.name}" …>',
-        thing.place,
     )
 
 
-def _defined_after_use(
-    failed: FailedExpansion, thing: NamedElement, at: Place
-) -> Problem:
-    code = f"xacro-{thing.kind}-after-use"
+def _defined_after_use(failed: FailedExpansion, thing: NamedElement) -> Problem:
+    code, at = f"xacro-{thing.kind}-after-use", failed.at
     where = line_in(thing.place, at)
     if failed.is_root(at):
         value = _value_of(failed, thing)
@@ -109,17 +103,13 @@ def _defined_after_use(
             f"give it on the command line: {thing.name}:={value}"
             if thing.kind == "arg"
             else f"write the value of {thing.name} itself in the root tag",
-            at,
         )
-    above = f"move the definition above line {at.line}"
+    include = "" if thing.place.file == at.file else ", or its include,"
     return failed.error(
         code,
         f"{thing.name} is used here but defined only on {where}: xacro works from top "
-        f"to bottom{failed.trail(at)}",
-        above
-        if thing.place.file == at.file
-        else above.replace("definition", "definition, or its include,"),
-        at,
+        f"to bottom{failed.trail}",
+        f"move the definition{include} above line {at.line}",
     )
 
 
@@ -131,39 +121,31 @@ def _value_of(failed: FailedExpansion, argument: NamedElement) -> str:
 
 
 def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
-    """A call <xacro:name> of a macro that is not defined."""
-    at = failed.place
+    """Explain a call <xacro:name> of a macro that is not defined."""
+    at = failed.at
     if failed.sources.tag_at(at, f"xacro:{name}") is None:
-        calls = list(failed.sources.calls(f"xacro:{name}"))
-        at = calls[0][0] if calls else at
+        at = next((place for place, _ in failed.sources.calls(f"xacro:{name}")), at)
+    here = failed.pointing_at(at)
     macros = failed.named("macro")
     same = [m for m in macros if m.name == name]
     if same and all(not m.prefixed for m in same):
-        return _prefix_forgotten(failed, same[0], at)
+        return _prefix_forgotten(here, same[0])
     if same:
-        return _defined_after_use(failed, same[0], at)
+        return _defined_after_use(here, same[0])
     elsewhere = failed.sources.neighbours_with_macro(name)
     if elsewhere:
         there = elsewhere[0].place
-        return failed.error(
+        return here.error(
             "xacro-include-forgotten",
             f"the macro {name} is not known here: {there.file} defines it on line "
-            f"{there.line}, but no file that is read includes that file"
-            f"{failed.trail(at)}",
+            f"{there.line}, but no file that is read includes that file{here.trail}",
             'add <xacro:include filename="…"/> with that file before the call',
-            at,
         )
-    return failed.error(
-        "xacro-unknown-macro",
-        f"the macro {name} does not exist{failed.trail(at)}",
-        _near_macro(failed, name, macros, at),
-        at,
-    )
+    message = f"the macro {name} does not exist{here.trail}"
+    return here.error("xacro-unknown-macro", message, _near_macro(name, macros, at))
 
 
-def _near_macro(
-    failed: FailedExpansion, name: str, macros: list[NamedElement], at: Place
-) -> str:
+def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str:
     own = difflib.get_close_matches(name, _OWN_TAGS, n=1, cutoff=0.75)
     places = {m.name: m.place for m in macros if m.prefixed}
     near = difflib.get_close_matches(name, list(places), n=1, cutoff=0.6)
@@ -182,21 +164,21 @@ def _near_macro(
 
 
 def undefined_argument(failed: FailedExpansion, name: str) -> Problem:
-    """$(arg name) without a value."""
+    """Explain $(arg name) without a value."""
     pattern = rf"\$\(\s*arg\s+{re.escape(name)}\s*\)|xacro\.arg\(\W*{re.escape(name)}\b"
-    at = failed.sources.find(pattern, failed.place) or failed.place
+    at = failed.sources.find(pattern, failed.at) or failed.at
+    here = failed.pointing_at(at)
     known = failed.named("arg")
     same = next((a for a in known if a.name == name), None)
     if same is not None and not same.prefixed:
-        return _prefix_forgotten(failed, same, at)
+        return _prefix_forgotten(here, same)
     if same is not None and same.place.file == at.file and same.place.line > at.line:
-        return _defined_after_use(failed, same, at)
+        return _defined_after_use(here, same)
     near = did_you_mean(name, sorted({a.name for a in known})) if known else ""
     near = f"; {near}" if near.startswith("did") else ""
-    return failed.error(
+    return here.error(
         "xacro-argument-missing",
-        f"the argument {name} has no value{failed.trail(at)}",
+        f"the argument {name} has no value{here.trail}",
         f"give it on the command line: {name}:=…, or a default in the file: "
         f'<xacro:arg name="{name}" default="…"/>{near}',
-        at,
     )

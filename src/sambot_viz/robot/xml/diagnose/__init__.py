@@ -1,1 +1,1 @@
-"""Why a text is not XML: the line, the cause and the fix."""
+"""Explain why a text is not XML: the line, the cause and the fix."""

@@ -1,0 +1,152 @@
+"""Explain models in which xacro has nothing to do, or of which nothing is left.
+
+Elements without their prefix, which xacro copies to its output; a prefix that is not
+declared; and files of macros that are meant for xacro:include.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from pathlib import Path
+
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.xml.element import Element
+
+_PARTS = ("include", "macro")
+"""Without these a part of the robot is missing; other elements are harmless."""
+
+_MOST_FILES = 400
+_LARGEST = 1_000_000
+
+
+def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
+    """Make the warning for one element without its prefix.
+
+    Args:
+        tag: its name.
+        is_macro: whether a macro of that name is defined.
+        place: where it is.
+    """
+    what = "a macro call" if is_macro else "a xacro instruction"
+    return Problem.at(
+        place,
+        "warning",
+        "xacro-prefix-missing",
+        f"<{tag}> looks like {what} without its prefix: xacro copies it to the "
+        "URDF, where ROS ignores it",
+        f"write <xacro:{tag}>",
+    )
+
+
+def missing_prefixes(document: Element) -> list[Problem]:
+    """Make the warnings for a document without any prefix, which xacro does not see."""
+    return [
+        missing_prefix(child.tag, False, child.place)
+        for child in document.children
+        if child.tag in _PARTS
+    ]
+
+
+def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
+    """Make the warning for a .urdf file that uses ``xacro:`` without declaring it.
+
+    xacro refuses such a file, but the nodes of ROS read a .urdf file without xacro, and
+    they ignore elements they do not know.
+
+    Returns:
+        None when the prefix is declared or not used, or when the file is meant for
+        xacro by its name: then it is an error.
+    """
+    if path is None or path.suffix.lower() != ".urdf":
+        return None
+    first: Element | None = None
+    for element in document.iter():
+        if "xmlns:xacro" in element.attributes:
+            return None
+        names = (element.tag, *element.attributes)
+        if first is None and any(name.startswith("xacro:") for name in names):
+            first = element
+    if first is None:
+        return None
+    return Problem.at(
+        first.place,
+        "warning",
+        "xacro-prefix-undeclared",
+        f"the prefix xacro: of <{first.tag}> is not declared, so this .urdf file is "
+        "not a xacro file: ROS ignores these elements, and what they would create "
+        "is missing",
+        f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
+        f"{document.place.line}, and call the file .urdf.xacro",
+    )
+
+
+def explain_without_links(
+    problems: Iterable[Problem], document: Element, path: Path | None
+) -> list[Problem]:
+    """Explain a robot without links: what the file is, and which file includes it.
+
+    Args:
+        problems: what was found; only "robot-without-links" changes.
+        document: the root element as written, before xacro.
+        path: the file, or None for a text.
+    """
+    found = list(problems)
+    cause = next((p for p in found if p.code == "xacro-prefix-missing"), None)
+    clear: list[Problem] = []
+    for problem in found:
+        if problem.code != "robot-without-links":
+            clear.append(problem)
+        elif cause is not None:
+            message = f"{cause.message}, so the robot has no links"
+            error = dataclasses.replace(cause, severity="error", message=message)
+            clear.append(error)
+        else:
+            clear.append(_clearer(problem, document, path))
+    return [problem for problem in clear if problem is not cause]
+
+
+def _clearer(problem: Problem, document: Element, path: Path | None) -> Problem:
+    macros = [
+        element.get("name") or "?"
+        for element in document.iter()
+        if element.tag == "xacro:macro"
+    ]
+    message = "the robot has no links"
+    if macros:
+        shown = ", ".join(macros[:5]) + (", …" if len(macros) > 5 else "")
+        message += f": this file only defines the macro {shown} for other files"
+    elif any(element.tag.startswith("xacro:") for element in document.iter()):
+        message += ": this is a file for xacro:include"
+    users = list(islice(_includers(path), 3)) if path is not None else []
+    if users:
+        hint = f"open a file that includes it: {', '.join(users)}"
+    elif macros:
+        hint = f"open the file that includes it, or call it: <xacro:{macros[0]} …/>"
+    else:
+        hint = problem.hint
+    return dataclasses.replace(problem, message=message, hint=hint)
+
+
+def _includers(path: Path) -> Iterator[str]:
+    """Files of the same package that include this one."""
+    pattern = re.compile(
+        r"<xacro:include\b[^>]*[/\"']" + re.escape(path.name) + r"[\"']"
+    )
+    root = PackageIndex(path.absolute().parent).own_roots()[-1]
+    files = (file for file in root.rglob("*") if file.suffix in (".xacro", ".urdf"))
+    for file in islice(files, _MOST_FILES):
+        if file.name != path.name and pattern.search(_text(file)):
+            yield str(file.relative_to(root))
+
+
+def _text(file: Path) -> str:
+    try:
+        if file.stat().st_size > _LARGEST:
+            return ""
+        return file.read_text("utf-8", "replace")
+    except OSError:
+        return ""
