@@ -24,6 +24,10 @@ INDICES = np.array([0, 1, 2, 0, 2, 3], dtype="<u2")
 BUFFER = POSITIONS.tobytes() + NORMALS.tobytes() + UV.tobytes() + INDICES.tobytes()
 
 
+VIEW = {"buffer": 0, "byteLength": 140}
+ACCESSOR = {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}
+
+
 def document(**changes: Any) -> dict[str, Any]:
     base: dict[str, Any] = {
         "asset": {"version": "2.0"},
@@ -99,13 +103,11 @@ def test_buffers_may_be_files_or_data_uris(write: Write) -> None:
     assert read_mesh(write("b.gltf", json.dumps(inline))).triangles == 2
 
 
-@pytest.mark.parametrize("mode", [5, 6])
-def test_strips_and_fans_face_the_same_way(write: Write, mode: int) -> None:
-    order = [0, 1, 3, 2] if mode == 5 else [0, 1, 2, 3]
+def test_the_triangles_of_a_strip_face_the_same_way(write: Write) -> None:
     content = document()
-    content["meshes"][0]["primitives"][0]["mode"] = mode
+    content["meshes"][0]["primitives"][0]["mode"] = 5
     content["accessors"][3]["count"] = 4
-    binary = BUFFER[:128] + np.array(order, dtype="<u2").tobytes() + b"\0" * 4
+    binary = BUFFER[:128] + np.array([0, 1, 3, 2], dtype="<u2").tobytes() + b"\0" * 4
     part = read_mesh(write("a.glb", glb(content, binary))).parts[0]
     a, b, c = part.vertices[part.faces].transpose(1, 0, 2)
     assert np.allclose(np.cross(b - a, c - a).sum(axis=0), [0, 0, 4])
@@ -132,10 +134,40 @@ def test_nodes_are_baked_in(write: Write) -> None:
     assert np.allclose(mesh.bounds, [[6, 0, 0], [7, 2, 0]])
 
 
-def test_every_root_is_drawn_when_there_is_no_scene(write: Write) -> None:
-    nodes = [{"mesh": 0}, {"children": [0], "translation": [0, 0, 3]}, {"mesh": 0}]
-    mesh = read_mesh(write("a.glb", glb(document(scenes=[], nodes=nodes))))
-    assert mesh.triangles == 4 and mesh.bounds[1][2] == 3
+SPARSE = {
+    "count": 1,
+    "indices": {"bufferView": 3, "componentType": 5123},
+    "values": {"bufferView": 0},
+}
+
+
+def sparse_uv(content: dict[str, Any]) -> dict[str, Any]:
+    content["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+    content["accessors"][2]["sparse"] = SPARSE
+    return content
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda d: d["meshes"][0]["primitives"][0].update(mode=6), "triangle fans"),
+        (lambda d: d["accessors"][0].update(sparse=SPARSE), "sparse numbers"),
+        (lambda d: d["accessors"][3].update(sparse=SPARSE), "sparse numbers"),
+        (lambda d: d.update(sparse_uv(d)), "sparse numbers"),
+        (lambda d: d["accessors"][0].pop("bufferView"), "sparse numbers"),
+        (lambda d: d.pop("scenes"), "nodes but no scene"),
+        (lambda d: d["nodes"][0].update(camera=0), "a camera with parts below it"),
+    ],
+)
+def test_what_trimesh_would_leave_out_in_silence_is_refused(
+    write: Write, change: Callable[[dict[str, Any]], object], sentence: str
+) -> None:
+    content = document()
+    change(content)
+    with pytest.raises(MeshError, match=f"has {sentence}, which this") as caught:
+        read_mesh(write("a.glb", glb(content)))
+    assert caught.value.problem.code == "mesh-compressed"
+    assert "export it again as plain triangles" in caught.value.problem.hint
 
 
 @pytest.mark.parametrize(("mode", "alpha"), [("OPAQUE", 1.0), ("BLEND", 0.5)])
@@ -189,50 +221,36 @@ def test_compressed_meshes_are_refused(write: Write, name: str, method: str) -> 
     assert "without mesh compression" in caught.value.problem.hint
 
 
-def test_quantized_positions_and_sparse_changes_are_read(write: Write) -> None:
+def test_quantized_positions_are_read(write: Write) -> None:
     short = np.array([[0, 0, 0], [32767, 0, 0], [0, 32767, 0]], dtype="<i2")
-    binary = (
-        short.tobytes()
-        + b"\0\0"
-        + struct.pack("<H2x", 2)
-        + np.array([[0, 0, 32767]], dtype="<i2").tobytes()
-    )
+    position = {"bufferView": 0, "componentType": 5122, "normalized": True}
     content = document(
         meshes=[{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        accessors=[
-            {
-                "bufferView": 0,
-                "componentType": 5122,
-                "normalized": True,
-                "count": 3,
-                "type": "VEC3",
-                "sparse": {
-                    "count": 1,
-                    "indices": {"bufferView": 1, "componentType": 5123},
-                    "values": {"bufferView": 2},
-                },
-            }
-        ],
-        bufferViews=[
-            {"buffer": 0, "byteLength": 18},
-            {"buffer": 0, "byteOffset": 20, "byteLength": 2},
-            {"buffer": 0, "byteOffset": 24, "byteLength": 6},
-        ],
+        accessors=[{**position, "count": 3, "type": "VEC3"}],
+        bufferViews=[{"buffer": 0, "byteLength": 18}],
     )
-    mesh = read_mesh(write("a.glb", glb(content, binary)))
-    assert np.allclose(mesh.bounds, [[0, 0, 0], [1, 0, 1]])
+    mesh = read_mesh(write("a.glb", glb(content, short.tobytes())))
+    assert np.allclose(mesh.bounds, [[0, 0, 0], [1, 1, 0]])
 
 
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
         ({"buffers": [{"uri": "gone.bin"}]}, "'gone.bin': there is no such file"),
-        ({"nodes": []}, "no entry 0 in its list of nodes"),
-        ({"nodes": [{"mesh": 7}]}, "no entry 7 in its list of meshes"),
-        ({"nodes": [{"mesh": 0, "children": [0]}]}, "contain themselves"),
-        ({"nodes": [{"mesh": 0, "scale": ["x", 1, 1]}]}, "not made of numbers"),
+        ({"nodes": []}, r"trimesh cannot read it \(IndexError"),
+        ({"nodes": [{"mesh": 7}]}, r"does not have or .* meshes \[7\]"),
+        ({"nodes": [{"mesh": 0, "children": [0]}]}, "below itself"),
+        ({"nodes": [{"mesh": 0, "scale": ["x", 1, 1]}]}, "trimesh cannot read it"),
+        ({"nodes": 3}, r"of another kind \(TypeError"),
+        ({"scenes": [{"nodes": [0, 0]}]}, "below two others"),
         ({"bufferViews": [{"buffer": 0, "byteLength": 999}]}, "byte 999 of 140"),
-        ({"accessors": [{"componentType": 1, "count": 1, "type": "VEC3"}]}, "unknown"),
+        ({"accessors": [{**ACCESSOR, "count": 5}]}, "5 entries does not fit"),
+        ({"accessors": [{**ACCESSOR, "count": -1}]}, "-1 entries does not fit"),
+        ({"accessors": [{**ACCESSOR, "count": 2**62}]}, "entries does not fit"),
+        ({"accessors": [{**ACCESSOR, "byteOffset": -4}]}, "entries does not fit"),
+        ({"accessors": [{**ACCESSOR, "type": "VEC9"}]}, "KeyError: 'VEC9'"),
+        ({"accessors": [ACCESSOR] * 100_001}, "more than 100000 accessors"),
+        ({"bufferViews": [VIEW] * 100_001}, "more than 100000 bufferViews"),
     ],
 )
 def test_a_file_that_contradicts_itself_is_refused(
@@ -240,6 +258,19 @@ def test_a_file_that_contradicts_itself_is_refused(
 ) -> None:
     with pytest.raises(MeshError, match=f"the glTF file is broken: .*{sentence}"):
         read_mesh(write("a.glb", glb(document(**changes))))
+
+
+@pytest.mark.parametrize("twice", ["bufferViews", "accessors"])
+def test_a_file_that_announces_the_same_bytes_again_and_again_is_refused(
+    write: Write, twice: str
+) -> None:
+    data = bytes(2**20)
+    view = {"buffer": 0, "byteLength": len(data)}
+    accessor = {**ACCESSOR, "count": len(data) // 12}
+    content = document(bufferViews=[view], accessors=[accessor])
+    content[twice] *= 200
+    with pytest.raises(MeshError, match=r"announces .* bytes of numbers but has 10"):
+        read_mesh(write("a.glb", glb(content, data)))
 
 
 def test_old_and_cut_off_files_are_refused(write: Write) -> None:
@@ -278,13 +309,27 @@ def test_emission_adds_to_the_base_colour(
     assert mesh.parts[0].rgba == (*shown, 1)
 
 
-def test_nodes_may_have_a_camera_and_any_name(write: Write) -> None:
+def test_nodes_may_be_cameras_and_have_any_name(write: Write) -> None:
     nodes = [
-        {"name": "world", "camera": 0, "children": [1], "translation": [0, 0, 3]},
+        {"name": "world", "children": [1, 2], "translation": [0, 0, 3]},
         {"name": "world", "mesh": 0},
+        {"name": "world", "camera": 0, "translation": [9, 9, 9]},
     ]
-    mesh = read_mesh(write("a.glb", glb(document(nodes=nodes))))
+    cameras = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]
+    content = document(nodes=nodes, cameras=cameras)
+    mesh = read_mesh(write("a.glb", glb(content)))
     assert np.array_equal(mesh.bounds, [[0, 0, 3], [2, 1, 3]])
+
+
+def test_a_thousand_equal_names_take_no_time_and_a_hostile_choice_is_refused(
+    write: Write,
+) -> None:
+    nodes = [{"mesh": 0, "name": "bolt_1"}] * 1000
+    content = document(nodes=nodes, scenes=[{"nodes": list(range(1000))}])
+    assert read_mesh(write("a.glb", glb(content))).triangles == 2000
+    nodes = [{"name": f"a_{' ' * (k % 10_000)}1"} for k in range(20_000)]
+    with pytest.raises(MeshError, match="meshes have the same names"):
+        read_mesh(write("b.glb", glb(document(nodes=[{"mesh": 0}, *nodes]))))
 
 
 def test_a_mirrored_node_shows_its_outside(write: Write) -> None:
@@ -295,17 +340,34 @@ def test_a_mirrored_node_shows_its_outside(write: Write) -> None:
     assert part.normals is not None and np.allclose(part.normals, [0, 0, 1])
 
 
-def test_a_last_triangle_that_is_not_complete_is_left_out(write: Write) -> None:
+def test_a_last_triangle_that_is_not_complete_is_refused(write: Write) -> None:
     content = document()
     content["accessors"][3]["count"] = 5
-    assert read_mesh(write("a.glb", glb(content))).triangles == 1
-    del content["meshes"][0]["primitives"][0]["indices"]
-    assert read_mesh(write("b.glb", glb(content))).triangles == 1
+    with pytest.raises(MeshError, match="a list of triangles has 5 corners"):
+        read_mesh(write("a.glb", glb(content)))
 
 
-def test_what_is_not_drawn_is_not_read(write: Write) -> None:
+def test_what_no_node_shows_is_compared_with_the_size_of_the_file_too(
+    write: Write,
+) -> None:
     content = document()
     content["accessors"].append({"componentType": 1, "count": 2**40, "type": "MAT4"})
-    content["buffers"].append({"uri": "gone.bin"})
-    mesh = read_mesh(write("a.glb", glb(content)))
-    assert mesh.triangles == 2 and mesh.problems == ()
+    with pytest.raises(MeshError, match="more than 1048576 entries without data"):
+        read_mesh(write("a.glb", glb(content)))
+    content = document()
+    content["meshes"] += [{"primitives": content["meshes"][0]["primitives"] * 200_000}]
+    with pytest.raises(MeshError, match="more than 100000 nodes"):
+        read_mesh(write("b.glb", glb(content)))
+
+
+def test_trimesh_opens_no_image_and_reads_no_file_by_itself(
+    write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from PIL import Image
+
+    def refuse(*_: object, **__: object) -> None:
+        raise AssertionError("an image was opened")
+
+    monkeypatch.setattr(Image, "open", refuse)
+    content = document(images=[{"uri": "a.png"}, {"bufferView": 0}])
+    assert read_mesh(write("a.glb", glb(content))).triangles == 2

@@ -142,7 +142,7 @@ def test_vertices_that_many_primitives_share_are_counted_for_each(
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}] * 40}],
         "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 100, "type": "VEC3"}
+            {"bufferView": 0, "componentType": 5126, "count": 99, "type": "VEC3"}
         ],
         "bufferViews": [{"buffer": 0, "byteLength": 1200}],
         "buffers": [{"byteLength": 1200, "uri": f"data:;base64,{data}"}],

@@ -32,7 +32,6 @@ class Submesh:
         rgba: colour, or None when the URDF decides.
         uv: (N, 2), v upwards, or None.
         texture: image, or None.
-        shared: the file already shares vertices as `MeshPart` promises.
     """
 
     vertices: Floats
@@ -41,7 +40,6 @@ class Submesh:
     rgba: Rgba | None = None
     uv: Floats | None = None
     texture: Texture | None = None
-    shared: bool = False
 
 
 def assemble(pieces: Iterable[Submesh], source: MeshSource) -> Mesh:
@@ -109,7 +107,6 @@ def _clean(piece: Submesh, source: MeshSource) -> Submesh | None:
         rgba=piece.rgba,
         uv=np.nan_to_num(piece.uv) if textured and piece.uv is not None else None,
         texture=piece.texture if textured else None,
-        shared=piece.shared,
     )
 
 
@@ -135,7 +132,6 @@ def _join(group: list[Submesh]) -> Submesh:
         rgba=first.rgba,
         uv=np.concatenate(uvs) if uvs else None,
         texture=first.texture,
-        shared=all(piece.shared for piece in group),
     )
 
 
@@ -167,9 +163,6 @@ def _weld(piece: Submesh) -> MeshPart:
 
 def _kinds(piece: Submesh, used: npt.NDArray[np.bool_]) -> tuple[Ints, Ints]:
     """Among the used vertices: the first of each kind, and the kind of each."""
-    if piece.shared:
-        every = np.arange(np.count_nonzero(used))
-        return every, every
     # Adding zero makes minus zero the same as zero.
     columns = [piece.vertices[used].astype(np.float32) + np.float32(0)]
     if piece.normals is not None:

@@ -1,21 +1,30 @@
-"""A glTF file as JSON and bytes: its own chunk, data URIs, files beside it."""
+"""A glTF file as JSON and bytes: its own chunk, data URIs, files beside it.
+
+Its JSON is followed as it is; one that says something impossible raises whatever Python
+raises, which `read_gltf` puts into a sentence.
+"""
 
 from __future__ import annotations
 
 import base64
-import binascii
 import json
 import struct
-from collections.abc import Iterator
 from typing import Any, cast
-from urllib.parse import unquote, unquote_to_bytes
 
-from sambot_viz.meshes.formats.gltf_json import Broken, Json, entry, whole
+import numpy as np
+import numpy.typing as npt
+
 from sambot_viz.meshes.named_files import NamedFileError
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.source import MOST_NODES, MeshSource
+
+Json = dict[str, Any]
 
 _LARGEST = 500 * 2**20
 """Buffers and images above this size [bytes] are refused."""
+_KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_WIDTHS = {
+    "SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16,
+}  # fmt: skip
 
 
 class GltfFile:
@@ -23,96 +32,100 @@ class GltfFile:
 
     Attributes:
         document: the JSON.
-        source: the file.
+        data: the file, as trimesh is given it.
+        is_glb: the kind of the file.
 
     Raises:
-        Broken: cut off, older than 2.0, or its JSON cannot be read.
+        ValueError: cut off, older than 2.0, or it announces what it does not have.
     """
 
     def __init__(self, source: MeshSource) -> None:
         self.source = source
-        self.document, self._binary = _split(source.data)
-        self._buffers: dict[int, bytes] = {}
+        self.data = text = source.data
+        self.is_glb = text[:4] == b"glTF"
+        self._binary = b""
+        self._known: dict[str, bytes] = {}
+        if self.is_glb:
+            text, self._binary = self._chunks()
+        try:
+            document: object = json.loads(text)
+        except ValueError as error:
+            raise ValueError(f"its JSON cannot be read ({error})") from error
+        if not isinstance(document, dict):
+            raise ValueError("its JSON is not an object")
+        self.document = cast(Json, document)
+        self._compare_sizes()
 
-    def view(self, number: object) -> memoryview:
-        """The bytes of a buffer view, not copied.
+    def __getitem__(self, uri: str) -> bytes:
+        """Return the bytes behind a URI; trimesh asks for buffers so."""
+        if uri not in self._known:
+            self._known[uri] = self._load(uri)
+        return self._known[uri]
 
-        Raises:
-            Broken: they are not there.
-        """
-        view = entry(self.document, "bufferViews", number)
-        data = self._buffer(whole(view, "buffer"))
-        start = whole(view, "byteOffset", 0)
-        end = start + whole(view, "byteLength")
-        if end > len(data):
-            raise Broken(f"a buffer view ends at byte {end} of {len(data)}")
+    def view(self, number: int) -> memoryview:
+        """Return the bytes of a buffer view, not copied."""
+        view: Json = self.document["bufferViews"][number]
+        uri = self.document["buffers"][view["buffer"]].get("uri")
+        data = self._binary if uri is None else self[uri]
+        start = view.get("byteOffset", 0)
+        end = start + view["byteLength"]
+        if not 0 <= start <= end <= len(data):
+            raise ValueError(f"a buffer view ends at byte {end} of {len(data)}")
         return memoryview(data)[start:end]
 
-    def image(self, number: object) -> bytes:
-        """The original bytes of an image, which trimesh would decode.
+    def array(self, accessor: Json) -> npt.NDArray[Any]:
+        """Return the rows of an accessor, not copied."""
+        width = _WIDTHS[accessor["type"]]
+        dtype = np.dtype((_KINDS[accessor["componentType"]], (width,)))
+        data, view = accessor["bufferView"], self.view(accessor["bufferView"])
+        stride = self.document["bufferViews"][data].get("byteStride", dtype.itemsize)
+        count, start = accessor["count"], accessor.get("byteOffset", 0)
+        end = start + stride * (count - 1) + dtype.itemsize if count else start
+        # numpy takes a negative offset or count as it is.
+        if min(start, count, stride - 1) < 0 or end > len(view):
+            raise ValueError(
+                f"an accessor of {count} entries does not fit its buffer view"
+            )
+        return np.ndarray(count, dtype, view, start, stride)
 
-        Raises:
-            Broken: there are none, or they may not be used.
-        """
-        image = entry(self.document, "images", number)
-        if "uri" in image:
-            return self._uri(image["uri"])
-        return bytes(self.view(image.get("bufferView")))
-
-    def _buffer(self, number: int) -> bytes:
-        if number not in self._buffers:
-            uri: Any = entry(self.document, "buffers", number).get("uri")
-            if uri is None and self._binary is None:
-                raise Broken("the binary part of the file with its numbers is missing")
-            data = self._binary or b"" if uri is None else self._uri(uri)
-            self._buffers[number] = data
-        return self._buffers[number]
-
-    def _uri(self, uri: object) -> bytes:
-        text = str(uri)
-        if text.startswith("data:"):
-            head, _, body = text.partition(",")
-            if not head.endswith(";base64"):
-                return unquote_to_bytes(body)
-            try:
-                return base64.b64decode(unquote(body))
-            except (binascii.Error, ValueError) as error:
-                raise Broken("a data URI is not valid base64") from error
+    def _load(self, uri: str) -> bytes:
+        _, encoded, text = uri.partition("base64,")
         try:
-            return self.source.files.read(text, _LARGEST)
+            # Encoded bytes are found as trimesh finds them, but read strictly.
+            if encoded:
+                return base64.b64decode(text, validate=True)
+            return self.source.files.read(uri, _LARGEST)
+        except ValueError as error:
+            raise ValueError("a data URI is not valid base64") from error
         except NamedFileError as error:
-            raise Broken(f"'{text[:80]}': {error}") from error
+            raise NamedFileError(f"'{uri[:80]}': {error}") from error
 
-
-def _split(data: bytes) -> tuple[Json, bytes | None]:
-    """The JSON of a file and the binary chunk of a GLB."""
-    binary: bytes | None = None
-    text = data
-    if data[:4] == b"glTF":
-        if len(data) < 20:
-            raise Broken(f"it has only {len(data)} bytes")
-        version, total = struct.unpack_from("<II", data, 4)
+    def _chunks(self) -> tuple[bytes, bytes]:
+        """Return the JSON and the binary part of a GLB."""
+        if len(self.data) < 20:
+            raise ValueError(f"it has only {len(self.data)} bytes")
+        version, total, length = struct.unpack_from("<III", self.data, 4)
         if version != 2:
-            raise Broken(f"it is of version {version}, and only 2 can be read")
-        if total > len(data):
-            raise Broken(f"it announces {total} bytes but has {len(data)}")
-        chunks = dict(reversed(list(_chunks(data[12:total]))))
-        text = chunks.get(b"JSON", b"")
-        binary = chunks.get(b"BIN\0")
-    try:
-        document: object = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise Broken(f"its JSON cannot be read ({error})") from error
-    if not isinstance(document, dict):
-        raise Broken("its JSON is not an object")
-    return cast(Json, document), binary
+            raise ValueError(f"it is of version {version}, and only 2 can be read")
+        if not 20 + length <= total <= len(self.data):
+            raise ValueError(f"it announces {total} bytes but has {len(self.data)}")
+        self.data = self.data[:total]
+        return self.data[20 : 20 + length], self.data[28 + length :]
 
-
-def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
-    start = 0
-    while start + 8 <= len(data):
-        (length,) = struct.unpack_from("<I", data, start)
-        if start + 8 + length > len(data):
-            raise Broken("a chunk is longer than the file")
-        yield data[start + 4 : start + 8], data[start + 8 : start + 8 + length]
-        start += 8 + length + -length % 4
+    def _compare_sizes(self) -> None:
+        """Refuse a file that announces numbers which it has no bytes for."""
+        for name in ("bufferViews", "accessors"):
+            if len(self.document.get(name, ())) > MOST_NODES:
+                raise ValueError(f"it has more than {MOST_NODES} {name}")
+        views = range(len(self.document.get("bufferViews", ())))
+        announced = sum(len(self.view(number)) for number in views)
+        for accessor in self.document.get("accessors", ()):
+            if "bufferView" in accessor:
+                announced += self.array(accessor).nbytes
+            else:
+                self.source.budget.spend_without_data(accessor["count"])
+        size = len(self.data) + sum(map(len, self._known.values()))
+        if announced > 8 * size + 2**26:
+            raise ValueError(
+                f"it announces {announced} bytes of numbers but has {size}"
+            )

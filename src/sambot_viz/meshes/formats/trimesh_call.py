@@ -41,7 +41,9 @@ def call_trimesh(module: str, function: str, *args: Any, **kwargs: Any) -> Any:
         raise
     except Exception as error:
         reason = " ".join(str(error).split())[:120]
-        raise TrimeshError(reason or type(error).__name__) from error
+        raise TrimeshError(
+            f"trimesh cannot read it ({type(error).__name__}: {reason})"
+        ) from error
     finally:
         _reading.reset(token)
 
