@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from sambot_viz.rviz.class_name import NO_CLASS, is_ros1, kind_of
 from sambot_viz.rviz.config_findings import ConfigFindings
+from sambot_viz.rviz.entry_item import EntryItem
 from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.properties.kinds import checked_text, read_bool
 from sambot_viz.rviz.properties.property import Property
@@ -135,7 +136,7 @@ class DisplayConfig(ClassItem):
             self._node.put_text("Value", text)
 
 
-class GlobalOptions(ConfigItem):
+class GlobalOptions(EntryItem):
     """Fixed Frame, Background Color, Frame Rate."""
 
     @property

@@ -1,4 +1,4 @@
-"""One link, joint or frame of a display: an item below the display's own item."""
+"""An item below another one: a link, a joint or a frame of a display."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ class EntryItem(ConfigItem):
         declared: Sequence[Property],
         *,
         nested: bool = False,
+        ros1: bool = False,
     ) -> None:
         """Read one entry.
 
@@ -36,6 +37,7 @@ class EntryItem(ConfigItem):
             declared: its properties.
             nested: further entries are below it, so its own properties belong below
                 "Details".
+            ros1: the entry is written in ROS 1's names.
         """
         self._owner = owner
         self._keys = tuple(keys)
@@ -44,7 +46,7 @@ class EntryItem(ConfigItem):
         node = found if isinstance(found, Map) else Map()
         if isinstance(found, Scalar):
             node.put("Value", found)
-        super().__init__(node, declared, owner.findings)
+        super().__init__(node, declared, owner.findings, ros1=ros1)
 
     @property
     def label(self) -> str:
@@ -61,11 +63,10 @@ class EntryItem(ConfigItem):
         return (), self._node
 
     def map_at(self, keys: Sequence[str]) -> Map:
-        """The map at some keys of the entry, made in the document if missing."""
+        """Return the map at some keys of the entry, made in the document if missing."""
         # The owner finds the place again: another entry may have made it meanwhile.
-        owner, place = self.rooted(keys)
-        return owner.map_at(place)
+        return self._owner.map_at((*self._keys, *keys))
 
-    def rooted(self, keys: Sequence[str]) -> tuple[ConfigItem, Sequence[str]]:
-        """The item whose map is in the document, and a place of this one in it."""
+    def rooted(self, keys: Sequence[str]) -> tuple[Map, Sequence[str]]:
+        """Return the owner's map that is in the document, and a place below it."""
         return self._owner.rooted((*self._keys, *keys))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from sambot_viz.rviz.changes import PutBack, note
 from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declared import Declared, UnknownPropertyError
 from sambot_viz.rviz.item_map import ItemMap
@@ -16,8 +16,8 @@ from sambot_viz.rviz.properties.kinds import (
     KeptProperty,
 )
 from sambot_viz.rviz.properties.property import Property
+from sambot_viz.rviz.undo_log import DocumentPlace, FinishChange, Leaves, Restore, note
 from sambot_viz.rviz.unknown_keys import unknown_keys
-from sambot_viz.rviz.written_value import WrittenValue
 from sambot_viz.rviz.yaml.nodes import Map, Node
 
 
@@ -172,29 +172,38 @@ class ConfigItem(ItemMap):
         self._unreadable.discard(path)
         return new
 
-    def remember(self, path: str) -> PutBack:
-        """A function that puts a property back, here and in the document.
+    def begin_change(self, path: str) -> FinishChange:
+        """Keep a property as it is now, here and in the document.
 
         Args:
             path: the property; it has a value.
         """
-        declared, value = self._declared[path], self._values[path]
-        given, unreadable = path in self._given, path in self._unreadable
-        parts = declared.property.components(value) or ("Value",)
-        item, keys = self.rooted(declared.keys)
-        written = WrittenValue(item, keys, tuple(parts))
+        declared = self._declared[path]
+        children = {child.name for child in declared.property.children}
+        place = DocumentPlace(*self.rooted(declared.keys), children)
 
-        def put_back() -> None:
-            written.put_back()
-            self._values[path] = value
-            for mark, holds in (self._given, given), (self._unreadable, unreadable):
-                (mark.add if holds else mark.discard)(path)
+        def state() -> tuple[Any, bool, bool, Leaves]:
+            given, unreadable = path in self._given, path in self._unreadable
+            return self._values[path], given, unreadable, place.leaves()
 
-        return put_back
+        def restore(wanted: tuple[Any, bool, bool, Leaves], written: Leaves) -> None:
+            self._values[path], given, unreadable, leaves = wanted
+            place.restore(leaves, written)
+            for marks, holds in (self._given, given), (self._unreadable, unreadable):
+                (marks.add if holds else marks.discard)(path)
 
-    def rooted(self, keys: Sequence[str]) -> tuple[ConfigItem, Sequence[str]]:
-        """The item whose map is in the document, and a place of this one in it."""
-        return self, keys
+        def finish() -> tuple[Restore, Restore]:
+            after = state()
+            return partial(restore, before, after[-1]), partial(
+                restore, after, before[-1]
+            )
+
+        before = state()
+        return finish
+
+    def rooted(self, keys: Sequence[str]) -> tuple[Map, Sequence[str]]:
+        """Return a map that is in the document, and a place of this item below it."""
+        return self._node, keys
 
     def assume(self, path: str, value: Any) -> None:
         """Use another default for a property that the file does not give.

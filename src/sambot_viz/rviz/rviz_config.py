@@ -10,8 +10,10 @@ from sambot_viz.rviz.class_name import kind_of
 from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.display_list import DisplayList
+from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.panel_list import PanelList
 from sambot_viz.rviz.view_list import ViewList
+from sambot_viz.rviz.visualization_manager import MANAGER
 from sambot_viz.rviz.yaml.document import Document
 from sambot_viz.rviz.yaml.nodes import Collection, Map, Plain, items_of, plain
 
@@ -31,7 +33,12 @@ class RvizConfig(DisplayList, ViewList, PanelList):
         """Read a document; use `load` or `parse`."""
         super().__init__(document, declarations)
         _report_duplicates(document.root, self._findings)
-        self.global_options = self._read_global_options()
+        self.global_options = GlobalOptions(
+            ConfigItem(document.root, (), self._findings),
+            (MANAGER, "Global Options"),
+            declarations.global_options,
+            ros1=self.ros1,
+        )
         self._load_displays()
         self._load_views()
         self.tools = tuple(
@@ -69,19 +76,6 @@ class RvizConfig(DisplayList, ViewList, PanelList):
     def copy(self) -> RvizConfig:
         """The same document once more, with the edits that are not saved."""
         return RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
-
-    def _read_global_options(self) -> GlobalOptions:
-        found = self._manager.get("Global Options")
-        declared = self._declarations.global_options
-        if isinstance(found, Map):
-            return GlobalOptions(found, declared, self._findings, ros1=self.ros1)
-        return GlobalOptions(
-            Map(),
-            declared,
-            self._findings,
-            ros1=self.ros1,
-            attach=lambda node: self._attached_manager().put("Global Options", node),
-        )
 
     @property
     def file(self) -> str | None:

@@ -8,7 +8,7 @@ from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.yaml.document import Document
 from sambot_viz.rviz.yaml.nodes import Map, items_of
 
-_MANAGER = "Visualization Manager"
+MANAGER = "Visualization Manager"
 
 
 class VisualizationManager:
@@ -28,8 +28,6 @@ class VisualizationManager:
         self._document = document
         self._declarations = declarations
         self._findings = ConfigFindings(document.file)
-        manager = document.root.get(_MANAGER)
-        self._manager = manager if isinstance(manager, Map) else Map()
         self.ros1 = any(is_ros1(name) for name in self._class_ids())
 
     def _class_ids(self) -> list[str]:
@@ -38,9 +36,14 @@ class VisualizationManager:
         found = [node for nodes in listed for _, node in items_of(nodes)]
         return [node.text("Class") or "" for node in found]
 
+    @property
+    def _manager(self) -> Map:
+        """The manager's map; an empty one while the document has none."""
+        found = self._document.root.get(MANAGER)
+        return found if isinstance(found, Map) else Map()
+
     def _attached_manager(self) -> Map:
-        """The manager's map, put into the document if it is missing there."""
-        root = self._document.root
-        if root.get(_MANAGER) is not self._manager:
-            root.put(_MANAGER, self._manager)
-        return self._manager
+        """Return the manager's map, put into the document if it is missing there."""
+        manager = self._manager
+        self._document.root.put(MANAGER, manager)
+        return manager

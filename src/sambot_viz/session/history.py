@@ -12,13 +12,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from sambot_viz.errors import SambotVizError, UsageError
-from sambot_viz.rviz.changes import PutBack, remembered
+from sambot_viz.rviz.undo_log import Restore, record_changes
 from sambot_viz.session.shared_state import SharedState
 
 LIMIT = 200
 """So many edits of a browser can be undone."""
 
-Apply = Callable[[PutBack], None]
+Apply = Callable[[Restore], None]
 """Puts something back in the document, and draws it."""
 
 
@@ -191,7 +191,7 @@ class EditHistory:
                 draws them; it may raise SambotVizError instead.
             merge: see `record`.
         """
-        with remembered() as changes:
+        with record_changes() as changes:
             yield
         if changes:
             self.record(

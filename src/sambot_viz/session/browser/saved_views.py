@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
-from sambot_viz.rviz.changes import PutBack
+from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.rviz.view_list import RemovedView
 from sambot_viz.session.limits import MOST_VIEWS, require_room
 
@@ -71,7 +71,7 @@ class SavedViews:
         remove()
         self._session.edits.record(f"Remove view {saved.name}", put_back, remove)
 
-    def _removal(self, saved: ViewConfig) -> tuple[PutBack, PutBack]:
+    def _removal(self, saved: ViewConfig) -> tuple[Restore, Restore]:
         """Functions that take a saved view out, and put the same one back."""
         session = self._session
         places: list[RemovedView] = []

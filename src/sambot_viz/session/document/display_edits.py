@@ -15,9 +15,9 @@ from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import DisplayConfig
-from sambot_viz.rviz.changes import PutBack
 from sambot_viz.rviz.class_name import short_name
 from sambot_viz.rviz.display_list import Removed
+from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.session.document.drawn_scene import walk
 from sambot_viz.session.document.shown_document import ShownDocument
 from sambot_viz.session.limits import MOST_DISPLAYS, require_room
@@ -106,7 +106,7 @@ class DisplayEdits(ShownDocument):
         """Record the properties of a display that are set inside."""
         self._require(config)
 
-        def apply(put_back: PutBack) -> None:
+        def apply(put_back: Restore) -> None:
             self._require(config)
             with self.change(self.signals.config, self.signals.status):
                 put_back()
@@ -207,7 +207,7 @@ class DisplayEdits(ShownDocument):
         remove()
         self.edits.record(f"Remove {config.name}", put_back, remove, touched=config)
 
-    def _removal(self, config: DisplayConfig) -> tuple[PutBack, PutBack]:
+    def _removal(self, config: DisplayConfig) -> tuple[Restore, Restore]:
         """Functions that take a display out, and put the same one back."""
         document = self.config
         places: list[Removed] = []
