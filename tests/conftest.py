@@ -6,14 +6,16 @@ import os
 import secrets
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
     from protocol_client import ProtocolClient
 
+    from sambot_viz import Robot, Visualizer
     from sambot_viz.export.chromium import Chromium
+    from sambot_viz.session import Session
 
 ROOT = Path(__file__).resolve().parents[1]
 NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
@@ -71,6 +73,47 @@ def chromium() -> Iterator[Chromium]:
 
     with a_chromium(timeout=60.0) as browser:
         yield browser
+
+
+@pytest.fixture(scope="session")
+def sam_bot() -> Robot:
+    """The bundled robot, loaded once: a xacro file takes most of a server's start."""
+    from sambot_viz import bundled, load_robot
+
+    return load_robot(bundled.model_path())
+
+
+@pytest.fixture
+def make_viz(sam_bot: Robot) -> Iterator[Callable[..., Visualizer]]:
+    """Show the loaded sam_bot: ``make_viz(presenter="word", config=path)``.
+
+    What is saved is not followed. Each is stopped at the end of the test.
+    """
+    from sambot_viz import Visualizer
+
+    made: list[Visualizer] = []
+
+    def make(**options: Any) -> Visualizer:
+        made.append(Visualizer(sam_bot, port=0, **options))
+        return made[-1]
+
+    yield make
+    for viz in made:
+        viz.stop()
+
+
+@pytest.fixture
+def viz(make_viz: Callable[..., Visualizer]) -> Visualizer:
+    """A server that shows sam_bot with the bundled config."""
+    return make_viz()
+
+
+@pytest.fixture
+def session(viz: Visualizer) -> Session:
+    """What all its browsers share."""
+    from inside import session_of
+
+    return session_of(viz)
 
 
 @pytest.fixture

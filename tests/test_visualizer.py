@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import socket
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +26,6 @@ LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 Connect = Callable[..., ProtocolClient]
 
 
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as visualizer:
-        yield visualizer
-
-
 def port_of(viz: Visualizer) -> int:
     return int(viz.url.rsplit(":", 1)[1])
 
@@ -43,11 +37,12 @@ def client(viz: Visualizer, protocol: Connect) -> ProtocolClient:
     return client
 
 
-def test_the_bundled_sam_bot_is_shown_without_arguments(
-    viz: Visualizer, client: ProtocolClient
-) -> None:
-    assert viz.url.startswith("http://127.0.0.1:")
-    assert dict(viz.joint_positions) == {LEFT: 0.0, RIGHT: 0.0}
+def test_the_bundled_sam_bot_is_shown_without_a_model(protocol: Connect) -> None:
+    with Visualizer(port=0) as viz:
+        assert viz.url.startswith("http://127.0.0.1:")
+        assert dict(viz.joint_positions) == {LEFT: 0.0, RIGHT: 0.0}
+        client = protocol(port_of(viz))
+        client.settle(viz.viser)
     assert {m.fields["props"]["text"] for m in labels(client)} == {
         "base_link",
         "base_footprint",

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from inside import session_of
 from user import User
 from viewer_page import ViewerPage
 
@@ -49,11 +48,6 @@ def model(tmp_path: Path) -> Path:
 def viz(model: Path) -> Iterator[Visualizer]:
     with Visualizer(model, model.with_suffix(".rviz"), port=0, watch=True) as viz:
         yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
 
 
 @pytest.fixture

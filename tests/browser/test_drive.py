@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -13,12 +13,6 @@ from viewer_page import ViewerPage
 from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
 
 
 def test_the_sam_bot_drives_a_square_and_returns(

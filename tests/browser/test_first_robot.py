@@ -23,15 +23,14 @@ LINK = "drivewhl_l_link"
 
 
 @pytest.fixture
-def viz(tmp_path: Path) -> Iterator[Visualizer]:
+def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
     """sam_bot, seen from the left and near enough to see a wheel turn."""
     config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     view = config["Visualization Manager"]["Views"]["Current"]
     view |= {"Distance": 1.2, "Yaw": 1.9, "Pitch": 0.4}
     path = tmp_path / "near.rviz"
     path.write_text(yaml.safe_dump(config), "utf-8")
-    with Visualizer(config=path, port=0) as viz:
-        yield viz
+    return make_viz(config=path)
 
 
 def around(pixels: Pixels, place: tuple[int, int], size: int) -> Pixels:

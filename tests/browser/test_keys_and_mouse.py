@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 
@@ -18,12 +18,6 @@ from sambot_viz.session.browser.browser import Browser
 pytestmark = pytest.mark.browser
 
 FOCUSED = "document.activeElement"
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
 
 
 @pytest.fixture

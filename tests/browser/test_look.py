@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ BACKGROUND, TOP, SIDE = (48, 48, 48), (19, 127, 127), (19, 96, 96)
 
 
 @pytest.fixture
-def viz() -> Iterator[Visualizer]:
+def viz(make_viz: Callable[..., Visualizer]) -> Visualizer:
     """A translucent sam_bot with its names, seen from RViz's default direction."""
     config = load_config(bundled.config_path())
     config.view.set("Distance", 1.5)
@@ -30,8 +30,7 @@ def viz() -> Iterator[Visualizer]:
             if display.name == "TF":
                 display.set("Show Axes", False)
                 display.set("Show Arrows", False)
-    with Visualizer(config=config, port=0) as visualizer:
-        yield visualizer
+    return make_viz(config=config)
 
 
 def shares(pixels: np.ndarray, color: tuple[int, int, int]) -> float:

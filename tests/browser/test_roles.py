@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
 from user import User
@@ -17,9 +17,8 @@ Open = Callable[..., ViewerPage]
 
 
 @pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0, presenter="") as viz:
-        yield viz
+def viz(make_viz: Callable[..., Visualizer]) -> Visualizer:
+    return make_viz(presenter="")
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +34,7 @@ RECTANGLE = """(() => {
 
 
 @pytest.fixture
-def viz(tmp_path: Path) -> Iterator[Visualizer]:
+def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
     """sam_bot without axes, seen from above and near."""
     config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     manager = config["Visualization Manager"]
@@ -55,15 +55,7 @@ def viz(tmp_path: Path) -> Iterator[Visualizer]:
     ]
     path = tmp_path / "views.rviz"
     path.write_text(yaml.safe_dump(config), "utf-8")
-    with Visualizer(config=path, port=0) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    shared = viz._server.shared  # pyright: ignore[reportPrivateUsage]
-    assert shared is not None
-    return shared
+    return make_viz(config=path)
 
 
 @pytest.fixture

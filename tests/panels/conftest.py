@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from urllib.parse import urlsplit
 
 import pytest
-from inside import session_of, viser_server
+from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -74,9 +74,8 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def viz(folder: Path) -> Iterator[Visualizer]:
-    with Visualizer(config=folder / "mine.rviz", port=0) as viz:
-        yield viz
+def viz(folder: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
+    return make_viz(config=folder / "mine.rviz")
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +28,8 @@ def path(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def viz(path: Path) -> Iterator[Visualizer]:
-    with Visualizer(port=0, poses=path) as viz:
-        yield viz
+def viz(path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
+    return make_viz(poses=path)
 
 
 @pytest.fixture

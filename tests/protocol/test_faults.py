@@ -7,7 +7,7 @@ import logging
 import os
 import random
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -29,10 +29,9 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def viz(folder: Path) -> Iterator[Visualizer]:
+def viz(folder: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
     poses = folder / "mine.poses.yaml"
-    with Visualizer(config=folder / "mine.rviz", poses=poses, port=0) as viz:
-        yield viz
+    return make_viz(config=folder / "mine.rviz", poses=poses)
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from urllib.parse import urlsplit
 
 import pytest
@@ -14,12 +14,6 @@ from sambot_viz import Visualizer
 
 JOINT, LINK = "drivewhl_l_joint", "drivewhl_l_link"
 TRANSFORMS = ("SetOrientationMessage", "SetPositionMessage")
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import msgspec.msgpack
@@ -27,12 +27,6 @@ OPTIONS = "displays", "Global Options"
 FRAME, COLOR = (*OPTIONS, "Fixed Frame"), (*OPTIONS, "Background Color")
 STYLE = "displays", "Grid", "Line Style"
 STATUS = "displays", "Global Status"
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
 
 
 @pytest.fixture

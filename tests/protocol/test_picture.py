@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import struct
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
 from PIL import Image
@@ -15,12 +15,6 @@ from sambot_viz import Visualizer
 from sambot_viz.session import picture
 
 REQUEST, FILE = "GetRenderRequestMessage", "FileTransferStartDownload"
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
 
 
 @pytest.fixture

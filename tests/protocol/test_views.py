@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -42,9 +42,8 @@ def config(tmp_path: Path) -> Callable[..., Path]:
 
 
 @pytest.fixture
-def viz(config: Callable[..., Path]) -> Iterator[Visualizer]:
-    with Visualizer(config=config(Distance=4.0, Yaw=0.0, Pitch=0.0), port=0) as viz:
-        yield viz
+def viz(config: Callable[..., Path], make_viz: Callable[..., Visualizer]) -> Visualizer:
+    return make_viz(config=config(Distance=4.0, Yaw=0.0, Pitch=0.0))
 
 
 def views_of(viz: Visualizer) -> list[BrowserView]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -18,9 +18,8 @@ LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
 
 @pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0, presenter="teach-the-class") as viz:
-        yield viz
+def viz(make_viz: Callable[..., Visualizer]) -> Visualizer:
+    return make_viz(presenter="teach-the-class")
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
-from inside import session_of, viser_server
+from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer
@@ -18,14 +18,8 @@ REFUSED = "you are watching"
 
 
 @pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0, presenter="teach-the-class") as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
+def viz(make_viz: Callable[..., Visualizer]) -> Visualizer:
+    return make_viz(presenter="teach-the-class")
 
 
 @pytest.fixture

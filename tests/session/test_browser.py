@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
-from inside import session_of, viser_server
+from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer
@@ -52,17 +52,6 @@ class Person:
         """The nodes of tools that the page was sent."""
         names = {str(m.fields.get("name")) for m in self.client.messages}
         return {n for n in names if n.startswith(("/~measure", "/~selected"))}
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from urllib.parse import urlsplit
 
 import pytest
-from inside import session_of, viser_server
+from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
@@ -15,17 +15,6 @@ from sambot_viz.session.browser.driver_view import DriverView
 from sambot_viz.views.camera import vector
 
 START, AWAY, FARTHER = vector(0, 0, 0.1), vector(5, 2, 0.1), vector(6, 2, 0.1)
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
 
 
 @pytest.fixture

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
-from inside import session_of
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
 from sambot_viz.displays.display import Display
@@ -39,15 +38,9 @@ def config(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def viz(config: Path) -> Iterator[Visualizer]:
+def viz(config: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
     poses = config.parent / "poses.yaml"
-    with Visualizer(config=config, port=0, watch=False, poses=poses) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
+    return make_viz(config=config, poses=poses)
 
 
 def named(session: Session, name: str) -> DisplayConfig:

@@ -19,17 +19,6 @@ TRANSFORMS = ("SetOrientationMessage", "SetPositionMessage")
 
 
 @pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-
-
-@pytest.fixture
 def motion(session: Session) -> Iterator[Motion]:
     """The motion, with steps that only the test takes."""
     session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]

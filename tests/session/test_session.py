@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -29,17 +29,6 @@ ARM = """<robot name="arm">
     <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
 </robot>"""
-
-
-@pytest.fixture
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as viz:
-        yield viz
-
-
-@pytest.fixture
-def session(viz: Visualizer) -> Session:
-    return session_of(viz)
 
 
 @pytest.fixture
