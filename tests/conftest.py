@@ -69,9 +69,9 @@ def shared() -> Path:
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Chromium]:
     """The browser, one for all tests of a worker; pages have storage of their own."""
-    from a_chromium import a_chromium
+    from a_chromium import QUICK, a_chromium
 
-    with a_chromium(timeout=60.0) as browser:
+    with a_chromium(timeout=60.0, flags=QUICK) as browser:
         yield browser
 
 

@@ -118,7 +118,7 @@ def test_a_chromium_among_thirty(
 ) -> None:
     """Until the row in its page shows the step; without a GPU a frame takes long."""
     with run_server(OURS) as server:
-        page = chromium.open(viewer_url(server.url), width=700, height=500)
+        page = chromium.open(viewer_url(server.url, 1.0), width=700, height=500)
         row = f"[data-row='j/{JOINT}'] input[type=range]"
         page.wait_for(
             f'document.querySelector("{row}") && sambotVizLook.lit > 0', timeout=60.0

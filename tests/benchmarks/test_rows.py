@@ -92,7 +92,7 @@ def test_all_rows_of_300_joints_are_there_soon_after_the_first_picture(
     with run_server(command("chain")) as started:
         for _ in range(6):
             page = chromium.open()
-            page.goto(viewer_url(started.url))
+            page.goto(viewer_url(started.url, 1.0))
             page.wait_for(ALL_ROWS, timeout=60.0)
             found.append(page.evaluate("benchmarkSeen"))
             searched += cast("list[float]", page.evaluate(SEARCH, timeout=30.0))[:1]
@@ -144,7 +144,7 @@ def test_a_step_of_one_user_in_the_other_page(
     the machine and are only reported.
     """
     with run_server(command(model)) as started:
-        page = chromium.open(viewer_url(started.url), width=700, height=500)
+        page = chromium.open(viewer_url(started.url, 1.0), width=700, height=500)
         record = RECORD.replace("ROW", f"j/{JOINTS[model]}")
         page.wait_for(f"{THERE} && sambotVizLook.lit > 0", timeout=60.0)
         page.evaluate(record)
@@ -186,7 +186,7 @@ def test_elements(
     model: str, command: Command, chromium: Chromium, run_server: RunServer
 ) -> None:
     with run_server(command(model)) as started:
-        page = chromium.open(viewer_url(started.url))
+        page = chromium.open(viewer_url(started.url, 1.0))
         page.wait_for(THERE, timeout=60.0)
         ours, joints, everything = page.evaluate(COUNT_ELEMENTS)
         page.close()

@@ -78,7 +78,7 @@ def thousand_boxes() -> Iterator[viser.ViserServer]:
 
 def test_a_frame_of_a_thousand_parts(chromium: Chromium) -> None:
     with thousand_boxes() as server:
-        page = chromium.open(viewer_url(server.get_port()), width=640, height=480)
+        page = chromium.open(viewer_url(server.get_port(), 1.0), width=640, height=480)
         page.wait_for(f"sambotVizLook.lit >= {PARTS}", timeout=60.0)
         page.evaluate(TIME_LOOK)
         times = cast("list[float]", page.evaluate(DRAW_FORTY, timeout=120.0))
@@ -101,7 +101,7 @@ def test_at_rest_and_while_a_joint_moves(
     model.write_text(text, "utf-8")
     words = ["-m", "sambot_viz", "--port", "0", *([str(model)] if text else [])]
     with run_server(words) as started:
-        page = chromium.open(viewer_url(started.url))
+        page = chromium.open(viewer_url(started.url, 1.0))
         page.wait_for("document.querySelector('#sambot .joints input[type=range]')")
         page.wait_for("sambotVizLook.lit > 0", timeout=30.0)
         client = protocol(urlsplit(started.url).port or 0)

@@ -86,9 +86,9 @@ def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height
     viewer.wait_for("document.body.innerText.includes('Fixed Frame')")
     session = session_of(at_first)
     (browser,) = session.browsers.values()
-    width = "__viserMutable.canvas.getBoundingClientRect().width"
+    width = "__viserMutable.canvas.width"
     end = time.monotonic() + 20
-    while browser.client.camera.image_width != round(viewer.page.evaluate(width)):
+    while browser.client.camera.image_width != viewer.page.evaluate(width):
         assert time.monotonic() < end
         viewer.wait_until_drawn()
     viewer.wait_until_drawn()

@@ -14,7 +14,7 @@ import pytest
 import viser
 import yaml
 from inside import node_of
-from viewer_page import ViewerPage
+from viewer_page import COARSE, ViewerPage
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.views.camera import angles_of
@@ -106,7 +106,9 @@ def show(
 ) -> Callable[..., Shown]:
     """Open sam_bot with a view: ``show("Orbit", Distance=3.0)``."""
 
-    def one(kind: str, touch: bool = False, **values: Any) -> Shown:
+    def one(
+        kind: str, touch: bool = False, resolution: float = COARSE, **values: Any
+    ) -> Shown:
         config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
         manager = config["Visualization Manager"]
         manager["Displays"] = [
@@ -123,7 +125,7 @@ def show(
         path.write_text(yaml.safe_dump(config), "utf-8")
         viz = Visualizer(config=path, port=0)
         opened.append(viz)
-        viewer = open_viewer(viz.url, touch=touch)
+        viewer = open_viewer(viz.url, touch=touch, resolution=resolution)
         viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
         viewer.wait_for(f"window.sambotVizMouse?.kind === {kind!r}")
         # The camera of the view has taken the place of viser's, at (3, 3, 3).
@@ -257,7 +259,7 @@ def test_fps_turns_in_place_and_walks(show: Callable[..., Shown]) -> None:
 def test_from_above_the_picture_turns_moves_and_is_scaled(
     show: Callable[..., Shown],
 ) -> None:
-    shown = show("TopDownOrtho", Scale=200.0, Angle=0.3, X=0.1, Y=-0.2)
+    shown = show("TopDownOrtho", resolution=1, Scale=200.0, Angle=0.3, X=0.1, Y=-0.2)
     mouse, far = shown.viewer.page.mouse, shown.distance
     mouse.drag(SKY, (SKY[0], SKY[1] + 20), button="right", steps=1)
     shown.rests()

@@ -60,7 +60,7 @@ def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
 
 @pytest.fixture
 def viewer(viz: Visualizer, open_viewer: Open) -> ViewerPage:
-    viewer = open_viewer(viz.url)
+    viewer = open_viewer(viz.url, resolution=1)
     viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
     viewer.wait_for("window.sambotVizMouse && window.sambotVizMouse.kind === 'Orbit'")
     viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 2) < 1e-3")
@@ -240,7 +240,7 @@ def test_from_above_every_zoom_shows_the_scene_on_its_background(
     viz: Visualizer, session: Session, open_viewer: Open
 ) -> None:
     session.set_global("Background Color", (255, 255, 255))
-    viewer = open_viewer(viz.url, width=900, height=300)
+    viewer = open_viewer(viz.url, width=900, height=300, resolution=1)
     until(viewer, lambda: len(session.browsers) == 1)
     view_of(session).set_kind("rviz_default_plugins/TopDownOrtho")
     view_of(session).set("Scale", 10.0)
@@ -275,7 +275,7 @@ def test_a_button_of_the_toolbar_leaves_select(
 def test_tools_work_with_a_finger(
     viz: Visualizer, session: Session, open_viewer: Open
 ) -> None:
-    viewer = open_viewer(viz.url, width=1024, height=768, touch=True)
+    viewer = open_viewer(viz.url, width=1024, height=768, touch=True, resolution=1)
     viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
     touch, tools = viewer.page.touch, tools_of(session)
     tools_bar = ("toolbar", "Tools")

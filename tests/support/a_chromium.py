@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 
 import pytest
@@ -10,17 +10,21 @@ import pytest
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
+QUICK = ("--disable-gpu-rasterization", "--disable-gpu-compositing")
+"""Only the 3D view needs OpenGL; without a graphics card the rest is quicker so."""
+
 
 @contextmanager
-def a_chromium(timeout: float) -> Generator[Chromium]:
+def a_chromium(timeout: float, flags: Sequence[str] = ()) -> Generator[Chromium]:
     """A running browser with the scroll bars of a desktop.
 
     Without one on this machine the test is skipped.
 
     Args:
         timeout: how long any one answer of it may take [s].
+        flags: further command line flags.
     """
     if find_browser() is None:
         pytest.skip(f"no Chromium or Chrome on this machine; {how_to_get_a_browser()}")
-    with Chromium(timeout=timeout, scroll_bars=True) as browser:
+    with Chromium(timeout=timeout, scroll_bars=True, flags=flags) as browser:
         yield browser

@@ -10,7 +10,7 @@ import robots
 from protocol_client import wait_for_workers
 from recorded_page import RecordedPage, open_page
 from user import User
-from viewer_page import ViewerPage, viewer_url
+from viewer_page import COARSE, ViewerPage, viewer_url
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.export.chromium import Chromium
@@ -121,6 +121,7 @@ class Desk:
         """
         user, browser = self.user, self._browser
         tools, edits = browser.tools, self._session.edits
+        self.viewer.set_resolution(COARSE)
         user.keys("Escape", "Escape")
         wait_for_workers()
         if tools.selection:

@@ -28,6 +28,8 @@ from PIL import Image
 from recorded_page import RecordedPage
 from user import User
 
+COARSE = 0.25
+"""Pixels per CSS pixel where nobody looks: software takes a sixteenth of the time."""
 Pixels = npt.NDArray[np.uint8]
 Matrix = npt.NDArray[np.float64]
 
@@ -35,6 +37,12 @@ _TWO_FRAMES = (
     "new Promise(done => {{ __viserMutable.requestRender();"
     " requestAnimationFrame(() => requestAnimationFrame(() => done({0}))); }})"
 )
+_SET_RESOLUTION = """(() => {
+  const { viewport, setDpr } = __viserMutable.scene.__r3f.root.getState();
+  if (viewport.dpr === WANTED) return false;
+  setDpr(WANTED);
+  return true;
+})()"""
 _PICTURE = """(() => {
   const shown = __viserMutable.canvas;
   const copy = document.createElement("canvas");
@@ -49,7 +57,8 @@ _PROJECT = """(() => {
   camera.updateMatrixWorld();
   const point = camera.position.clone().set(...POINT);
   node.localToWorld(point).project(camera);
-  return [(point.x + 1) / 2 * canvas.width, (1 - point.y) / 2 * canvas.height];
+  const { clientWidth, clientHeight } = canvas;
+  return [(point.x + 1) / 2 * clientWidth, (1 - point.y) / 2 * clientHeight];
 })()"""
 _POSE = """(() => {
   const nodes = __viserMutable.nodeRefFromName;
@@ -59,14 +68,18 @@ _POSE = """(() => {
 })()"""
 
 
-def viewer_url(address: str | int) -> str:
+def viewer_url(address: str | int, resolution: float = COARSE) -> str:
     """The address to open: a port or URL, with viser's resolution held still.
 
     Without ``fixedDpr`` viser lowers its resolution when the machine is busy.
+
+    Args:
+        address: of the server.
+        resolution: of the 3D view [pixels per CSS pixel].
     """
     url = f"http://127.0.0.1:{address}" if isinstance(address, int) else address
     url, mark, link = url.partition("#")
-    url = f"{url.rstrip('/')}/{'&' if '?' in url else '?'}fixedDpr=1"
+    url = f"{url.rstrip('/')}/{'&' if '?' in url else '?'}fixedDpr={resolution:g}"
     return f"{url.replace('/&', '&')}{mark}{link}"
 
 
@@ -159,8 +172,17 @@ class ViewerPage:
         columns = [elements[start : start + 4] for start in range(0, 16, 4)]
         return np.array(list(zip(*columns, strict=True)), np.float64)
 
+    def set_resolution(self, resolution: float) -> None:
+        """Draw so many pixels per CSS pixel, until the view changes its size."""
+        if self.page.evaluate(_SET_RESOLUTION.replace("WANTED", str(resolution))):
+            self.wait_for_frames()
+
     def pixels(self) -> Pixels:
-        """The 3D view alone, without panels: (height, width, 4), RGBA, 0 to 255."""
+        """The 3D view alone, without panels: (height, width, 4), RGBA, 0 to 255.
+
+        It is drawn in full resolution for that, and stays so.
+        """
+        self.set_resolution(1.0)
         self.wait_for_frames()
         png = base64.b64decode(str(self.page.evaluate(_PICTURE)))
         return _decode(png)

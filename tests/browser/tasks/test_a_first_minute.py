@@ -13,6 +13,7 @@ from desk import Desk
 from program import address, running
 from recorded_page import open_page
 from user import User
+from viewer_page import viewer_url
 
 from sambot_viz import __version__, bundled
 from sambot_viz.export.chromium import Chromium
@@ -38,7 +39,7 @@ def started(chromium: Chromium, tmp_path: Path) -> Iterator[Callable[[Path], Use
         left.append(lambda: program.__exit__(None, None, None) and None)
         page = open_page(chromium)
         left.append(page.close)
-        page.goto(address(process))
+        page.goto(viewer_url(address(process)))
         return User(page)
 
     yield start
