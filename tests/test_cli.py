@@ -13,6 +13,7 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
+from patience import patience
 from program import address, running
 
 from sambot_viz import Visualizer
@@ -31,11 +32,11 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
             assert page.status == 200
         process.send_signal(signal.SIGINT)
         started = time.monotonic()
-        out, err = process.communicate(timeout=10)
+        out, err = process.communicate(timeout=patience(20.0))
         assert process.returncode == 0
         assert (out, err) == ("", "")
         # "Within a second", with room for a busy machine.
-        assert time.monotonic() - started < 5
+        assert time.monotonic() - started < patience(10.0)
 
 
 def test_the_secrets_may_come_from_variables(

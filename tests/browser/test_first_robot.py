@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import yaml
 from inside import node_of, session_of
+from patience import patience
 from viewer_page import Pixels, ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -87,7 +88,7 @@ def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height
     session = session_of(at_first)
     (browser,) = session.browsers.values()
     width = "__viserMutable.canvas.width"
-    end = time.monotonic() + 20
+    end = time.monotonic() + patience(20.0)
     while browser.client.camera.image_width != viewer.page.evaluate(width):
         assert time.monotonic() < end
         viewer.wait_until_drawn()

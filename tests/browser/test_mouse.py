@@ -14,6 +14,7 @@ import pytest
 import viser
 import yaml
 from inside import node_of
+from patience import patience
 from viewer_page import COARSE, ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -74,7 +75,7 @@ class Shown:
 
     def rests(self) -> None:
         """Wait until the page has reported what it shows."""
-        end = time.monotonic() + 20.0
+        end = time.monotonic() + patience(20.0)
         while True:
             ends: Any = self.viewer.page.evaluate(_ENDS)
             now = (self.position, self.target)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from inside import node_of
+from patience import patience
 from viewer_page import Pixels, ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -40,7 +41,7 @@ def shows(text: str) -> str:
 def settled_picture(viewer: ViewerPage) -> Pixels:
     """The picture once nothing is missing in it any more, such as a name."""
     viewer.wait_for("window.sambotVizLook?.labels > 0")
-    end = time.monotonic() + 30.0
+    end = time.monotonic() + patience(30.0)
     before, after = viewer.pixels(), viewer.pixels()
     while not np.array_equal(before, after):
         assert time.monotonic() < end, "the picture kept changing"

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import yaml
 from inside import node_of
+from patience import patience
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -69,7 +70,7 @@ def viewer(viz: Visualizer, open_viewer: Open) -> ViewerPage:
 
 def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
     """Wait until something holds on the server, while the page goes on drawing."""
-    end = time.monotonic() + 30.0
+    end = time.monotonic() + patience(30.0)
     while not holds():
         assert time.monotonic() < end, "the server did not hear of it in time"
         viewer.wait_for_frames()

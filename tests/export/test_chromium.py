@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from browser_input import Keyboard, Mouse
+from patience import patience
 
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import BrowserError, Fields
@@ -48,7 +49,7 @@ def is_running(process: int) -> bool:
 
 def becomes_true(condition: Callable[[], bool], timeout: float = 20.0) -> bool:
     """Whether a condition is met in time [s]."""
-    end = time.monotonic() + timeout
+    end = time.monotonic() + patience(timeout)
     while not condition() and time.monotonic() < end:
         time.sleep(0.02)
     return condition()

@@ -12,6 +12,7 @@ from urllib.request import urlopen
 
 import pytest
 import yaml
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
@@ -51,7 +52,7 @@ def until(condition: Callable[[], bool]) -> None:
     Raises:
         AssertionError: it did not become true within 10 s.
     """
-    end, pause = time.monotonic() + 10.0, threading.Event()
+    end, pause = time.monotonic() + patience(10.0), threading.Event()
     while not condition():
         assert time.monotonic() < end
         pause.wait(0.01)

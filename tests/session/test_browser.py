@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 from inside import viser_server
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer
@@ -76,7 +77,7 @@ def two(join: Callable[[], Person]) -> tuple[Person, Person]:
 def leave(session: Session, person: Person, other: Person) -> None:
     """Close a page, and wait until the session has taken note."""
     person.client.close()
-    end = time.monotonic() + 30.0
+    end = time.monotonic() + patience(30.0)
     while time.monotonic() < end:
         other.settle()
         with session.lock:

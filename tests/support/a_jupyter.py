@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from patience import patience
 
 ROOT = Path(__file__).resolve().parents[2]
 PYTHON = ROOT / "tests" / ".venv" / "jupyter" / "bin" / "python"
@@ -38,7 +39,7 @@ _MARK = "SAMBOT_VIZ_TEST"
 
 def wait_until(condition: Callable[[], Any], timeout: float = QUICKLY) -> Any:
     """The value of a condition as soon as it is true."""
-    end = time.monotonic() + timeout
+    end = time.monotonic() + patience(timeout)
     while not (value := condition()):
         assert time.monotonic() < end, condition
         time.sleep(0.05)

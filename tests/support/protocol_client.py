@@ -55,6 +55,7 @@ import msgspec.msgpack
 import viser
 import zstandard
 from page_rows import Row, named, rows_in
+from patience import patience
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
@@ -271,7 +272,7 @@ class ProtocolClient:
         Raises:
             AssertionError: it did not become true within `timeout` seconds.
         """
-        last = time.monotonic() + timeout
+        last = time.monotonic() + patience(timeout)
         with self._changed:
             while not (condition() or self.closed) and time.monotonic() < last:
                 self._changed.wait(0.05)
@@ -400,7 +401,7 @@ def wait_for_workers(timeout: float = 10.0) -> None:
             if isinstance(thread, Worker):
                 done = threading.Event()
                 thread.post_later(delay, partial(thread.post, done.set))
-                end = time.monotonic() + timeout
+                end = time.monotonic() + patience(timeout)
                 # A worker that is closed meanwhile drops what was posted to it.
                 while not done.wait(0.02) and thread.is_alive():
                     assert time.monotonic() < end, "a session hangs"

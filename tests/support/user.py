@@ -14,8 +14,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import threading
-import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from itertools import pairwise
@@ -23,6 +21,7 @@ from typing import Any, TypeVar, cast
 
 from ax_tree import Name, Role, Thing, look, row_label, rows_of
 from browser_input import Button, Point
+from patience import until
 from recorded_page import RecordedPage
 
 from sambot_viz.export.devtools import BrowserError
@@ -122,17 +121,7 @@ class User:
         Raises:
             AssertionError: it did not become true within `timeout` seconds.
         """
-        end, pause = time.monotonic() + timeout, threading.Event()
-        while True:
-            trouble = ""
-            try:
-                if value := condition():
-                    return value
-            except (AssertionError, BrowserError) as error:
-                trouble = str(error)
-            if time.monotonic() > end:
-                raise AssertionError(trouble or why or f"not true after {timeout:g} s")
-            pause.wait(0.03)
+        return until(condition, timeout, why, (AssertionError, BrowserError))
 
     def find(self, role: Role, name: Name = None, *inside: tuple[Role, Name]) -> Thing:
         """Wait for the only thing of a role and name.

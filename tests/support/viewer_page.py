@@ -24,6 +24,7 @@ from urllib.parse import urlsplit
 
 import numpy as np
 import numpy.typing as npt
+from patience import patience
 from PIL import Image
 from recorded_page import RecordedPage
 from user import User
@@ -100,7 +101,7 @@ class ViewerPage:
         self.user = User(page, finger)
         self.url = url
         self.expects_errors = False
-        page.wait_for(
+        self.wait_for(
             "__viserMutable.canvas && __viserMutable.scene && "
             "!__viserMutable.firstMessageBatch",
             timeout=30.0,
@@ -111,7 +112,7 @@ class ViewerPage:
 
     def wait_for(self, condition: str, timeout: float = 10.0) -> None:
         """Wait until a JavaScript expression is true."""
-        self.page.wait_for(condition, timeout)
+        self.page.wait_for(condition, patience(timeout))
 
     def wait_for_frames(self) -> None:
         """Ask for a picture and wait until two frames have been drawn."""
@@ -120,7 +121,7 @@ class ViewerPage:
     def wait_for_nodes(self, *names: str, timeout: float = 20.0) -> None:
         """Wait until scene nodes exist in three.js and have been drawn."""
         wanted = json.dumps(names)
-        self.page.wait_for(
+        self.wait_for(
             f"{wanted}.every(n => n in __viserSceneTree.getState()"
             " && __viserMutable.nodeRefFromName[n])",
             timeout,
@@ -129,7 +130,7 @@ class ViewerPage:
 
     def wait_until_drawn(self, timeout: float = 10.0) -> None:
         """Wait until every pose that has reached the page is in the picture."""
-        self.page.wait_for(
+        self.wait_for(
             # Hidden labels have a pose but, until they are shown, no object to pose.
             "__viserMutable.messageQueue.length === 0 && "
             "Object.entries(__viserMutable.nodePoseData)"
@@ -148,9 +149,7 @@ class ViewerPage:
             float(T_parent_node[row, col]) for col in range(4) for row in range(4)
         ]
         pose = self._pose_script(name, parent)
-        self.page.wait_for(
-            f"{pose}.every((v, i) => Math.abs(v - {wanted}[i]) < {atol})"
-        )
+        self.wait_for(f"{pose}.every((v, i) => Math.abs(v - {wanted}[i]) < {atol})")
         self.wait_for_frames()
 
     # Looking.

@@ -12,6 +12,7 @@ import yaml
 from ax_tree import Thing, row_label
 from desk import Desk
 from judge import changed, drawn_around
+from patience import patience
 from robots import LONG_NAME, SLIDE
 
 from sambot_viz.session.signals import connect
@@ -219,7 +220,7 @@ def test_task_17_two_joints_of_a_humanoid(t: Desk) -> None:
     for joint, value in (("left_elbow_joint", 0.7), ("right_knee_joint", -0.4)):
         enter(t, joint, str(value))
         user.until(lambda j=joint, v=value: t.viz.joint_positions[j] == v)
-    assert time.monotonic() - start < 10.0
+    assert time.monotonic() - start < patience(20.0)
 
 
 def test_task_18_one_joint_of_three_hundred(c: Desk) -> None:
@@ -235,7 +236,7 @@ def test_task_18_one_joint_of_three_hundred(c: Desk) -> None:
     user.until(
         lambda: user.rows("Joints")[-1:] == [name] and len(user.rows("Joints")) < 4
     )
-    assert time.monotonic() - start < AT_ONCE
+    assert time.monotonic() - start < patience(20.0)
     assert user.find("searchbox", "Search joints").value == "joint_257"
     enter(c, name, "0.5")
     shows(c, name, 0.5)

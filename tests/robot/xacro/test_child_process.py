@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from patience import patience
 
 from sambot_viz.robot.xacro.child_result import ExpansionError
 from sambot_viz.robot.xacro.expand import Limits, expand_model
@@ -125,7 +126,7 @@ def test_the_child_ends_when_its_parent_is_killed(text: str, tmp_path: Path) -> 
         assert parent.stdout is not None
         child = int(parent.stdout.readline())
         parent.kill()
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + patience(10.0)
     while is_running(child):
         assert time.monotonic() < deadline, "the child goes on without its parent"
         time.sleep(0.02)
