@@ -22,8 +22,8 @@ rows.take("session", "rows", {
       { id: "a", in: "", kind: "float", value: 0 },
       { id: "b", in: "", kind: "float", value: 0 },
       { id: "c", in: "", kind: "color", value: [0, 0, 0] },
-      { id: "do", in: "", kind: "action" },
-      { id: "p/unfold", in: "", kind: "action" },
+      { id: "do", in: "", kind: "command" },
+      { id: "p/unfold", in: "", kind: "command" },
     ],
   },
 });
@@ -116,7 +116,7 @@ test("rows of another connection than before show that it was interrupted, howev
     textContent: JSON.stringify({
       from,
       base,
-      panels: { q: [{ id: "q", in: "", kind: "fact", value: from }] },
+      panels: { q: [{ id: "q", in: "", kind: "readonly", value: from }] },
     }),
   });
   /** @type {any[]} */

@@ -98,7 +98,7 @@ test("of two steps in quick succession the second waits for the first", () => {
       panels: {
         displays: [
           ...ids.map((id) => display(id)),
-          { id: "displays/move", in: "", kind: "action" },
+          { id: "displays/move", in: "", kind: "command" },
         ],
       },
     });

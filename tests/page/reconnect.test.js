@@ -48,36 +48,31 @@ const joint = (name, value, more = {}) => ({
   ...more,
 });
 /** @param {string} id @param {any} value */
-const names = (id, value) => ({ id, in: "", kind: "names", value });
+const data = (id, value) => ({ id, in: "", kind: "data", value });
 const static_ = (/** @type {string} */ name) => ({
   id: `static/${name}`,
   in: "",
-  kind: "fact",
+  kind: "readonly",
   name,
   static: true,
 });
 const again = (/** @type {any} */ first = {}, still = true) => [
-  names("joints/first", first),
-  { ...names("joints/again", still), kind: "action" },
+  data("joints/first", first),
+  data("joints/untouched", still),
 ];
 
-/**
- * A program with these rows.
- * @param {string} session
- * @param {Record<string, any[]>} panels
- * @param {any} [file]
- */
+/** A program with these rows. @param {string} session @param {Record<string, any[]>} panels @param {any} [file] */
 function start(session, panels, file = {}) {
   const none = { displays: [], joints: [], joints_again: [], poses: [] };
   rows.take("session", "rows", {
     base: 0,
-    panels: { ...none, names: [names("names/session", { id: session })], ...panels },
+    panels: { ...none, names: [data("names/session", { id: session })], ...panels },
   });
   const state = { name: "a.rviz", own: true, folder: "/f", ...file };
   rows.take("browser", "rows", {
     base: 0,
     panels: {
-      files: [names("file/state", state)],
+      files: [data("file/state", state)],
       frames: panels.frames || [],
       selection: panels.selection || [],
     },
@@ -139,12 +134,16 @@ test("what was lost is said, and only that", () => {
   const selection = [{ id: "selected/link/base", in: "", kind: "group" }];
   start(
     "1",
-    { frames: ["x", "y", "z"].map(static_), selection, poses: [names("poses", ["up", "down"])] },
+    {
+      frames: ["x", "y", "z"].map(static_),
+      selection,
+      poses: [data("poses/names", ["up", "down"])],
+    },
     { modified: true },
   );
   const before = remember();
   assert.deepEqual(lost(before), []);
-  start("2", { frames: [static_("z")], poses: [names("poses", ["down"])] });
+  start("2", { frames: [static_("z")], poses: [data("poses/names", ["down"])] });
   assert.deepEqual(lost(before), [
     "the static transforms of x and y",
     "the pose up",
@@ -154,7 +153,7 @@ test("what was lost is said, and only that", () => {
   // A connection that was interrupted, to the same program.
   start(
     "1",
-    { frames: ["x", "y", "z"].map(static_), poses: [names("poses", ["up", "down"])] },
+    { frames: ["x", "y", "z"].map(static_), poses: [data("poses/names", ["up", "down"])] },
     { modified: true },
   );
   assert.deepEqual(lost(before), ["the selection"]);
@@ -166,7 +165,7 @@ test("the view comes back with all its numbers, or with what the camera does not
       { id: "view/type", in: "", kind: "enum", value: type },
       ...more.map(([id, kind, value]) => ({ id, in: "view", kind, value })),
       { id: "view/:follow", in: "view", kind: "bool", value: true },
-      { id: "views/again", in: "", kind: "action" },
+      { id: "views/restore", in: "", kind: "command" },
     ],
   });
   start(
@@ -187,8 +186,8 @@ test("the view comes back with all its numbers, or with what the camera does not
   assert.deepEqual(
     received.map(([id, [type, values]]) => [id, type, JSON.parse(values)]),
     [
-      ["views/again", "Orbit", { "view/Yaw": 2, ...known }],
-      ["views/again", "Orbit", known],
+      ["views/restore", "Orbit", { "view/Yaw": 2, ...known }],
+      ["views/restore", "Orbit", known],
     ],
   );
 });

@@ -146,8 +146,8 @@ test("who watches cannot set what others see, and their own rows they can", () =
     base: 1,
     panels: {
       views: [
-        { id: "mine", in: "", kind: "float", value: 1, own: true },
-        { id: "fact", in: "", kind: "fact", fixed: true, value: "x" },
+        { id: "mine", in: "", kind: "float", value: 1, local: true },
+        { id: "fact", in: "", kind: "readonly", fixed: true, value: "x" },
       ],
     },
   });

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 from inside import session_of
-from panel_rows import edit, rows_of
+from panel_rows import commands_of, data_of, edit, rows_of
 
 from sambot_viz import SambotVizError, Visualizer
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
+from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.displays.new_displays import NewDisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
 from sambot_viz.session import Session
@@ -53,37 +53,34 @@ class Displays:
     def __init__(self, session: Session) -> None:
         self.remade: list[Panel] = []
         self.panel = DisplaysPanel(session, self.remade.append)
-        self.new = NewDisplaysPanel(session, self.panel, self.remade.append)
+        self.new = DisplayCommands(session, self.panel, self.remade.append)
 
     def all(self) -> dict[str, Row]:
         """Every row by its id, in the order of the page."""
-        return rows_of(self.panel) | rows_of(self.new)
+        return rows_of(self.panel)
 
     def named(self, *names: str) -> Row:
         """The row at a path of names, such as "Grid", "Cell Size"."""
         found: Row | None = None
         for name in names:
-            above = "" if found is None else found.id
+            parent = "" if found is None else found.id
             found = next(
                 row
                 for row in self.all().values()
-                if row.above == above and row.name == name
+                if row.parent == parent and row.name == name
             )
         assert found is not None
         return found
 
     def below(self, *names: str) -> list[str]:
         """The names of the rows right below a row; of all at the top without names."""
-        above = self.named(*names).id if names else ""
-        return [
-            row.name
-            for row in self.all().values()
-            if row.above == above and row.kind not in ("action", "names")
-        ]
+        parent = self.named(*names).id if names else ""
+        return [row.name for row in self.all().values() if row.parent == parent]
 
-    def set(self, row_id: str, value: object) -> None:
-        """What a browser does to a row."""
-        edit(self.new if row_id in rows_of(self.new) else self.panel, row_id, value)
+    def set(self, item_id: str, value: object) -> None:
+        """What a browser does to a row, or calls."""
+        new = item_id in commands_of(self.new)
+        edit(self.new if new else self.panel, item_id, value)
 
     def change(self, *names: str, to: object) -> None:
         """Set the row at a path of names."""
@@ -223,7 +220,7 @@ def test_bad_rows_of_a_status_come_first(displays: Displays) -> None:
     levels = [
         row.level
         for row in displays.all().values()
-        if row.above == displays.named("Robot", "Status").id
+        if row.parent == displays.named("Robot", "Status").id
     ]
     assert levels == sorted(levels, key=["error", "warn", "ok"].index)
 
@@ -309,7 +306,7 @@ def test_a_display_is_added_and_the_page_learns_which_it_is(
 ) -> None:
     displays.set("displays/add", ["rviz_default_plugins/Axes", "", "mark"])
     assert displays.order()[-1] == "Axes"
-    made = displays.all()["displays/made"].value
+    made = data_of(displays.new)["displays/made"]
     assert made == {"row": displays.named("Axes").id, "mark": "mark"}
     displays.set("displays/add", ["rviz_common/Group", " My group ", "mark"])
     assert displays.order()[-1] == "My group"
@@ -360,7 +357,7 @@ def test_a_display_that_is_not_shown_says_so_and_can_be_arranged(
 ) -> None:
     radar = displays.named("Radar")
     assert radar.level == "info"
-    (note,) = [row for row in displays.all().values() if row.above == radar.id]
+    (note,) = [row for row in displays.all().values() if row.parent == radar.id]
     assert note.value.startswith("Not shown: this version does not know this type.")
     displays.change("Radar", to=False)
     displays.act("rename", "Radar", "My radar")

@@ -9,12 +9,11 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from panel_rows import edit, rows_of
+from panel_rows import edit
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import FrameError, UsageError
 from sambot_viz.frames import Transform
-from sambot_viz.panels import gate
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
@@ -38,9 +37,7 @@ def drive(session: Session) -> DriveControl:
 
 
 def send(panel: DrivePanel, row_id: str, value: Any) -> Any:
-    row = rows_of(panel)[row_id]
-    assert row.set is not None
-    return row.set(gate.checked(row, value))
+    return edit(panel, row_id, value)
 
 
 def speeds(drive: DriveControl) -> tuple[float, float]:

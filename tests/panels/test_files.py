@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 from inside import files_of, session_of
+from panel_rows import edit
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
 from sambot_viz.export.pages import ask_page
-from sambot_viz.panels import gate
-from sambot_viz.panels.displays.expanded import keep_expanded
 from sambot_viz.panels.files import FilesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
+from sambot_viz.panels.unfolded import keep_expanded
 from sambot_viz.session import Session, config_file
 
 CONFIG = """Visualization Manager:
@@ -52,17 +52,14 @@ class Page:
         self.remade(self.panel)
 
     def remade(self, panel: Panel) -> None:
-        self.rows = {row.id: row for row in panel.rows()}
+        self.data = {data.id: data.json() for data in panel.data()}
 
-    def act(self, row_id: str, *values: Any) -> None:
-        row: Row = self.rows[row_id]
-        value = gate.checked(row, list(values))
-        assert row.set is not None
-        row.set(value)
+    def act(self, command_id: str, *values: Any) -> None:
+        edit(self.panel, command_id, list(values))
         self.remade(self.panel)
 
-    def value(self, row_id: str) -> Any:
-        return self.rows[row_id].json().get("value")
+    def value(self, data_id: str) -> Any:
+        return self.data[data_id].get("value")
 
 
 @pytest.fixture
@@ -290,7 +287,7 @@ def test_a_visitor_may_download_and_uses_no_disk_of_the_server(
     visitor = Page(viz, session_of(viz), disk=False)
     state = visitor.value("file/state")
     assert state["private"] and "folder" not in state
-    assert set(visitor.rows) == {
+    assert {item.id for item in visitor.panel.items()} == {
         "file/state",
         "file/download",
         "file/picture",

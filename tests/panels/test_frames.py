@@ -99,12 +99,12 @@ def test_values_follow_motions_while_the_panel_is_on_the_screen(
 ) -> None:
     ask(panel, "base_link", LEFT)
     assert panel.values() == {}
-    edit(panel, "frames/shown", [True])
+    edit(panel, "frames/show", [True])
     before = panel.values()["frames/rpy"]
     viz.set_joint_positions({"drivewhl_l_joint": 1.0})
     assert panel.values()["frames/rpy"] != before
     assert set(panel.values()) <= set(rows_of(panel))
-    edit(panel, "frames/shown", [False])
+    edit(panel, "frames/show", [False])
     assert panel.values() == {}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.panels.joints.joint_groups import JointGroup, joint_groups
+from sambot_viz.panels.joints.joint_rows import JointGroup, joint_groups
 
 ARMS = [f"arm_{side}_{i}_joint" for side in ("left", "right") for i in range(1, 8)]
 LEGS = [f"leg_{side}_{i}_joint" for side in ("left", "right") for i in range(1, 7)]

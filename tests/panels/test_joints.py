@@ -11,12 +11,12 @@ from typing import Any
 import pytest
 import yaml
 from inside import session_of
-from panel_rows import edit, row_named, rows_of
+from panel_rows import data_of, edit, row_named, rows_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
-from sambot_viz.panels import gate
-from sambot_viz.panels.joints.joints import FOLLOWERS, SKIPPED, JointsPanel
+from sambot_viz.panels.joints.joint_rows import FOLLOWERS, SKIPPED
+from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
@@ -60,13 +60,11 @@ def panel(session: Session) -> JointsPanel:
 
 
 def answer(panel: JointsPanel, row_id: str, value: Any) -> Any:
-    row = rows_of(panel)[row_id]
-    assert row.set is not None
-    return row.set(gate.checked(row, value))
+    return edit(panel, row_id, value)
 
 
-def names_below(panel: JointsPanel, above: str) -> list[str]:
-    return [row.name for row in panel.rows() if row.above == above]
+def names_below(panel: JointsPanel, parent: str) -> list[str]:
+    return [row.name for row in panel.rows() if row.parent == parent]
 
 
 def test_a_joint_has_its_value_unit_limits_and_what_it_joins(
@@ -215,7 +213,7 @@ def test_a_joint_that_follows_is_read_only_and_says_how(open_robot: Open) -> Non
         joint("b", "revolute", limit(-3, 3) + mimic),
     )
     row = row_named(panel, "b")
-    assert row.set is None and row.above == FOLLOWERS
+    assert row.set is None and row.parent == FOLLOWERS
     assert row.extra == {"follows": "j/a", "times": -2.0, "plus": 0.5}
     edit(panel, "j/a", 0.25)
     assert panel.values()["j/b"] == 0.0
@@ -238,7 +236,7 @@ def test_a_joint_over_its_limit_is_named(open_robot: Open) -> None:
         joint("b", "revolute", limit(-1, 1) + over),
     )
     edit(panel, "j/a", 0.75)
-    assert rows_of(panel)["joints/over"].value == ["b"]
+    assert data_of(panel)["joints/over"] == ["b"]
     edit(panel, "j/a", 0.25)
     assert panel.values()["joints/over"] == []
 
@@ -258,7 +256,7 @@ def test_all_joints_of_a_large_robot_are_there_in_groups(open_robot: Open) -> No
     groups = {row.id: row for row in rows if row.kind == "group"}
     sliders = [row for row in rows if row.kind == "slider"]
     assert len(sliders) == 300
-    assert {row.above for row in sliders} == set(groups)
+    assert {row.parent for row in sliders} == set(groups)
     assert all(group.expanded for group in groups.values())
 
 

@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 from inside import session_of
+from panel_rows import data_of, edit
 
 from sambot_viz import UsageError, Visualizer
-from sambot_viz.panels import gate
 from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.link.link import LinkPanel
-from sambot_viz.panels.row import Answer, Row
+from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.document.switches import switches
@@ -40,18 +40,13 @@ class Links:
             lambda panel: None,
         )
 
-    def row(self, row_id: str) -> Row:
-        return next(row for row in self.panel.rows() if row.id == row_id)
-
-    def act(self, row_id: str, *sent: Any) -> Any:
-        row = self.row(row_id)
+    def act(self, command_id: str, *sent: Any) -> Any:
         with self.session.edits.acting(self.browser.client_id):
-            assert row.set is not None
-            return row.set(gate.checked(row, list(sent)))
+            return edit(self.panel, command_id, list(sent))
 
     def copy(self) -> Pairs:
         self.act("link/copy")
-        parts: Pairs = self.row("link/made").value["parts"]
+        parts: Pairs = data_of(self.panel)["link/made"]["parts"]
         return parts
 
     def open(self, parts: Pairs) -> str:
@@ -283,7 +278,7 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
         client.wait_until(lambda: bool(session.browsers))
         (browser,) = session.browsers.values()
         links = Links(session, browser)
-        assert all(row.own for row in links.panel.rows() if row.kind == "action")
+        assert all(command.client_local for command in links.panel.commands())
         only_view = [*ORBIT, *END]
         assert links.open(only_view) == "Opened the link"
         before = state(links)

@@ -8,12 +8,11 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from panel_rows import edit, rows_of
+from panel_rows import data_of, edit
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import JointError, UsageError
-from sambot_viz.panels import gate
-from sambot_viz.panels.joints.poses import PosesPanel
+from sambot_viz.panels.joints.joints import PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
@@ -43,13 +42,11 @@ def panel(session: Session, remade: list[Panel]) -> PosesPanel:
 
 
 def send(panel: PosesPanel, row_id: str, *values: Any) -> Any:
-    row = rows_of(panel)[row_id]
-    assert row.set is not None
-    return row.set(gate.checked(row, [*values]))
+    return edit(panel, row_id, [*values])
 
 
 def names(panel: PosesPanel) -> list[str]:
-    return rows_of(panel)["poses"].value
+    return data_of(panel)["poses/names"]
 
 
 def test_a_pose_is_kept_in_the_file_that_is_named_when_it_is_saved(
@@ -58,7 +55,7 @@ def test_a_pose_is_kept_in_the_file_that_is_named_when_it_is_saved(
     viz.set_joint_positions({LEFT: 1.25})
     assert send(panel, "poses/save", " half ") == Answer(f"Saved pose 'half' in {path}")
     assert names(panel) == ["half"] and remade == [panel]
-    assert rows_of(panel)["poses"].help == f"Kept in {path}"
+    assert data_of(panel)["poses/place"] == f"Kept in {path}."
     with Visualizer(port=0, poses=path) as again:
         other = PosesPanel(session_of(again), remade.append)
         send(other, "poses/use", "half")
@@ -127,7 +124,7 @@ def test_a_visitor_keeps_poses_in_memory_only(
 ) -> None:
     session.poses = session.poses.in_memory()
     panel = PosesPanel(session, lambda panel: None)
-    assert rows_of(panel)["poses"].help == "Kept in memory only."
+    assert data_of(panel)["poses/place"] == "Kept in memory only."
     assert send(panel, "poses/save", "half") == Answer(
         "Saved pose 'half' in memory only"
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from panel_rows import edit, rows_of
+from panel_rows import data_of, edit, rows_of
 
 from sambot_viz import Problem
 from sambot_viz.panels.panel import Panel
@@ -30,15 +30,15 @@ def panel(session: Session, remade: list[Panel]) -> ProblemsPanel:
 
 
 def listed(panel: ProblemsPanel) -> list[Row]:
-    return [row for row in panel.rows() if not row.above and row.kind == "note"]
+    return [row for row in panel.rows() if not row.parent and row.kind == "note"]
 
 
 def below(panel: ProblemsPanel, row: Row) -> list[Row]:
-    return [found for found in rows_of(panel).values() if found.above == row.id]
+    return [found for found in rows_of(panel).values() if found.parent == row.id]
 
 
 def count(panel: ProblemsPanel) -> Any:
-    return rows_of(panel)["problems/count"].value
+    return data_of(panel)["problems/count"]
 
 
 def unfold(panel: ProblemsPanel, row: Row) -> None:

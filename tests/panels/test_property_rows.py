@@ -85,7 +85,7 @@ def test_setting_a_row_changes_the_property_at_its_path() -> None:
     item = Item(style)
     rows = item.rows()
     assert rows["Style"].options == ("Lines", "Billboards")
-    assert rows["Style/Width"].above == rows["Style"].id
+    assert rows["Style/Width"].parent == rows["Style"].id
     for path, value in (("Style", "Billboards"), ("Style/Width", 0.2)):
         set_value = rows[path].set
         assert set_value is not None

@@ -32,7 +32,7 @@ def panel(session: Session, browser: Browser) -> SelectionPanel:
 
 
 def facts(panel: SelectionPanel) -> dict[str, str]:
-    return {row.name: row.value for row in panel.rows() if row.kind == "fact"}
+    return {row.name: row.value for row in panel.rows() if row.kind == "readonly"}
 
 
 def test_nothing_is_selected_at_first(panel: SelectionPanel) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from panel_rows import edit, rows_of
+from panel_rows import data_of, edit, rows_of
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
@@ -21,12 +21,11 @@ def panel(session: Session, browser: Browser) -> ToolsPanel:
 
 def current(panel: ToolsPanel) -> list[str]:
     """The tools that are shown as pressed."""
-    return [row.name for row in panel.rows() if row.value is True]
+    return [tool["name"] for tool in data_of(panel)["tools/list"] if tool["current"]]
 
 
 def test_there_is_a_button_and_a_key_for_each_tool(panel: ToolsPanel) -> None:
-    rows = rows_of(panel)
-    keys = {name: (rows[f"tool/{name}"].extra or {})["key"] for name in TOOLS}
+    keys = {tool["name"]: tool["key"] for tool in data_of(panel)["tools/list"]}
     assert keys == dict(zip(TOOLS, "imscn", strict=True))
 
 
@@ -35,8 +34,8 @@ def test_there_is_a_button_and_a_key_for_each_tool(panel: ToolsPanel) -> None:
 def test_a_button_always_chooses_its_tool(
     panel: ToolsPanel, first: str, second: str
 ) -> None:
-    edit(panel, f"tool/{first}", [])
-    edit(panel, f"tool/{second}", [])
+    edit(panel, "tools/choose", [first])
+    edit(panel, "tools/choose", [second])
     assert current(panel) == [second]
 
 
@@ -46,33 +45,35 @@ def test_a_key_chooses_its_tool_and_leaves_it_again(
     panel: ToolsPanel, first: str, second: str
 ) -> None:
     default = current(panel)
-    edit(panel, f"tool/{first}", [])
+    edit(panel, "tools/choose", [first])
     edit(panel, "tools/press", [second])
     assert current(panel) == (default if first == second else [second])
 
 
 def test_escape_goes_back_to_the_default_tool(panel: ToolsPanel) -> None:
     default = current(panel)
-    edit(panel, "tool/Measure", [])
+    edit(panel, "tools/choose", ["Measure"])
     edit(panel, "tools/escape", [])
     assert current(panel) == default
 
 
 def test_the_hint_is_that_of_the_tool(panel: ToolsPanel) -> None:
-    edit(panel, "tool/Select", [])
-    assert rows_of(panel)["tools/hint"].value == rows_of(panel)["tool/Select"].help
+    edit(panel, "tools/choose", ["Select"])
+    data = data_of(panel)
+    (select,) = (tool for tool in data["tools/list"] if tool["name"] == "Select")
+    assert data["tools/hint"]["text"] == select["help"]
 
 
 def test_fingers_have_a_hint_of_their_own(panel: ToolsPanel) -> None:
-    rows = rows_of(panel)
-    assert "Left" in rows["tools/hint"].value
-    assert (rows["tools/hint"].extra or {})["touch"].startswith("One finger")
+    hint = data_of(panel)["tools/hint"]
+    assert "Left" in hint["text"]
+    assert hint["touch"].startswith("One finger")
 
 
 def test_what_is_selected_is_named(panel: ToolsPanel, browser: Browser) -> None:
-    assert rows_of(panel)["tools/selected"].value == []
+    assert data_of(panel)["tools/selected"] == []
     browser.tools.select({Selectable("link", "base_link")}, None)
-    assert rows_of(panel)["tools/selected"].value == ["base_link"]
+    assert data_of(panel)["tools/selected"] == ["base_link"]
 
 
 def test_there_is_no_such_tool(panel: ToolsPanel) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from panel_rows import edit, row_named, rows_of
+from panel_rows import data_of, edit, row_named, rows_of
 
 from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
@@ -27,7 +27,7 @@ def test_the_numbers_are_those_of_the_current_view(panel: ViewsPanel) -> None:
     rows = rows_of(panel)
     assert rows["view"].name == "Current View"
     assert rows["view"].value == ORBIT
-    assert rows["view/Distance"].above == "view"
+    assert rows["view/Distance"].parent == "view"
     edit(panel, "view/Distance", 2.5)
     edit(panel, "view/Focal Point", [0.1, 0.0, 0.3])
     rows = rows_of(panel)
@@ -47,7 +47,7 @@ def test_another_type_has_its_own_numbers(panel: ViewsPanel) -> None:
     assert rows["view/type"].value == ABOVE
     assert "view/Scale" in rows
     assert "view/Distance" not in rows
-    assert rows["view/shown"].value["kind"] == "TopDownOrtho"
+    assert data_of(panel)["view/shown"]["kind"] == "TopDownOrtho"
 
 
 def test_zero_goes_back_to_where_rviz_begins(
@@ -68,7 +68,7 @@ def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
         "view/Angle": 0.5,
     }
     with session.edits.acting(browser.client_id):
-        edit(panel, "views/again", [ABOVE, json.dumps(wanted)])
+        edit(panel, "views/restore", [ABOVE, json.dumps(wanted)])
     rows = rows_of(panel)
     assert rows["view/type"].value == ABOVE
     assert {row_id: rows[row_id].value for row_id in wanted} == wanted
@@ -80,13 +80,13 @@ def test_a_view_that_cannot_be_read_changes_nothing(
     panel: ViewsPanel, values: str
 ) -> None:
     before = rows_of(panel)
-    edit(panel, "views/again", ["no type", values])
+    edit(panel, "views/restore", ["no type", values])
     assert rows_of(panel) == before
 
 
 def test_a_number_of_a_page_is_checked_as_if_it_were_typed(panel: ViewsPanel) -> None:
     with pytest.raises(UsageError, match="its limits are"):
-        edit(panel, "views/again", [ORBIT, '{"view/Pitch": 2}'])
+        edit(panel, "views/restore", [ORBIT, '{"view/Pitch": 2}'])
 
 
 def test_a_view_is_saved_renamed_used_and_removed(panel: ViewsPanel) -> None:
@@ -113,7 +113,7 @@ def test_a_saved_view_needs_a_name(panel: ViewsPanel) -> None:
 
 
 def test_the_page_is_told_what_its_mouse_has_to_know(panel: ViewsPanel) -> None:
-    assert rows_of(panel)["view/shown"].value == {
+    assert data_of(panel)["view/shown"] == {
         "kind": "Orbit",
         "focalSize": 0.05,
         "focalFixed": True,

@@ -117,9 +117,9 @@ def send_everything(client: ProtocolClient, outside: Path) -> None:
     ]
     kinds = {row_id: row["kind"] for row_id, row in client.rows.items()}
     for action in ("save", "save-as", "list", "open", "download"):
-        kinds[f"file/{action}"] = "action"
+        kinds[f"file/{action}"] = "command"
     for row_id, kind in kinds.items():
-        if kind == "action" and not row_id.startswith(("edit/", "file/picture")):
+        if kind == "command" and not row_id.startswith(("edit/", "file/picture")):
             for values in ([], [True], [[]]):
                 client.act(row_id, *values)
             for name in names:

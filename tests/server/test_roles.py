@@ -87,7 +87,7 @@ def other_value(row: Any) -> Any:
 
 
 ARGUMENTS: list[list[Any]] = [[], ["x"], ["x", "y"], ["x", "", 0], [[]], [[], []]]
-"""What actions take, of all lengths; who only watches is refused before that counts."""
+"""What commands take, of all lengths; a viewer is refused before that counts."""
 
 
 def test_nothing_that_a_watcher_sends_changes_what_others_see(
@@ -98,25 +98,30 @@ def test_nothing_that_a_watcher_sends_changes_what_others_see(
 ) -> None:
     settle(guest)
     before = everything(viz, session)
-    rows = [row for row in guest.rows.values() if not row.get("fixed")]
-    shared = [row for row in rows if not row.get("own")]
+    rows = [
+        row
+        for row in guest.rows.values()
+        if not row.get("fixed") and row["kind"] != "data"
+    ]
+    shared = [row for row in rows if not row.get("local")]
     assert len(shared) > 50 and len(rows) - len(shared) > 20
     for row in shared:
-        if row["kind"] != "action":
+        if row["kind"] != "command":
             guest.edit(row["id"], other_value(row))
         else:
             for values in ARGUMENTS:
                 guest.act(row["id"], *values)
     # Their own rows they may set: the view, tools, the frames they look from.
     for row in rows:
-        if row.get("own") and row["kind"] != "action":
+        if row.get("local") and row["kind"] != "command":
             guest.edit(row["id"], other_value(row))
-    for tool in ("tool/Select", "tool/Measure"):
-        guest.act(tool)
+    for tool in ("Select", "Measure"):
+        guest.act("tools/choose", tool)
     guest.act("tools/zero")
     settle(guest)
     assert everything(viz, session) == before
-    assert guest.row("tool/Measure")["value"] is True
+    tools = guest.row("tools/list")["value"]
+    assert [tool["name"] for tool in tools if tool["current"]] == ["Measure"]
 
 
 def test_a_refused_edit_is_answered_in_its_own_browser(

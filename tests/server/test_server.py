@@ -208,9 +208,9 @@ def test_a_private_session_changes_no_file_of_poses(
         first, second = (protocol(viz.viser.get_port()) for _ in range(2))
         for client in (first, second):
             client.wait_until(lambda c=client: "poses/save" in c.rows)
-            assert client.row("poses")["value"] == ["given"]
+            assert client.row("poses/names")["value"] == ["given"]
         first.act("poses/save", "of a visitor")
-        first.wait_until(lambda: "of a visitor" in first.row("poses")["value"])
+        first.wait_until(lambda: "of a visitor" in first.row("poses/names")["value"])
         second.settle(viz.viser)
         assert "of a visitor" not in str(second.messages)
     assert poses.read_text() == before

@@ -111,7 +111,7 @@ def test_the_event_loop_goes_on_while_a_session_is_busy(
             client.edit(client.id_of("joints", JOINT), 0.5)
             client.act("joints/center")
             client.send_camera()
-            client.act("tool/Measure")
+            client.act("tools/choose", "Measure")
             client.send(
                 "ScenePointerMessage",
                 event_type="click",

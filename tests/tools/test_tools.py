@@ -97,7 +97,7 @@ class Browser:
 
     def choose(self, label: str) -> None:
         """Press the button of a tool."""
-        self.act(f"tool/{label}")
+        self.act("tools/choose", label)
 
     @property
     def tools(self) -> ToolControl:

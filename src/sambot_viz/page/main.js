@@ -25,7 +25,8 @@ const start = () => {
   listenToKeys({ tools: toolKeys, mouse: mousePlace, act, hide: togglePanels, cancelPress });
   const hovering = newGesture();
   followMouse({
-    wantsHover: () => rows.children("panel:tools").some((id) => rows.get(id)?.hover),
+    wantsHover: () =>
+      Boolean(rows.data("tools/list")?.some((/** @type {any} */ tool) => tool.hover)),
     // Of the places that wait, only the last one counts.
     hover: (place) => send(HOVER, place, hovering),
     rightClick: () => act("tools/right_click"),

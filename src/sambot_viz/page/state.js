@@ -70,6 +70,18 @@ export function useRow(key) {
   return rows.get(key);
 }
 
+/** Follow data in a component. @param {string} id */
+export function useData(id) {
+  useRow(id);
+  return rows.data(id);
+}
+
+/** Follow whether a command can be called. @param {string} id */
+export function useCommand(id) {
+  useRow(id);
+  return rows.can(id);
+}
+
 /** Call a function when the page has been drawn, and what it returns at the end.
  * @param {() => void | (() => void)} effect @param {any[]} of */
 export const useAfter = (effect, of) => useEffect(effect, of);

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.files import AskPage, Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
 from sambot_viz.panels.link.link import LinkPanel
-from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.people import OwnRolePanel
 from sambot_viz.panels.publisher import Publisher
-from sambot_viz.panels.row import Answer, Json, Level, Row
+from sambot_viz.panels.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
+from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
@@ -77,9 +77,9 @@ class BrowserPanels:
         """Follow the browser no longer."""
         self._publisher.close()
 
-    def row(self, row_id: str) -> Row | None:
-        """A row of this browser."""
-        return self._publisher.row(row_id)
+    def item(self, item_id: str) -> Item | None:
+        """Return a row, data or command of this browser."""
+        return self._publisher.item(item_id)
 
     def say(self, sentence: str, level: Level) -> None:
         """Show a sentence in this browser."""
@@ -89,10 +89,9 @@ class BrowserPanels:
     def _remake(self, panel: Panel) -> None:
         self._publisher.remake(panel)
 
-    def answer(self, row_id: str, sentence: str, row: Row | None) -> None:
+    def answer(self, item_id: str, sentence: str) -> None:
         """Say why a value was refused; the page shows the value that holds again."""
-        del row
-        self._notices.say(sentence, "error", row_id)
+        self._notices.say(sentence, "error", item_id)
         self._publisher.remake(self._notices)
 
     def give(self, answer: Answer) -> None:
@@ -124,6 +123,6 @@ class NoticePanel(Panel):
             "copy": [copy[at : at + _PART] for at in range(0, len(copy), _PART)],
         }
 
-    def rows(self) -> Sequence[Row]:
-        """The last notice."""
-        return [Row("notice", "", "names", value=self._notice)]
+    def data(self) -> Sequence[Data]:
+        """Return the last notice."""
+        return [Data("notice", self._notice)]

@@ -7,12 +7,13 @@ Keys are those of a number pad, because viser's camera has WASD, QE and the arro
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
 from sambot_viz.drive.differential import WheelPair
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.command import NUMBER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Kind, Row
 from sambot_viz.session import Session
@@ -25,7 +26,6 @@ KEYS = {"8": (0.1, 0.0), "2": (-0.1, 0.0), "4": (0.0, 0.25), "6": (0.0, -0.25)}
 """What one press of a key adds [m/s] and [rad/s]."""
 STOP_KEY = "5"
 _POSE, _WHEELS = "drive/pose", "drive/wheels"
-_NUMBER = (int, float)
 
 
 class DrivePanel(Panel):
@@ -46,7 +46,7 @@ class DrivePanel(Panel):
         self._drive = session.motion.drive
 
     def rows(self) -> Sequence[Row]:
-        """The speeds, where the robot is, its wheels, and what can be done."""
+        """Return the speeds, where the robot is, and its wheels."""
         wheels, robot = self._drive.wheels, self._session.robot
         if wheels is None or robot is None:
             return []
@@ -54,11 +54,10 @@ class DrivePanel(Panel):
             *self._speeds(),
             *self._pose(robot.root),
             *_measures(wheels),
-            *self._actions(),
         ]
 
     def values(self) -> dict[str, Any]:
-        """The speeds, and the pose in odom."""
+        """Return the speeds, and the pose in odom."""
         drive = self._drive
         if drive.wheels is None:
             return {}
@@ -104,12 +103,6 @@ class DrivePanel(Panel):
             row_id = f"drive/{part}"
             yield _fact(row_id, _POSE, part, value[row_id], unit)
 
-    def _actions(self) -> Iterator[Row]:
-        yield _action("drive/hold", self._hold, _NUMBER, _NUMBER)
-        yield _action("drive/press", self._press, str)
-        yield _action("drive/stop", lambda _: self._drive.stop())
-        yield _action("drive/reset", lambda _: self._drive.reset())
-
     # What a hand does
 
     def _set_speed(self, row_id: str, value: float) -> Answer | None:
@@ -117,20 +110,34 @@ class DrivePanel(Panel):
         v, w = (value, self._drive.w) if linear else (self._drive.v, value)
         return self._go(v, w)
 
-    def _hold(self, speeds: tuple[float, float]) -> Answer | None:
-        """Drive a little; a button that is held says so again and again."""
-        return self._go(*speeds, seconds=HOLD)
+    def offers(self, command_id: str) -> bool:
+        """Tell whether there is a robot with two wheels."""
+        return self._drive.wheels is not None and self._session.robot is not None
 
-    def _press(self, keys: tuple[str]) -> Answer | None:
-        if keys[0] == STOP_KEY:
+    @command("drive/hold", NUMBER, NUMBER)
+    def _hold(self, v: float, w: float) -> Answer | None:
+        """Drive a little; a button that is held says so again and again."""
+        return self._go(v, w, seconds=HOLD)
+
+    @command("drive/press", TEXT)
+    def _press(self, key: str) -> Answer | None:
+        if key == STOP_KEY:
             self._drive.stop()
             return None
-        if keys[0] not in KEYS:
-            raise UsageError(f"the robot is not driven with the key '{keys[0]}'")
-        more_v, more_w = KEYS[keys[0]]
+        if key not in KEYS:
+            raise UsageError(f"the robot is not driven with the key '{key}'")
+        more_v, more_w = KEYS[key]
         # Sums of tenths, without the last digits of binary numbers.
         v, w = round(self._drive.v + more_v, 6), round(self._drive.w + more_w, 6)
         return self._go(v, w)
+
+    @command("drive/stop")
+    def _stop(self) -> None:
+        self._drive.stop()
+
+    @command("drive/reset")
+    def _reset(self) -> None:
+        self._drive.reset()
 
     def _go(self, v: float, w: float, **how_long: float) -> Answer | None:
         """Drive; from rest, see to it that the motion can be seen."""
@@ -153,13 +160,9 @@ def _measures(wheels: WheelPair) -> Iterator[Row]:
     yield _fact("drive/apart", _WHEELS, "Apart", wheels.separation, "m")
 
 
-def _fact(row_id: str, above: str, name: str, value: Any, unit: str = "") -> Row:
-    kind: Kind = "float" if unit else "fact"
-    return Row(row_id, above, kind, name, value=value, unit=unit)
-
-
-def _action(row_id: str, act: Callable[[Any], object], *takes: Any) -> Row:
-    return Row(row_id, "", "action", takes=takes, set=act)
+def _fact(row_id: str, parent: str, name: str, value: Any, unit: str = "") -> Row:
+    kind: Kind = "float" if unit else "readonly"
+    return Row(row_id, parent, kind, name, value=value, unit=unit)
 
 
 def _within(most: float, value: float) -> float:

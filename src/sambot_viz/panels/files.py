@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import (
-    Awaitable,
-    Callable,
-    Collection,
-    Iterator,
-    Mapping,
-    Sequence,
-)
+from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
 from sambot_viz.errors import ConfigError, SambotVizError, UsageError
+from sambot_viz.panels.command import FLAG, INTEGER, LIST, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.panels.row import Data, Json, Level
 from sambot_viz.robot.model import Robot
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
@@ -32,6 +26,7 @@ MakePage = Callable[[], Awaitable[bytes]]
 AskPage = Callable[[Session, Browser, str], MakePage]
 """Notes what a browser sees now, for a page with a motion: "sweep", "past" or "none";
 raises SambotVizError when there is no such motion."""
+_OF_DISK = ("file/save", "file/save-as", "file/list", "file/open")
 _UNNAMED = "robot"
 """What a picture or a page is called when there is no robot."""
 
@@ -96,16 +91,19 @@ class FilesPanel(Panel):
         self._drawing = False
         self._making = False
 
-    def rows(self) -> Sequence[Row]:
-        """The name of the file, what can be done, and the last answer."""
-        return [*self._rows()]
+    def data(self) -> Sequence[Data]:
+        """Return where the document is, the files there are, and the last answer."""
+        made = [Data("file/state", self._state()), Data("file/answer", self._answer)]
+        if self._files is not None:
+            made.append(Data("file/names", self._names))
+        return made
 
     def values(self) -> Mapping[str, Json]:
-        """Whether the document is saved: that may change with every edit."""
+        """Return whether the document is saved: that may change with every edit."""
         return {"file/state": self._state()}
 
     def _state(self) -> Json:
-        """What is known of the file; the disk is asked only for another file or robot.
+        """Return what is known of the file; only another file or robot asks the disk.
 
         This is called for every step of a slider, once for each browser.
         """
@@ -128,61 +126,17 @@ class FilesPanel(Panel):
             facts["folder"] = str(file.folder)
         return facts
 
-    def _rows(self) -> Iterator[Row]:
-        yield Row("file/state", "", "names", value=self._state())
-        yield Row(
-            "file/download", "", "action", own=True, set=lambda _: self._download()
-        )
-        yield Row(
-            "file/picture",
-            "",
-            "action",
-            "picture",
-            takes=(int, int),
-            own=True,
-            set=lambda size: self._picture(*size),
-        )
-        if (ask := self._ask_page) is not None:
-            yield Row(
-                "file/page",
-                "",
-                "action",
-                "page",
-                takes=(str,),
-                own=True,
-                set=lambda sent: self._page(ask, sent[0]),
-            )
-        yield Row("file/answer", "", "names", value=self._answer)
-        if self._files is not None:
-            yield from self._disk_rows(self._files)
+    def offers(self, command_id: str) -> bool:
+        """Tell whether this browser may use the disk, and whether pages can be made."""
+        if command_id in _OF_DISK:
+            return self._files is not None
+        return command_id != "file/page" or self._ask_page is not None
 
-    def _disk_rows(self, files: Files) -> Iterator[Row]:
-        yield Row(
-            "file/save",
-            "",
-            "action",
-            "Save",
-            takes=(list,),
-            set=lambda sent: self._save(files, None, sent[0]),
-        )
-        yield Row(
-            "file/save-as",
-            "",
-            "action",
-            "name",
-            takes=(str, bool, list),
-            set=lambda sent: self._save_as(files, *sent),
-        )
-        yield Row("file/list", "", "action", set=lambda _: self._list())
-        yield Row("file/names", "", "names", value=self._names)
-        yield Row(
-            "file/open",
-            "",
-            "action",
-            "file",
-            takes=(str,),
-            set=lambda sent: self._open(files, sent[0]),
-        )
+    @property
+    def _disk(self) -> Files:
+        if self._files is None:
+            raise UsageError("a visitor may only download")
+        return self._files
 
     def _reply(self, to: str, **content: Json) -> None:
         """Answer a dialog that waits."""
@@ -192,34 +146,39 @@ class FilesPanel(Panel):
 
     # Saving
 
-    def _save_as(
-        self, files: Files, name: str, replace: bool, unfolded: list[Json]
-    ) -> None:
+    @command("file/save", LIST, name="Save")
+    def _save_here(self, unfolded: list[Json]) -> None:
+        self._save(None, unfolded)
+
+    @command("file/save-as", TEXT, FLAG, LIST, name="Save as")
+    def _save_as(self, name: str, replace: bool, unfolded: list[Json]) -> None:
         path = self._file.path(name)
         if not replace and self._file.is_taken(path):
             self._reply("save-as", exists=path.name)
             return
-        self._save(files, path, unfolded)
+        self._save(path, unfolded)
         self._reply("save-as", done=path.name)
 
-    def _save(self, files: Files, path: Path | None, unfolded: list[Json]) -> None:
+    def _save(self, path: Path | None, unfolded: list[Json]) -> None:
         with self._session.lock:
             self._browser.view.store()
             self._keep_unfolded({row for row in unfolded if isinstance(row, str)})
             path = self._file.save(path)
-        files.saved(path)
+        self._disk.saved(path)
         self._say(f"Saved {path.name} in {path.absolute().parent}", "ok")
 
     # Opening
 
+    @command("file/list")
     def _list(self) -> None:
         self._names = self._file.names()
         self._remake(self)
 
-    def _open(self, files: Files, name: str) -> None:
+    @command("file/open", TEXT, name="Open")
+    def _open(self, name: str) -> None:
         path = self._file.listed(name)
         try:
-            files.open(self._session, path)
+            self._disk.open(self._session, path)
         except ConfigError as error:
             problem = error.problems[0]
             place = "" if problem.line is None else f"line {problem.line}: "
@@ -231,6 +190,7 @@ class FilesPanel(Panel):
 
     # To the user's own computer
 
+    @command("file/download", client_local=True)
     def _download(self) -> None:
         name = self._file.name or UNNAMED
         config = self._session.config
@@ -244,6 +204,7 @@ class FilesPanel(Panel):
         self._browser.client.send_file_download(name, content, save_immediately=True)
         self._browser.client.flush()
 
+    @command("file/picture", INTEGER, INTEGER, name="picture", client_local=True)
     def _picture(self, width: int, height: int) -> None:
         for length in (width, height):
             if not SHORTEST_SIDE <= length <= LONGEST_SIDE:
@@ -269,10 +230,13 @@ class FilesPanel(Panel):
         # The loop serves every browser and waits for no lock.
         self._session.worker.post(lambda: self._say(sentence, level))
 
-    def _page(self, ask: AskPage, motion: str) -> None:
+    @command("file/page", TEXT, name="page", client_local=True)
+    def _page(self, motion: str) -> None:
+        if self._ask_page is None:
+            raise UsageError("pages cannot be made here")
         if self._making:
             raise UsageError("a page is being made already")
-        make = ask(self._session, self._browser, motion)
+        make = self._ask_page(self._session, self._browser, motion)
         self._making = True
         self._session.worker.run_on_loop(self._make(make))
 

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from dataclasses import replace
+from functools import partial
+from typing import Any, ClassVar, TypeAlias
 
-from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.command import Command, declared_commands
+from sambot_viz.panels.row import Data, Json, Row
 from sambot_viz.session.signals import Signal
+
+Item: TypeAlias = Row | Data | Command
+"""One of the three that are sent to the page."""
 
 
 class Panel:
-    """A list of rows, made from the state of a session or of one browser.
+    """Rows, data and commands, from the state of a session or of one client.
 
     Attributes:
         name: the panel of the page that shows the rows.
@@ -23,14 +29,38 @@ class Panel:
     remade_by: Sequence[Signal[Any]] = ()
     moved_by: Sequence[Signal[Any]] = ()
     period: ClassVar[float] = 0.0
+    _declared: ClassVar[tuple[Command, ...]] = ()
+
+    def __init_subclass__(cls) -> None:
+        cls._declared = tuple(declared_commands(cls))
+
+    def items(self) -> list[Item]:
+        """Return all that the page gets now."""
+        return [*self.rows(), *self.data(), *self.commands()]
 
     def rows(self) -> Sequence[Row]:
-        """All rows in the order of the page; a row comes after the one above it."""
-        raise NotImplementedError
+        """Return all rows in the order of the page, each after its parent."""
+        return ()
+
+    def data(self) -> Sequence[Data]:
+        """Return what scripts of the page read."""
+        return ()
+
+    def commands(self) -> list[Command]:
+        """Return what the page can call at present."""
+        return [
+            replace(declared, run=partial(declared.run, self))
+            for declared in self._declared
+            if self.offers(declared.id)
+        ]
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether a declared command can be called at present."""
+        return True
 
     def values(self) -> Mapping[str, Json]:
-        """The id and value of rows that may show something else after a motion."""
+        """Return the values of rows and data that a motion may have changed, by id."""
         return {}
 
     def close(self) -> None:
-        """Nothing is asked any more."""
+        """Ask nothing more."""

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
 import viser
 
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Level, Row, own
+from sambot_viz.panels.row import Answer, Data, Level
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.roles import Person
@@ -30,8 +31,8 @@ class PeoplePanel(Panel):
         self.remade_by = (signals.people,)
         self._session = session
 
-    def rows(self) -> Sequence[Row]:
-        """One row with the numbers and names."""
+    def data(self) -> Sequence[Data]:
+        """Return how many there are, and the names of some."""
         roles = self._session.roles
         people = roles.people
         drive = [person.name for person in people.values() if person.drives]
@@ -47,7 +48,7 @@ class PeoplePanel(Panel):
             "given": given and roles.presented,
             "copy": self._session.options.session == "shared" and private,
         }
-        return [Row("people/state", "", "names", value=state)]
+        return [Data("people/state", state)]
 
 
 class OwnRolePanel(Panel):
@@ -73,8 +74,8 @@ class OwnRolePanel(Panel):
         self._helpers: frozenset[str] = frozenset()
         self._acted = False
 
-    def rows(self) -> Sequence[Row]:
-        """The user of this browser, then the actions."""
+    def data(self) -> Sequence[Data]:
+        """Return the user of this browser."""
         person = self._roles.people.get(self._id)
         if person is None:
             return []
@@ -85,7 +86,7 @@ class OwnRolePanel(Panel):
             "drives": person.drives,
             "asks": person.asks,
         }
-        return [Row("role/me", "", "names", value=me), *own(self._actions())]
+        return [Data("role/me", me)]
 
     def _say_news(self, person: Person) -> None:
         """Say what others have done about the wheel."""
@@ -108,12 +109,9 @@ class OwnRolePanel(Panel):
         people = self._roles.people.values()
         return frozenset(p.name for p in people if p.drives and not p.presenter)
 
-    def _actions(self) -> Iterator[Row]:
-        yield Row("role/ask", "", "action", takes=(str,), set=self._ask)
-        yield Row("role/back", "", "action", set=lambda _: self._hand_back())
-        yield Row("role/give", "", "action", takes=(int,), set=self._give)
-        yield Row("role/refuse", "", "action", takes=(int,), set=self._refuse)
-        yield Row("role/take", "", "action", set=lambda _: self._take())
+    def offers(self, command_id: str) -> bool:
+        """Tell whether the browser has joined."""
+        return self._id in self._roles.people
 
     @contextmanager
     def _acting(self) -> Generator[None]:
@@ -126,24 +124,29 @@ class OwnRolePanel(Panel):
             self._acted = False
             raise
 
-    def _ask(self, arguments: tuple[str]) -> Answer:
+    @command("role/ask", TEXT, client_local=True)
+    def _ask(self, name: str) -> Answer:
         with self._acting():
-            self._roles.ask(self._id, arguments[0])
+            self._roles.ask(self._id, name)
         return Answer("Asked for the wheel; the presenter sees it")
 
+    @command("role/back", client_local=True)
     def _hand_back(self) -> None:
         with self._acting():
             self._roles.hand_back(self._id)
 
-    def _give(self, arguments: tuple[int]) -> Answer:
+    @command("role/give", INTEGER, client_local=True)
+    def _give(self, client_id: int) -> Answer:
         with self._acting():
-            person = self._roles.give(self._id, arguments[0])
+            person = self._roles.give(self._id, client_id)
         return Answer(f"{person.name} has the wheel, and so have you")
 
-    def _refuse(self, arguments: tuple[int]) -> None:
+    @command("role/refuse", INTEGER, client_local=True)
+    def _refuse(self, client_id: int) -> None:
         with self._acting():
-            self._roles.refuse(self._id, arguments[0])
+            self._roles.refuse(self._id, client_id)
 
+    @command("role/take", client_local=True)
     def _take(self) -> Answer:
         with self._acting():
             self._roles.take(self._id)

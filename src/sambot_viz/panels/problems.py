@@ -8,10 +8,11 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from sambot_viz.errors import Problem, Severity
-from sambot_viz.panels.lazy_rows import LazyRows
+from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Level, Row
+from sambot_viz.panels.row import Data, Level, Row
 from sambot_viz.panels.status_rows import place_of
+from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problem_groups import SEVERITIES, ProblemGroup, group_problems
 from sambot_viz.problem_text import problem_lines
 from sambot_viz.session import Session
@@ -48,25 +49,24 @@ class ProblemsPanel(Panel):
         self._lazy = LazyRows("problems/unfold", lambda: remake(self))
 
     def rows(self) -> Sequence[Row]:
-        """The banner, a row for each cause, and their number by severity."""
+        """Return the banner, and a row for each cause."""
         self._lazy.clear()
+        note = last_good_note(self._session)
+        banner = Row("problems/good", "", "note", value=note, level="error")
+        groups = group_problems(problems_of(self._session))
+        return [*([banner] if note else ()), *self._group_rows(groups)]
+
+    def data(self) -> Sequence[Data]:
+        """Return how many causes there are of each severity."""
         groups = group_problems(problems_of(self._session))
         count = Counter(group.severity for group in groups)
-        note = last_good_note(self._session)
-        return [
-            *(
-                [Row("problems/good", "", "note", value=note, level="error")]
-                * bool(note)
-            ),
-            *self._group_rows(groups),
-            Row(
-                "problems/count",
-                "",
-                "names",
-                value={**{s: count[s] for s in SEVERITIES}, "old": bool(note)},
-            ),
-            self._lazy.action(),
-        ]
+        old = bool(last_good_note(self._session))
+        counts = {severity: count[severity] for severity in SEVERITIES}
+        return [Data("problems/count", {**counts, "old": old})]
+
+    def commands(self) -> list[Command]:
+        """Return the command to unfold a row."""
+        return [self._lazy.command()]
 
     def _group_rows(self, groups: Sequence[ProblemGroup]) -> Iterator[Row]:
         for index, group in enumerate(groups[:MOST_SHOWN]):
@@ -94,26 +94,31 @@ class ProblemsPanel(Panel):
             yield _rest(f"{row_id}/rest", row_id, len(group.problems) - MOST_SHOWN)
 
     def _problem_rows(
-        self, problem: Problem, above: str, *, hint: bool = True, unfolded: bool = False
+        self,
+        problem: Problem,
+        parent: str,
+        *,
+        hint: bool = True,
+        unfolded: bool = False,
     ) -> Iterator[Row]:
         key = (problem.severity, problem.place, str(problem))
-        row_id = f"{above}/{_id(*key)}" if above else _id(*key)
+        row_id = f"{parent}/{_id(*key)}" if parent else _id(*key)
         below = [*_details(problem, row_id, hint=hint)] if unfolded else None
         if below is None and self._lazy.is_unfolded(row_id):
             below = [*_details(problem, row_id, hint=hint)]
         more = bool(problem.file or (hint and problem.hint))
         yield _head(
-            row_id, above, problem.message, problem, lazy=below is None and more
+            row_id, parent, problem.message, problem, lazy=below is None and more
         )
         yield from below or ()
 
 
 def _head(
-    row_id: str, above: str, message: str, problem: Problem, *, lazy: bool
+    row_id: str, parent: str, message: str, problem: Problem, *, lazy: bool
 ) -> Row:
     return Row(
         row_id,
-        above,
+        parent,
         "note",
         value=message,
         level=_LEVELS[problem.severity],
@@ -122,27 +127,27 @@ def _head(
     )
 
 
-def _details(problem: Problem, above: str, *, hint: bool) -> Iterator[Row]:
+def _details(problem: Problem, parent: str, *, hint: bool) -> Iterator[Row]:
     """The remedy, the lines around the place, and the whole path."""
     if hint and problem.hint:
-        yield _hint(above, problem.hint)
+        yield _hint(parent, problem.hint)
     lines = problem_lines(problem, LINES_AROUND)
     if lines:
         marked = {"line": problem.line, "column": problem.column}
-        yield Row(f"{above}/lines", above, "lines", value=lines, extra=marked)
+        yield Row(f"{parent}/lines", parent, "lines", value=lines, extra=marked)
     if problem.file is not None:
         numbers = (n for n in (problem.line, problem.column) if n is not None)
         place = ":".join((str(Path(problem.file).absolute()), *map(str, numbers)))
         extra = {"copy": True}
-        yield Row(f"{above}/place", above, "note", "the place", place, extra=extra)
+        yield Row(f"{parent}/place", parent, "note", "the place", place, extra=extra)
 
 
-def _hint(above: str, hint: str) -> Row:
-    return Row(f"{above}/hint", above, "note", "Fix", f"To fix it: {hint}")
+def _hint(parent: str, hint: str) -> Row:
+    return Row(f"{parent}/hint", parent, "note", "Fix", f"To fix it: {hint}")
 
 
-def _rest(row_id: str, above: str, count: int) -> Row:
-    return Row(row_id, above, "note", value=f"and {count} more")
+def _rest(row_id: str, parent: str, count: int) -> Row:
+    return Row(row_id, parent, "note", value=f"and {count} more")
 
 
 def _id(*parts: object) -> str:

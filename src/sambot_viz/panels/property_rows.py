@@ -49,19 +49,25 @@ def kind_of(prop: Property) -> Kind:
 
 
 def property_rows(
-    item: ConfigItem, above: str, change: Change, *, prefix: str = ""
+    item: ConfigItem,
+    parent: str,
+    change: Change,
+    *,
+    client_local: bool = False,
 ) -> Iterator[Row]:
-    """The rows of all properties of an item that are shown at present.
+    """Yield the rows of all properties of an item that are shown at present.
 
     Args:
         item: whose properties.
-        above: the id of the row they are below; the ids begin with it.
+        parent: the id of the row they are below; the ids begin with it.
         change: called with the path of a property and its new value.
-        prefix: a path of `item`, to get only what is below it.
+        client_local: whether `change` changes only what one client shows.
     """
-    for path, declared in item.declared.items():
-        if path.startswith(prefix) and path != prefix and is_listed(item, declared):
-            yield property_row(item, declared, above, change)
+    for declared in item.declared.values():
+        if is_listed(item, declared):
+            yield property_row(
+                item, declared, parent, change, client_local=client_local
+            )
 
 
 def is_listed(item: ConfigItem, declared: Declared) -> bool:
@@ -82,15 +88,19 @@ def is_listed(item: ConfigItem, declared: Declared) -> bool:
 
 
 def property_row(
-    item: ConfigItem, declared: Declared, above: str, change: Change
+    item: ConfigItem,
+    declared: Declared,
+    parent: str,
+    change: Change,
+    *,
+    client_local: bool = False,
 ) -> Row:
-    """The row of one property."""
-    prop, path = declared.property, declared.path
-    parent = above if declared.above is None else f"{above}/{declared.above.path}"
+    """Return the row of one property."""
+    prop, path, above = declared.property, declared.path, declared.above
     kind = kind_of(prop)
     return Row(
-        id=f"{above}/{path}",
-        above=parent,
+        id=f"{parent}/{path}",
+        parent=parent if above is None else f"{parent}/{above.path}",
         kind=kind,
         name=prop.name,
         value=item.get(path) if prop.has_value else None,
@@ -102,6 +112,7 @@ def property_row(
         editable=isinstance(prop, EditableEnumProperty),
         help=prop.help,
         extra=_extra(prop),
+        client_local=client_local,
         set=None if kind == "group" or prop.read_only else _setter(change, path),
     )
 

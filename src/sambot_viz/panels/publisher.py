@@ -16,8 +16,8 @@ from typing import Literal, Protocol
 
 import viser
 
-from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Json, Row, safe
+from sambot_viz.panels.panel import Item, Panel
+from sambot_viz.panels.row import Json, safe
 from sambot_viz.session.signals import connect
 from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.worker import Worker
@@ -64,7 +64,7 @@ class Publisher:
         self._from = secrets.token_hex(4)
         self._base = 0
         self._tidied_at = time.monotonic()
-        self._rows: dict[str, dict[str, Row]] = {panel.name: {} for panel in panels}
+        self._items: dict[str, dict[str, Item]] = {panel.name: {} for panel in panels}
         self._sent: dict[str, dict[str, Json]] = {}
         self._replaced: dict[str, list[dict[str, Json]]] = {}
         self._patches: dict[str, dict[str, Json]] = {}
@@ -95,11 +95,11 @@ class Publisher:
         for panel in self._panels:
             panel.close()
 
-    def row(self, row_id: str) -> Row | None:
-        """The row of this id, if there is one at present."""
-        for rows in self._rows.values():
-            if row_id in rows:
-                return rows[row_id]
+    def item(self, item_id: str) -> Item | None:
+        """Return the row, data or command of this id, if there is one at present."""
+        for items in self._items.values():
+            if item_id in items:
+                return items[item_id]
         return None
 
     def _connect(self, panel: Panel) -> Iterator[Callable[[], None]]:
@@ -151,9 +151,9 @@ class Publisher:
 
     def _make(self, panel: Panel) -> bool:
         """Make the rows of a panel; whether the page has to show something else."""
-        made = {row.id: row for row in panel.rows()}
-        before, self._rows[panel.name] = self._rows[panel.name], made
-        new = {row_id: row.json() for row_id, row in made.items()}
+        made = {item.id: item for item in panel.items()}
+        before, self._items[panel.name] = self._items[panel.name], made
+        new = {item_id: item.json() for item_id, item in made.items()}
         if list(before) != list(new):
             for row_id in before:
                 self._sent.pop(row_id, None)
@@ -186,7 +186,7 @@ class Publisher:
     def _whole(self) -> str:
         panels = {
             name: [self._sent[row_id] for row_id in rows]
-            for name, rows in self._rows.items()
+            for name, rows in self._items.items()
         }
         self._replaced.clear()
         whole = {"from": self._from, "base": self._base, "panels": panels}

@@ -1,9 +1,12 @@
-"""A row of the page's panels: what it shows, and what happens when a user sets it."""
+"""What panels send to the page: rows, which a tree shows, and data, which scripts read.
+
+The third are commands, which the page may call (`panels.command`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias, cast
 
 from sambot_viz.text import text
@@ -25,11 +28,9 @@ Kind = Literal[
     "color",
     "vector",
     "status",
-    "fact",  # a name and a text that can only be read
+    "readonly",  # a name and a text
     "note",  # a sentence over the whole width
     "lines",  # several lines of text, in a fixed-width font
-    "action",  # what a button, a key or a menu entry sends
-    "names",  # a list for other rows to offer
 ]
 Level = Literal["ok", "warn", "error", "info"]
 
@@ -39,10 +40,10 @@ LONGEST_TEXT = 2000
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What the browser that has sent a value gets back, returned by a row's `set`.
+    """What the client that has sent a value gets back, from a row's `set` or a command.
 
     Attributes:
-        say: a sentence for its status bar; with a text to copy, what that is.
+        say: a sentence for its status bar; with a text to copy, what the text is.
         copy: a text for its clipboard.
         level: how good or bad what is said is.
     """
@@ -54,11 +55,11 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row.
+    """A row of a panel's tree.
 
     Attributes:
-        id: unique in the window, and the same as long as the row means the same thing.
-        above: the id of the row it is below; empty at the top of its panel.
+        id: unique in the window, and the same as long as the row means the same.
+        parent: the id of the row above it; empty at the top of its panel.
         kind: how it is drawn, and what values it takes.
         name: its label.
         value: what it shows; of the type that `kind` says.
@@ -74,9 +75,8 @@ class Row:
         enabled: whether it can be used at present.
         expanded: whether the rows below it are shown when the page is opened.
         bold: RViz writes what a file gives, and displays, in bold.
-        takes: the types of the values that an action takes.
-        own: whether setting it changes nothing that others see, so that who only
-            watches may do it too.
+        client_local: whether setting it changes only what this client shows, so that
+            viewers may set it too.
         extra: more for the page, by name.
         set: called with a checked value, in the session's worker and with its lock
             held; None for a row that can only be read. It raises SambotVizError to
@@ -84,7 +84,7 @@ class Row:
     """
 
     id: str
-    above: str
+    parent: str
     kind: Kind
     name: str = ""
     value: Json = None
@@ -100,8 +100,7 @@ class Row:
     enabled: bool = True
     expanded: bool = False
     bold: bool = False
-    takes: tuple[type | tuple[type, ...], ...] = ()
-    own: bool = False
+    client_local: bool = False
     extra: dict[str, Json] | None = None
     set: Callable[[Any], object] | None = field(default=None, compare=False)
 
@@ -109,7 +108,7 @@ class Row:
         """What the page gets: only what differs from the defaults, all texts safe."""
         values: dict[str, Json] = {
             "id": self.id,
-            "in": self.above,
+            "in": self.parent,
             "kind": self.kind,
             "name": text(self.name, LONGEST_NAME),
             "value": safe(self.value),
@@ -126,7 +125,7 @@ class Row:
             "fixed": self.set is None,
             "open": self.expanded,
             "bold": self.bold,
-            "own": self.own and self.set is not None,
+            "local": self.client_local and self.set is not None,
             **(safe(self.extra) or {}),
         }
         kept = ("id", "in", "kind")
@@ -140,13 +139,26 @@ class Row:
         }
 
 
-def own(rows: Iterable[Row]) -> list[Row]:
-    """Rows of which each changes only what its own browser shows."""
-    return [replace(row, own=True) for row in rows]
+@dataclass(frozen=True, slots=True)
+class Data:
+    """A value that scripts of the page read, such as names to offer.
+
+    Attributes:
+        id: unique in the window.
+        value: what they read.
+    """
+
+    id: str
+    value: Json = None
+
+    def json(self) -> dict[str, Json]:
+        """What the page gets."""
+        shown = {} if self.value is None else {"value": safe(self.value)}
+        return {"id": self.id, "in": "", "kind": "data", **shown}
 
 
 def safe(value: Json) -> Json:
-    """A value whose texts any browser can show; the lines of a text stay lines."""
+    """Make the texts of a value such that any browser can show them; lines stay."""
     if isinstance(value, str):
         lines = value.split("\n")
         return "\n".join(text(line, LONGEST_TEXT) for line in lines)

@@ -98,7 +98,7 @@ class SelectionPanel(Panel):
             value=self._frame,
             options=(FIXED_FRAME,),
             help=_FRAME.help,
-            own=True,
+            client_local=True,
             set=self._set_frame,
         )
 
@@ -125,10 +125,10 @@ def _id(item: Selectable) -> str:
     return f"selected/{item.kind}/{item.name}"
 
 
-def _fact_rows(prefix: str, above: str, facts: Iterable[Fact]) -> Iterator[Row]:
+def _fact_rows(prefix: str, parent: str, facts: Iterable[Fact]) -> Iterator[Row]:
     """The rows of some facts; names such as "Visual" may occur twice."""
     for number, (name, value) in enumerate(facts):
-        yield Row(f"{prefix}/{number}", above, "fact", name, value)
+        yield Row(f"{prefix}/{number}", parent, "readonly", name, value)
 
 
 _NOTHING = (

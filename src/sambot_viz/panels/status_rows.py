@@ -33,7 +33,7 @@ def global_status_rows(session: Session) -> Iterator[Row]:
 
 
 def status_rows(
-    session: Session, display: Display, row_id: str, above: str, *, all_rows: bool
+    session: Session, display: Display, row_id: str, parent: str, *, all_rows: bool
 ) -> Iterator[Row]:
     """The status of a display, bad rows first.
 
@@ -41,12 +41,12 @@ def status_rows(
         session: whose display it is.
         display: one that is shown.
         row_id: the id of its status.
-        above: the id of its row.
+        parent: the id of its row.
         all_rows: False leaves out the rows of a status that is Ok.
     """
     status = display.status
     lazy = status.level == "Ok" and not all_rows and bool(status.rows)
-    yield _head(row_id, above, "Status", status.level, lazy=lazy)
+    yield _head(row_id, parent, "Status", status.level, lazy=lazy)
     if lazy:
         return
     missing = fixed_frame_missing(session)
@@ -61,15 +61,15 @@ def status_rows(
         yield Row(f"{row_id}/{key}", row_id, "status", key, row.text, level=level)
 
 
-def _why_no_robot(session: Session, above: str) -> Iterator[Row]:
+def _why_no_robot(session: Session, parent: str) -> Iterator[Row]:
     """The mistakes of the model, each at its line, for as long as there is no robot."""
     problems = session.problems.of_saves.get("model", ())
     errors = [problem for problem in problems if problem.severity == "error"]
     for index, problem in enumerate(errors[:MOST_NAMES]):
         where = place_of(problem)
         said = f"{where}: {problem.message}" if where else problem.message
-        row_id = f"{above}/:model{index}"
-        yield Row(row_id, above, "status", "Model", said, level="error")
+        row_id = f"{parent}/:model{index}"
+        yield Row(row_id, parent, "status", "Model", said, level="error")
 
 
 def place_of(problem: Problem) -> str:
@@ -80,10 +80,10 @@ def place_of(problem: Problem) -> str:
     return name if problem.line is None else f"{name}:{problem.line}"
 
 
-def _head(row_id: str, above: str, name: str, level: str, *, lazy: bool) -> Row:
+def _head(row_id: str, parent: str, name: str, level: str, *, lazy: bool) -> Row:
     return Row(
         row_id,
-        above,
+        parent,
         "status",
         name,
         value=level,

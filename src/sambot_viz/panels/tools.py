@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Row, own
+from sambot_viz.panels.row import Data, Json, Row
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.tools.tool import Tool
 
-_NUMBERS = ((float, int), (float, int))
-_PLACE = ((float, int, type(None)), (float, int, type(None)))
-"""Of the mouse in the view, 0 to 1 from left and top; None when it is not there."""
+_PLACE = Argument(float, optional=True)
+"""Of the mouse in the view, 0 to 1 from left or top; None when it is not there."""
 
 
 class ToolsPanel(Panel):
     """The tools, which of them is current, its hint, and what keys and buttons do.
 
-    A tool's own action always chooses it. Its key follows RViz's rule for keys: pressed
-    again, it goes back to the default tool ("tools/press").
+    "tools/choose" always chooses a tool. "tools/press" follows RViz's rule for keys:
+    pressed again, it goes back to the default tool.
 
     Args:
         session: what is shown.
@@ -37,52 +37,65 @@ class ToolsPanel(Panel):
         self._session = session
         self._browser = browser
 
-    def rows(self) -> Sequence[Row]:
-        """A row per tool, then the hint and the actions."""
-        tools = self._browser.tools.tools
-        # "Reset" draws the scene again for everyone.
-        reset = _action("tools/reset", lambda _: self._session.refresh())
-        return [*own([*map(self._tool, tools), *self._others()]), reset]
-
-    def _tool(self, tool: Tool) -> Row:
-        current = tool is self._browser.tools.current
-        return Row(
-            f"tool/{tool.label}",
-            "",
-            "action",
-            tool.label,
-            value=current,
-            help=tool.help,
-            icon=tool.label,
-            extra={"key": tool.key.lower(), "hover": current and tool.wants_hover},
-            set=lambda _: self._browser.tools.choose(tool.kind),
-        )
-
-    def _others(self) -> Iterator[Row]:
-        tools, view = self._browser.tools, self._browser.view
+    def data(self) -> Sequence[Data]:
+        """Return the tools, the hint of the current one, and what is selected."""
+        tools = self._browser.tools
         hint = tools.status or tools.current.help
         touch = hint.replace(tools.current.help, tools.current.touch)
-        yield Row("tools/hint", "", "note", value=hint, extra={"touch": touch})
-        names = [item.name for item in tools.selection]
-        yield Row("tools/selected", "", "names", value=names)
-        yield _action("tools/escape", lambda _: tools.escape())
-        yield Row("tools/press", "", "action", takes=(str,), set=self._press)
-        yield Row("tools/hover", "", "action", takes=_NUMBERS, set=tools.hover)
-        yield _action("tools/right_click", lambda _: tools.right_click())
-        yield Row("tools/focus", "", "action", takes=_PLACE, set=self._focus)
-        yield _action("tools/zero", lambda _: view.zero())
+        return [
+            Data("tools/list", [self._tool(tool) for tool in tools.tools]),
+            Data("tools/hint", {"text": hint, "touch": touch}),
+            Data("tools/selected", [item.name for item in tools.selection]),
+        ]
 
-    def _press(self, arguments: tuple[str]) -> None:
-        (label,) = arguments
+    def _tool(self, tool: Tool) -> Json:
+        current = tool is self._browser.tools.current
+        return {
+            "name": tool.label,
+            "key": tool.key.lower(),
+            "help": tool.help,
+            "current": current,
+            "hover": current and tool.wants_hover,
+        }
+
+    def _kind(self, label: str) -> str:
         for tool in self._browser.tools.tools:
             if tool.label == label:
-                self._browser.tools.press(tool.kind)
-                return
+                return tool.kind
         raise UsageError(f"there is no tool '{label}'")
 
-    def _focus(self, place: tuple[float | None, float | None]) -> None:
-        x, y = place
+    @command("tools/reset", name="Reset")
+    def _reset(self) -> None:
+        """Draw the scene again for everyone."""
+        self._session.refresh()
+
+    @command("tools/choose", TEXT, client_local=True)
+    def _choose(self, label: str) -> None:
+        self._browser.tools.choose(self._kind(label))
+
+    @command("tools/press", TEXT, client_local=True)
+    def _press(self, label: str) -> None:
+        self._browser.tools.press(self._kind(label))
+
+    @command("tools/escape", client_local=True)
+    def _escape(self) -> None:
+        self._browser.tools.escape()
+
+    @command("tools/hover", NUMBER, NUMBER, client_local=True)
+    def _hover(self, x: float, y: float) -> None:
+        self._browser.tools.hover((x, y))
+
+    @command("tools/right_click", client_local=True)
+    def _right_click(self) -> None:
+        self._browser.tools.right_click()
+
+    @command("tools/focus", _PLACE, _PLACE, client_local=True)
+    def _focus(self, x: float | None, y: float | None) -> None:
         self._browser.tools.focus(None if x is None or y is None else (x, y))
+
+    @command("tools/zero", client_local=True)
+    def _zero(self) -> None:
+        self._browser.view.zero()
 
 
 class ToolPropertiesPanel(Panel):
@@ -102,7 +115,7 @@ class ToolPropertiesPanel(Panel):
         self._browser = browser
 
     def rows(self) -> Sequence[Row]:
-        """A group per tool that has settings."""
+        """Return a group per tool that has settings."""
         made = [row for tool in self._browser.tools.tools for row in self._of(tool)]
         return made or [Row("tool_properties/none", "", "note", value=_NO_SETTINGS)]
 
@@ -122,10 +135,6 @@ class ToolPropertiesPanel(Panel):
             expanded=True,
         )
         return [head, *below] if below else ()
-
-
-def _action(row_id: str, act: Callable[[object], object]) -> Row:
-    return Row(row_id, "", "action", set=act)
 
 
 _NO_SETTINGS = "No tool of this config has settings."

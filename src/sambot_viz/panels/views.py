@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 import json
-import weakref
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, cast
 
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.gate import checked
+from sambot_viz.panels.command import TEXT, command
+from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Json, Row, own
+from sambot_viz.panels.row import Data, Json, Row
+from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
@@ -41,20 +41,20 @@ class ViewsPanel(Panel):
         self.remade_by = (signals.config, signals.follow, browser.view.changed)
         self._session = session
         self._browser = browser
-        self._numbers: weakref.WeakKeyDictionary[ViewConfig, int] = (
-            weakref.WeakKeyDictionary()
-        )
-        self._count = itertools.count(1)
+        self._ids = Ids[ViewConfig]("saved")
 
     def rows(self) -> Sequence[Row]:
-        """The type, the current view, then the saved ones."""
+        """Return the type, the current view, then the saved ones."""
         return [
-            *own([self._type(), *self._current()]),
+            self._type(),
+            *self._current(),
             self._follow_row(),
             *map(self._saved, self._session.config.saved_views),
-            *own(self._own_actions()),
-            *self._actions(),
         ]
+
+    def data(self) -> Sequence[Data]:
+        """Return what the mouse does to the current view."""
+        return [Data("view/shown", mouse_facts(self._browser.view.view))]
 
     def _type(self) -> Row:
         view = self._browser.view.view
@@ -67,6 +67,7 @@ class ViewsPanel(Panel):
             options=tuple(KINDS),
             help=view.help,
             extra={"apart": True},
+            client_local=True,
             set=lambda label: self._browser.view.set_kind(KINDS[label]),
         )
 
@@ -75,7 +76,7 @@ class ViewsPanel(Panel):
         yield Row(
             CURRENT,
             "",
-            "fact",
+            "readonly",
             "Current View",
             value=row_text(view.kind),
             help=view.help,
@@ -84,8 +85,8 @@ class ViewsPanel(Panel):
         )
         if not self._browser.view.supported:
             yield Row("view/:unknown", CURRENT, "note", value=_UNKNOWN, level="warn")
-        yield from property_rows(view.config, CURRENT, self._browser.view.set)
-        yield Row("view/shown", "", "names", value=mouse_facts(view))
+        change = self._browser.view.set
+        yield from property_rows(view.config, CURRENT, change, client_local=True)
 
     def _follow_row(self) -> Row:
         camera = "the presenter's camera shows"
@@ -104,12 +105,12 @@ class ViewsPanel(Panel):
     def _follow(self, on: bool) -> None:
         self._session.signals.follow.set(on)
 
-    def _bring_back(self, arguments: tuple[str, str]) -> None:
+    @command("views/restore", TEXT, TEXT, client_local=True)
+    def _restore(self, label: str, sent: str) -> None:
         """Show what the page showed before it lost the connection, or was loaded again.
 
         That is not an edit to undo: the user sees what was there before.
         """
-        label, sent = arguments
         values = _read(sent)
         look_as(
             self._session, self._browser, KINDS.get(label), lambda r: values.get(r.id)
@@ -118,13 +119,11 @@ class ViewsPanel(Panel):
     # The saved views
 
     def _saved(self, saved: ViewConfig) -> Row:
-        if saved not in self._numbers:
-            self._numbers[saved] = next(self._count)
         name = saved.name or saved.kind.rpartition("/")[2]
         return Row(
-            f"saved{self._numbers[saved]}",
+            self._ids.of(saved),
             "",
-            "fact",
+            "readonly",
             name,
             value=row_text(saved.kind),
             icon="view",
@@ -133,41 +132,28 @@ class ViewsPanel(Panel):
         )
 
     def _saved_view(self, row_id: str) -> ViewConfig:
-        for saved in self._session.config.saved_views:
-            if f"saved{self._numbers.get(saved)}" == row_id:
-                return saved
-        raise UsageError("this saved view is not there any more")
+        saved = self._ids.find(row_id)
+        if saved is None or saved not in self._session.config.saved_views:
+            raise UsageError("this saved view is not there any more")
+        return saved
 
-    def _own_actions(self) -> Iterator[Row]:
-        yield Row("views/again", "", "action", takes=(str, str), set=self._bring_back)
-        yield Row(
-            "views/use",
-            "",
-            "action",
-            takes=(str,),
-            set=lambda arguments: self._browser.view.use(
-                self._saved_view(arguments[0])
-            ),
-        )
+    @command("views/use", TEXT, client_local=True)
+    def _use(self, row_id: str) -> None:
+        self._browser.view.use(self._saved_view(row_id))
 
-    def _actions(self) -> Iterator[Row]:
-        view = self._browser.view
+    @command("views/save")
+    def _save(self) -> None:
+        self._browser.view.save()
 
-        def rename(arguments: tuple[str, str]) -> None:
-            row_id, name = arguments
-            if not name.strip():
-                raise UsageError("a saved view needs a name")
-            view.rename(self._saved_view(row_id), name.strip())
+    @command("views/rename", TEXT, TEXT)
+    def _rename(self, row_id: str, name: str) -> None:
+        if not name.strip():
+            raise UsageError("a saved view needs a name")
+        self._browser.view.rename(self._saved_view(row_id), name.strip())
 
-        yield Row("views/save", "", "action", set=lambda _: view.save())
-        yield Row("views/rename", "", "action", takes=(str, str), set=rename)
-        yield Row(
-            "views/remove",
-            "",
-            "action",
-            takes=(str,),
-            set=lambda arguments: view.remove(self._saved_view(arguments[0])),
-        )
+    @command("views/remove", TEXT)
+    def _remove(self, row_id: str) -> None:
+        self._browser.view.remove(self._saved_view(row_id))
 
 
 def look_as(
@@ -196,7 +182,7 @@ def look_as(
         for row in sorted(rows, key=lambda row: row.kind != "frame"):
             value = None if row.set is None else wanted(row)
             if row.set is not None and value is not None:
-                row.set(checked(row, value))
+                row.set(validate(row, value))
 
 
 def _read(sent: str) -> dict[str, Any]:

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 from functools import partial
 
-from sambot_viz.errors import SambotVizError, UsageError
-from sambot_viz.panels import gate
+from sambot_viz.errors import SambotVizError
+from sambot_viz.panels import validation
 from sambot_viz.panels.browser import BrowserPanels
+from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.displays.new_displays import NewDisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.files import AskPage, Files
-from sambot_viz.panels.joints.joints import JointsPanel
-from sambot_viz.panels.joints.joints_again import JointsAgainPanel
-from sambot_viz.panels.joints.poses import PosesPanel
-from sambot_viz.panels.names import NamesPanel
+from sambot_viz.panels.joints.joints import JointsPanel, PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import PeoplePanel
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.publisher import Publisher
-from sambot_viz.panels.row import Answer
-from sambot_viz.panels.status_bar import StatusBarPanel
+from sambot_viz.panels.row import Answer, Row
+from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.roles import WATCHING
 
 
 class Window:
@@ -58,17 +54,20 @@ class Window:
 
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
-        panels: list[Panel] = [NamesPanel(session), StatusBarPanel(session)]
+        panels: list[Panel] = [SessionInfoPanel(session), StatusBarPanel(session)]
         panels.append(PeoplePanel(session))
         panels.append(self._displays)
         panels.append(ProblemsPanel(session, self._remake))
-        panels.append(NewDisplaysPanel(session, self._displays, self._remake))
+        panels.append(DisplayCommands(session, self._displays, self._remake))
         if joints:
             panels.append(JointsPanel(session, self._remake))
-            panels.append(JointsAgainPanel(session, lambda id: self._shared.row(id)))
             panels.append(PosesPanel(session, self._remake))
             panels.append(DrivePanel(session))
         return panels
+
+    def _shared_row(self, row_id: str) -> Row | None:
+        item = self._shared.item(row_id)
+        return item if isinstance(item, Row) else None
 
     def _remake(self, panel: Panel) -> None:
         self._shared.remake(panel)
@@ -88,7 +87,7 @@ class Window:
                 self._files,
                 self._ask_page,
                 self._displays,
-                lambda row_id: self._shared.row(row_id),
+                self._shared_row,
             )
         else:
             panels = self._browsers.pop(browser.client_id, None)
@@ -99,35 +98,33 @@ class Window:
 
     def receive(self, client_id: int, message: object) -> None:
         """Take a message of a browser; called on the event loop, returns at once."""
-        edit = gate.read(message)
-        if edit is None:
+        sent = validation.read(message)
+        if sent is None:
             return
         # Of the values of one drag that wait, only the last one counts.
         latest_of = None
-        if edit.gesture is not None:
-            key = (client_id, edit.row, edit.gesture)
+        if sent.gesture is not None:
+            key = (client_id, sent.id, sent.gesture)
             self._keys = {key: self._keys.get(key, key)}
             latest_of = self._keys[key]
-        take = partial(self._take, client_id, edit)
+        take = partial(self._take, client_id, sent)
         self._session.worker.post(take, latest_of=latest_of)
 
-    def _take(self, client_id: int, edit: gate.NewValue) -> None:
-        """Check an edit and do it; a refused one is answered in its browser."""
+    def _take(self, client_id: int, sent: validation.Sent) -> None:
+        """Check what a browser wants and do it; a refusal is answered there."""
         browser = self._browsers.get(client_id)
         if browser is None:
             return
-        row = browser.row(edit.row) or self._shared.row(edit.row)
-        if row is None:
-            browser.answer(edit.row, "this row is not there any more", None)
+        item = browser.item(sent.id) or self._shared.item(sent.id)
+        if item is None:
+            browser.answer(sent.id, "this row is not there any more")
             return
+        may_edit = self._session.roles.may_edit(client_id)
         try:
-            if not (row.own or self._session.roles.may_edit(client_id)):
-                raise UsageError(WATCHING)
-            value = gate.checked(row, edit.value)
-            with self._session.edits.acting(client_id, edit.gesture):
-                assert row.set is not None
-                answer = row.set(value)
+            call = validation.accept(item, sent.value, may_edit=may_edit)
+            with self._session.edits.acting(client_id, sent.gesture):
+                answer = call()
             if isinstance(answer, Answer):
                 browser.give(answer)
         except SambotVizError as error:
-            browser.answer(edit.row, str(error), row)
+            browser.answer(sent.id, str(error))

@@ -27,7 +27,7 @@ import viser
 from websockets.protocol import State
 
 from sambot_viz import viser_private
-from sambot_viz.panels import gate
+from sambot_viz.panels import validation
 from sambot_viz.server.client_messages import (
     CameraMoved,
     ClientMessage,
@@ -159,7 +159,7 @@ class InboundFilter:
         if set(message.updates) != {"value"}:
             return "an attribute of a widget other than its value"
         if message.uuid == EDITS:
-            known = gate.read(message.updates["value"]) is not None
+            known = validation.read(message.updates["value"]) is not None
             return None if known else "what is not an edit"
         handle = self._usable(message.uuid)
         if handle is None:

@@ -10,7 +10,7 @@ import { Icon } from "../window/icons.js";
 import { refusals, refuse } from "../window/notices.js";
 import { NumberCell, SliderCell } from "./number_cells.js";
 import { formatNumber, parseNumber } from "./numbers.js";
-import { degrees, useRow } from "../state.js";
+import { degrees, useData } from "../state.js";
 import { shownUnit } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -100,8 +100,8 @@ function EnumCell({ row, tab }) {
 
 /** @param {{row: Row, tab: number}} props */
 function FrameCell({ row, tab }) {
-  useRow("names/frames");
-  const options = [...(row.options || []), ...(rows.value("names/frames") || [])];
+  useData("names/frames");
+  const options = [...(row.options || []), ...(rows.data("names/frames") || [])];
   return html`<${ComboCell} row=${row} tab=${tab} options=${options} />`;
 }
 
@@ -117,7 +117,7 @@ function ComboCell({ row, tab, options }) {
 
 /** @param {{row: Row, tab: number}} props */
 function FactCell({ row, tab }) {
-  return html`<span class="fact" title=${row.kind === "fact" ? String(row.value) : undefined}>${row.value}</span>
+  return html`<span class="fact" title=${row.kind === "readonly" ? String(row.value) : undefined}>${row.value}</span>
     ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;
 }
 

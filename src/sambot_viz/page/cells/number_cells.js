@@ -7,7 +7,7 @@ import { Field } from "./field.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
-import { degrees, useRow } from "../state.js";
+import { degrees, useData } from "../state.js";
 import { formula, outside, shownUnit } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -259,7 +259,7 @@ function Handle({ row, tab, held }) {
 
 /** Starts a wheel, or stops it. @param {{row: Row, tab: number}} props */
 function TurnButton({ row, tab }) {
-  const turning = (useRow("joints/turning")?.value || []).includes(row.id);
+  const turning = (useData("joints/turning") || []).includes(row.id);
   const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
   return html`<button class="flat turn drives" aria-pressed=${String(turning)} aria-label=${label} title=${label} tabindex=${tab}
     onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} /></button>`;

@@ -18,12 +18,12 @@ const byName = (a, b) => nameOf(a.kind).localeCompare(nameOf(b.kind));
 /** @param {{close: () => void}} props */
 export function AddDisplay({ close }) {
   /** @type {Type[]} */
-  const types = [...(rows.value("displays/types") || [])].sort(byName);
-  const shown = types.filter((type) => !type.why);
-  const others = types.filter((type) => type.why);
+  const types = [...(rows.data("displays/types") || [])].sort(byName);
+  const shown = types.filter((type) => !type.why),
+    others = types.filter((type) => type.why);
   const [at, setAt] = useState(0);
-  const list = useRef(/** @type {any} */ (null));
-  const name = useRef(/** @type {any} */ (null));
+  const list = useRef(/** @type {any} */ (null)),
+    name = useRef(/** @type {any} */ (null));
   const typed = useRef({ text: "", when: 0 });
   useLayoutEffect(() => {
     list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });

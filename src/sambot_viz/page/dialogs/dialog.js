@@ -2,7 +2,7 @@
 /* The dialogs of the page: one at a time, over everything else, closed by Esc. */
 
 import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
-import { Cell, useRow } from "../state.js";
+import { Cell, useData } from "../state.js";
 
 /** @typedef {(props: {close: () => void}) => any} Content */
 
@@ -40,8 +40,7 @@ export function Dialogs() {
 
 /**
  * The frame of a dialog: its title, and a form that Enter submits.
- * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}}
- *   props
+ * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}} props
  */
 export function Dialog({ title, close, submit, wide, children }) {
   const element = useRef(/** @type {any} */ (null));
@@ -79,8 +78,8 @@ export function Dialog({ title, close, submit, wide, children }) {
  * @returns {{refused?: string, answer?: any, begin: () => void}} `begin` is called before each try
  */
 export function useAnswer(action) {
-  const notice = useRow("notice")?.value;
-  const answer = useRow("file/answer")?.value;
+  const notice = useData("notice"),
+    answer = useData("file/answer");
   const seen = useRef({ notice: notice?.number || 0, answer: answer?.number || 0 });
   const begin = () => {
     seen.current = { notice: notice?.number || 0, answer: answer?.number || 0 };

@@ -20,7 +20,7 @@ const last = new Cell("past", "motion");
 export function ExportPage({ close }) {
   // Before anything has moved, there is no last minute.
   const [motion, setMotion] = useState(
-    last.value === "past" && rows.value("joints/again") ? "sweep" : last.value,
+    last.value === "past" && rows.data("joints/untouched") ? "sweep" : last.value,
   );
   const save = () => {
     last.set(motion);

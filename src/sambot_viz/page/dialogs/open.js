@@ -3,13 +3,13 @@
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
-import { unfolded, useRow } from "../state.js";
+import { unfolded, useData } from "../state.js";
 import { Dialog, show, useAnswer } from "./dialog.js";
 import { SaveAs } from "./save_as.js";
 
 /** @param {{close: () => void}} props */
 export function OpenConfig({ close }) {
-  const state = useRow("file/state")?.value || {};
+  const state = useData("file/state") || {};
   const [discard, setDiscard] = useState(false);
   const [saving, setSaving] = useState(false);
   if (!state.modified || discard)
@@ -44,7 +44,7 @@ function Choose({ close, folder, name }) {
   const list = useRef(/** @type {any} */ (null));
   const [asked, setAsked] = useState(false);
   const { refused, answer, begin } = useAnswer("file/open");
-  const names = useRow("file/names")?.value;
+  const names = useData("file/names");
   useEffect(() => {
     act("file/list");
     setAsked(true);

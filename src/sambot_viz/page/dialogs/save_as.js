@@ -8,7 +8,7 @@ import { Dialog, useAnswer } from "./dialog.js";
 
 /** @param {{close: () => void, then?: () => void}} props */
 export function SaveAs({ close, then }) {
-  const state = rows.value("file/state") || {};
+  const state = rows.data("file/state") || {};
   const field = useRef(/** @type {any} */ (null));
   const [wanted, setWanted] = useState("");
   const { refused, answer, begin } = useAnswer("file/save-as");

@@ -6,18 +6,18 @@ import { act, rows } from "../wire/channel.js";
 import { Combo } from "../cells/combo.js";
 import { refusals, refuse, sayRefused } from "../window/notices.js";
 import { parseNumber } from "../cells/numbers.js";
-import { degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
+import { degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
 export function FramesPanel() {
-  const shown = useRow("frames/shown")?.value;
+  const shown = useData("frames/shown");
   // The answer follows motions only while somebody can see it.
   useEffect(() => {
-    if (shown === false) act("frames/shown", [true]);
+    if (shown === false) act("frames/show", [true]);
   }, [shown]);
-  useEffect(() => () => act("frames/shown", [false]), []);
+  useEffect(() => () => act("frames/show", [false]), []);
   const chosen = useRow(selected.use().frames || "none");
   const of = chosen?.static
     ? chosen
@@ -39,8 +39,8 @@ export function FramesPanel() {
   </div>`;
 }
 
-const LENGTHS = ["x", "y", "z"];
-const ANGLES = ["roll", "pitch", "yaw"];
+const LENGTHS = ["x", "y", "z"],
+  ANGLES = ["roll", "pitch", "yaw"];
 
 /** Fields for a new static transform, and a place to paste one. @param {{children?: any}} props */
 function Add({ children }) {
@@ -54,7 +54,7 @@ function Add({ children }) {
 
 function Form() {
   const inDegrees = degrees.use();
-  useRow("names/frames");
+  useData("names/frames");
   useRow("frames/from");
   useRow("frames/add");
   useRow("frames/paste");
@@ -99,7 +99,7 @@ function Form() {
   return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
     ${LENGTHS.map((name) => number(name, "m"))}
     ${ANGLES.map((name) => number(name, angle))}
-    <label class="wide"><span>Parent</span> <${Combo} label="Parent" value=${within} options=${rows.value("names/frames") || []} tab=${0} accept=${setParent} /></label>
+    <label class="wide"><span>Parent</span> <${Combo} label="Parent" value=${within} options=${rows.data("names/frames") || []} tab=${0} accept=${setParent} /></label>
     <label class="wide"><span>Child</span> <input name="child" autocomplete="off" spellcheck=${false} placeholder="base_laser" /></label>
     <label class="wide"><span>Or paste</span> <input name="pasted" autocomplete="off" spellcheck=${false} aria-label="Arguments of static_transform_publisher"
       placeholder="x y z yaw pitch roll parent child" title="The arguments of static_transform_publisher, a command or a line of a launch file" /></label>

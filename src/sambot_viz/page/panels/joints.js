@@ -8,7 +8,7 @@ import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { NARROW, NumberCell } from "../cells/number_cells.js";
 import { Popup } from "../window/popup.js";
-import { Cell, degrees, fold, folds, isOpen, selected, useRow } from "../state.js";
+import { Cell, degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
 import { formula, limits } from "../cells/units.js";
 import { Why } from "../cells/validation_message.js";
@@ -170,7 +170,7 @@ function FoldAll() {
 
 /** Which joints are over a limit; the page cannot set them so, but a file or a program can. */
 function OverLimit() {
-  const over = useRow("joints/over")?.value || [];
+  const over = useData("joints/over") || [];
   if (!over.length) return null;
   const named = over.slice(0, 3).join(", ");
   const more = over.length > 3 ? ` and ${over.length - 3} more` : "";

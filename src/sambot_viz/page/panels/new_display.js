@@ -16,7 +16,7 @@ const PATIENCE = 10000;
 export function makeDisplay(what, args, open) {
   const mark = Math.random().toString(36).slice(2);
   const stop = rows.listen("displays/made", () => {
-    const made = rows.value("displays/made");
+    const made = rows.data("displays/made");
     if (made?.mark !== mark) return;
     stop();
     fold(made.row, open);

@@ -6,19 +6,19 @@ import { act } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { Popup } from "../window/popup.js";
-import { useRow } from "../state.js";
+import { useData, useRow } from "../state.js";
 
 export function Poses() {
-  if (!useRow("poses")) return null;
+  if (!useData("poses/names")) return null;
   return html`<${Popup} name="Poses" role="dialog" label=${html`Poses <${Icon} name="down" />`} title="Named poses: choose, save, remove">
     ${(/** @type {() => void} */ close) => html`<${Form} close=${close} />`}<//>`;
 }
 
 /** @param {{close: () => void}} props */
 function Form({ close }) {
-  const row = useRow("poses");
   /** @type {string[]} */
-  const names = row?.value || [];
+  const names = useData("poses/names") || [],
+    place = useData("poses/place");
   useRow("poses/save");
   const why = refusals.get("poses/save");
   const field = useRef(/** @type {any} */ (null));
@@ -60,6 +60,6 @@ function Form({ close }) {
       <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}</button>
     </form>
     ${why && html`<p class="why" role="alert">${why}</p>`}
-    <p class="place">${row?.help}</p>
+    <p class="place">${place}</p>
   </div>`;
 }

@@ -3,7 +3,7 @@
 
 import { html, useEffect } from "../vendor/preact.js";
 import { Icon } from "../window/icons.js";
-import { useRow } from "../state.js";
+import { useData } from "../state.js";
 import { Tree } from "../tree/tree.js";
 
 const KINDS = /** @type {const} */ ([
@@ -26,7 +26,7 @@ export function ProblemsPanel() {
  * @param {Shown} props
  */
 export function ProblemCount({ shown, show, byItself }) {
-  const count = useRow("problems/count")?.value;
+  const count = useData("problems/count");
   useOpening(count, { shown, show, byItself });
   return html`<button class="problem-count" aria-expanded=${String(shown)} title=${`${shown ? "Hide" : "Show"} the problems`}
       onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} /></button>`;
@@ -37,7 +37,7 @@ export function ProblemCount({ shown, show, byItself }) {
  * @param {{show: () => void}} props
  */
 export function ProblemCorner({ show }) {
-  const all = counted(useRow("problems/count")?.value);
+  const all = counted(useData("problems/count"));
   if (!all.length) return null;
   return html`<button class="problem-count corner" title="Show the panels and the problems" onClick=${show}><${Numbers} of=${all} /></button>`;
 }

@@ -17,7 +17,7 @@ function go(id) {
 }
 
 rows.listen("edit/touched", () => {
-  const id = rows.value("edit/touched")?.row;
+  const id = rows.data("edit/touched")?.row;
   if (!id) return;
   if (rows.get(id)) return go(id);
   const stop = rows.listen(`panel:${PANEL}`, () => {

@@ -77,7 +77,7 @@ export function tellView() {
   mark.hidden = true;
   document.body.append(mark);
   const told = () => {
-    const view = rows.value("view/shown");
+    const view = rows.data("view/shown");
     if (!view) return;
     window.sambotViz = { ...window.sambotViz, view };
     mark.dataset.sambotView = view.kind;

@@ -6,7 +6,7 @@ import { formatNumber } from "../cells/numbers.js";
 /** @typedef {import("../wire/rows.js").Row} Row */
 
 /** Kinds of rows whose value is not a text. */
-const NO_TEXT = new Set(["action", "names", "display", "group"]);
+const NO_TEXT = new Set(["display", "group"]);
 
 /** The value of a row as it is shown; "" where there is none. @param {Row} row @returns {string} */
 export function valueText(row) {

@@ -19,7 +19,6 @@ import { Cell, fold, folds, isOpen, select, selected, splits, useRow } from "../
  */
 const MANY = 150;
 
-const HIDDEN = new Set(["action", "names"]);
 /** The width of the names before a hand has moved the line, as a part of the panel. */
 const SPLIT = 0.6;
 /** The row that is scrolled to, and gets the focus, as soon as it is there.
@@ -37,7 +36,7 @@ export function visible(panel, wanted) {
   const walk = (key, depth) => {
     for (const id of rows.children(key)) {
       const row = rows.get(id);
-      if (!row || HIDDEN.has(row.kind) || row.apart) continue;
+      if (!row || row.apart) continue;
       const inside = rows.children(id).length > 0;
       if (!wanted || wanted(row)) found.push({ id, depth });
       if (inside && (wanted || isOpen(id))) walk(id, depth + 1);

@@ -59,6 +59,6 @@ function textArea(text) {
 
 // What the server has written for the clipboard.
 rows.listen("notice", () => {
-  const said = rows.value("notice");
+  const said = rows.data("notice");
   if (said?.copy?.length) void copy(said.copy.join(""), said.text);
 });

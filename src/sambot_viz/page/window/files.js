@@ -9,18 +9,15 @@ import { OpenConfig } from "../dialogs/open.js";
 import { SaveAs } from "../dialogs/save_as.js";
 import { SaveImage } from "../dialogs/save_image.js";
 import { tell } from "./notices.js";
-import { folds, selected, unfolded, useRow } from "../state.js";
+import { folds, selected, unfolded, useData } from "../state.js";
 
-/**
- * @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}}
- *   FileState
- */
+/** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
 
 /** @returns {FileState} */
-const state = () => rows.value("file/state") || {};
+const state = () => rows.data("file/state") || {};
 
 /** Whether the server's disk may be used: a visitor with a session of their own only downloads. */
-export const hasDisk = () => Boolean(rows.get("file/save"));
+export const hasDisk = () => rows.knows("file/save");
 
 /** Take what is being typed: it is accepted as if the field were left. */
 function takeTyped() {
@@ -61,12 +58,12 @@ export function exportPage() {
 }
 
 /** A name of more characters may be cut before its last ones. */
-const LONG = 24;
-const TAIL = 14;
+const LONG = 24,
+  TAIL = 14;
 
 /** The name of the file, with a star after an edit; also the title of the page. */
 export function FileName() {
-  const { name, own, modified } = useRow("file/state")?.value || {};
+  const { name, own, modified } = useData("file/state") || {};
   const shown = (name || "no file yet") + (modified ? "*" : "");
   useEffect(() => {
     document.title = `${shown} - sambot-viz`;
@@ -110,8 +107,8 @@ export function followFile() {
   // A document that was opened or read again is unfolded as its file says, and none of
   // its rows is selected.
   const current = () => ({
-    session: rows.value("names/session")?.id,
-    document: rows.value("names/document"),
+    session: rows.data("names/session")?.id,
+    document: rows.data("names/document"),
   });
   let shown = current();
   const look = () => {

@@ -5,7 +5,7 @@ import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { room } from "./splitters.js";
 import { FileName } from "./files.js";
 import { MenuBar } from "./menus.js";
-import { useRow } from "../state.js";
+import { useData } from "../state.js";
 import { Toolbar } from "./toolbar.js";
 
 /** What is left out, from wide windows to narrow ones. */
@@ -21,7 +21,7 @@ const STEPS = [
 /** @param {{panels: () => import("./menus.js").PanelOf[], hideAll: () => void}} props */
 export function Top({ panels, hideAll }) {
   const { width } = room.use();
-  useRow("panel:tools");
+  useData("tools/list");
   const element = useRef(/** @type {any} */ (null));
   // Each step is tried, as only the browser knows how wide words are; nothing is painted before.
   const [tried, setTried] = useState({ width, step: 0 });

@@ -3,7 +3,7 @@
 
 /** @typedef {{key: string, code?: string, ctrlKey?: boolean, metaKey?: boolean, altKey?: boolean,
  *   shiftKey?: boolean, repeat?: boolean}} Key */
-/** What a key does: an action of a row with its values, or "hide" for the panels.
+/** What a key does: a command with its arguments, or "hide" for the panels.
  * @typedef {{act: string, with?: any[]} | "hide"} Meaning */
 
 const NO_LETTERS = new Set([

@@ -9,21 +9,25 @@ import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./
 import { Icon } from "./icons.js";
 import { copyLink } from "../wire/permalink.js";
 import { menuKey } from "./menu.js";
-import { useRow } from "../state.js";
+import { EDITS } from "./toolbar.js";
+import { useCommand, useData } from "../state.js";
 
 /**
  * An entry of a menu, or null for a line between entries.
- * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} |
- *   null} Entry
+ * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} | null} Entry
  * @typedef {{name: string, entries: () => Entry[]}} MenuOf
  * @typedef {{name: string, title: string, shown: boolean, toggle: () => void}} PanelOf
  */
 
-/** @param {string} id @param {string} keys @returns {Entry} */
+/** @param {"undo" | "redo"} id @param {string} keys @returns {Entry} */
 function edit(id, keys) {
-  const row = rows.get(id);
-  const what = row?.value ? ` ${row.value}` : "";
-  return { name: `${row?.name || ""}${what}`, keys, off: !row || row.off, does: () => act(id) };
+  const label = rows.data("edit/labels")?.[id];
+  return {
+    name: `${EDITS[id]}${label ? ` ${label}` : ""}`,
+    keys,
+    off: !rows.can(`edit/${id}`),
+    does: () => act(`edit/${id}`),
+  };
 }
 
 /** @param {() => PanelOf[]} panels @param {() => void} hideAll @returns {MenuOf[]} */
@@ -42,16 +46,16 @@ const menus = (panels, hideAll) => [
       { name: "Download Config", does: download },
       null,
       { name: "Save Image…", does: saveImage },
-      { name: "Export Page…", does: exportPage, off: !rows.get("file/page") },
+      { name: "Export Page…", does: exportPage, off: !rows.can("file/page") },
     ],
   },
   {
     name: "Edit",
     entries: () => [
-      edit("edit/undo", "Ctrl+Z"),
-      edit("edit/redo", "Ctrl+Shift+Z"),
+      edit("undo", "Ctrl+Z"),
+      edit("redo", "Ctrl+Shift+Z"),
       null,
-      { name: "Copy link to this view", does: copyLink, off: !rows.get("link/copy") },
+      { name: "Copy link to this view", does: copyLink, off: !rows.can("link/copy") },
     ],
   },
   {
@@ -102,8 +106,8 @@ export function MenuBar({ panels, hideAll, small }) {
   };
   /** @param {number} by */
   const next = (by) => {
-    const from = opened >= 0 ? opened : stop;
-    const to = (from + by + bar.length) % bar.length;
+    const from = opened >= 0 ? opened : stop,
+      to = (from + by + bar.length) % bar.length;
     if (opened >= 0) {
       setStop(to);
       setOpened(to);
@@ -164,9 +168,8 @@ export function MenuBar({ panels, hideAll, small }) {
 
 /** @param {{menu: MenuOf, choose: (entry: Entry) => void, leave: () => void}} props */
 function Menu({ menu, choose, leave }) {
-  useRow("edit/undo");
-  useRow("edit/redo");
-  useRow("panel:files");
+  useData("edit/labels");
+  useCommand("file/page");
   const element = useRef(/** @type {any} */ (null));
   /** @returns {HTMLElement[]} */
   const items = () => [...element.current.querySelectorAll("[role^=menuitem]")];

@@ -60,7 +60,7 @@ rows.listen(WATCHING, () =>
 );
 
 rows.listen("notice", () => {
-  const said = rows.value("notice");
+  const said = rows.data("notice");
   if (!said || said.copy?.length) return;
   if (said.row) sayRefused(said.row, said.text);
   else notice.set(said);

@@ -5,7 +5,7 @@
 import { html, useRef } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
 import { Popup } from "./popup.js";
-import { Cell, useRow } from "../state.js";
+import { Cell, useData } from "../state.js";
 
 /**
  * @typedef {{browsers: number, presented: boolean, drive: string[], watching: number,
@@ -19,7 +19,7 @@ const ownName = new Cell("", "name");
 /** Rows that this user may not set look and act like those that cannot be set. */
 export function followRole() {
   const look = () => {
-    const me = /** @type {Me | undefined} */ (rows.value("role/me"));
+    const me = /** @type {Me | undefined} */ (rows.data("role/me"));
     if (!me) return;
     rows.watch(!me.drives);
     document.body.classList.toggle("watching", !me.drives);
@@ -30,8 +30,8 @@ export function followRole() {
 
 /** @returns {{state: State, me: Me} | null} */
 function usePeople() {
-  const state = useRow("people/state")?.value;
-  const me = useRow("role/me")?.value;
+  const state = useData("people/state"),
+    me = useData("role/me");
   return state && me ? { state, me } : null;
 }
 

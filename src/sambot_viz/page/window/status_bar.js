@@ -8,7 +8,7 @@ import { notice } from "./notices.js";
 import { ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
 import { Driving } from "../panels/drive.js";
-import { useRow } from "../state.js";
+import { useData } from "../state.js";
 
 /** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
 const SAID = 8000;
@@ -16,8 +16,8 @@ const REFUSED = 20000;
 
 /** @param {{problems: import("../panels/problems.js").Shown}} props */
 export function StatusBar({ problems }) {
-  const tool = useRow("tools/hint");
-  const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.value) || "";
+  const tool = useData("tools/hint");
+  const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.text) || "";
   return html`<footer class="statusbar" aria-label="Status bar">
     <button class="drives" title="Reset (R): draw everything again, with meshes as they are in their files"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
@@ -34,7 +34,7 @@ export function StatusBar({ problems }) {
 
 /** What is selected in the view. */
 function Selected() {
-  const names = useRow("tools/selected")?.value || [];
+  const names = useData("tools/selected") || [];
   if (!names.length) return null;
   const words = `Selected: ${names.length === 1 ? names[0] : `${names.length} things`}`;
   return html`<span class="selected" role="status" title=${words}>${words}</span>`;
@@ -52,7 +52,7 @@ function Said() {
 }
 
 function Progress() {
-  const read = useRow("statusbar/progress")?.value;
+  const read = useData("statusbar/progress");
   if (!read) return null;
   const words = `Reading meshes and textures: ${read[0]} of ${read[1]}`;
   return html`<span class="progress" title=${words}>${words}

@@ -4,31 +4,31 @@
 import { html, useEffect, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
 import { Icon } from "./icons.js";
-import { useRow } from "../state.js";
+import { useCommand, useData } from "../state.js";
 import { togglePanels } from "./splitters.js";
 
 /** The keys of the tools. @returns {{name: string, key: string}[]} */
 export function toolKeys() {
-  return toolIds()
-    .map((id) => rows.get(id))
-    .map((row) => ({ name: row?.name || "", key: row?.key || "" }));
+  return rows.data("tools/list") || [];
 }
 
-function toolIds() {
-  return rows.children("panel:tools").filter((id) => id.startsWith("tool/"));
-}
+/** @typedef {{name: string, key: string, help: string, current: boolean, hover: boolean}} Tool */
+
+/** What the commands for edits are called. */
+export const EDITS = { undo: "Undo", redo: "Redo" };
 
 export function Toolbar() {
-  useRow("panel:tools");
+  /** @type {Tool[]} */
+  const tools = useData("tools/list") || [];
   return html`<header class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
-    ${toolIds().map((id) => html`<${ToolButton} key=${id} id=${id} />`)}
+    ${tools.map((tool) => html`<${ToolButton} key=${tool.name} tool=${tool} />`)}
     <span class="rule"></span>
     <${Button} icon="focus" name="Focus" keys="F" help="Look at what is selected, or else at the whole robot."
       onClick=${() => act("tools/focus", [null, null])} />
     <${Button} icon="zero" name="Zero" keys="Z" help="Bring the view to where its type begins." onClick=${() => act("tools/zero")} />
     <span class="gap"></span>
-    <${EditButton} id="edit/undo" icon="undo" keys="Ctrl+Z" />
-    <${EditButton} id="edit/redo" icon="redo" keys="Ctrl+Shift+Z" />
+    <${EditButton} id="undo" keys="Ctrl+Z" />
+    <${EditButton} id="redo" keys="Ctrl+Shift+Z" />
     <${FullScreen} />
     <${Button} icon="hide" name="Hide panels" keys="H" help="The view fills the window; H brings the panels back." bare
       onClick=${togglePanels} />
@@ -45,14 +45,11 @@ function move(event) {
   event.stopPropagation();
 }
 
-/** @param {{id: string}} props */
-function ToolButton({ id }) {
-  const row = useRow(id);
-  if (!row) return null;
-  const key = (row.key || "").toUpperCase();
-  return html`<button class="tool" aria-label=${row.name} aria-pressed=${String(Boolean(row.value))}
-    aria-keyshortcuts=${key} title=${`${row.name} (${key}): ${row.help}`}
-    onClick=${() => act(id)}><${Icon} name=${row.icon} /> <span class="word">${row.name}</span></button>`;
+/** @param {{tool: Tool}} props */
+function ToolButton({ tool: { name, key, help, current } }) {
+  return html`<button class="tool" aria-label=${name} aria-pressed=${String(current)}
+    aria-keyshortcuts=${key.toUpperCase()} title=${`${name} (${key.toUpperCase()}): ${help}`}
+    onClick=${() => act("tools/choose", [name])}><${Icon} name=${name} /> <span class="word">${name}</span></button>`;
 }
 
 /** @param {{icon: string, name: string, keys: string, help: string, bare?: boolean, onClick: () => void}} props
@@ -62,13 +59,13 @@ function Button({ icon, name, keys, help, bare, onClick }) {
     onClick=${onClick}><${Icon} name=${icon} />${!bare && html` <span class="word">${name}</span>`}</button>`;
 }
 
-/** @param {{id: string, icon: string, keys: string}} props */
-function EditButton({ id, icon, keys }) {
-  const row = useRow(id);
-  if (!row) return null;
-  const title = row.value ? `${row.name}: ${row.value} (${keys})` : `${row.name} (${keys})`;
-  return html`<button class="tool rare" disabled=${row.off} title=${title} aria-label=${row.name}
-    aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(id)}><${Icon} name=${icon} /></button>`;
+/** @param {{id: "undo" | "redo", keys: string}} props */
+function EditButton({ id, keys }) {
+  const can = useCommand(`edit/${id}`),
+    label = useData("edit/labels")?.[id],
+    name = EDITS[id];
+  return html`<button class="tool rare" disabled=${!can} title=${label ? `${name}: ${label} (${keys})` : `${name} (${keys})`} aria-label=${name}
+    aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(`edit/${id}`)}><${Icon} name=${id} /></button>`;
 }
 
 export function toggleFullScreen() {

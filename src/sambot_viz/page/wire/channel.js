@@ -19,15 +19,15 @@ export const CUT = "cut";
 export const ONLINE = "online";
 /** Another edit waits for the connection. */
 export const WAITING = "waiting";
-/** An action was not done, for want of a connection. */
+/** A command was not called, for want of a connection. */
 export const NOT_DONE = "not done";
-/** An action was not done, because this user only watches. */
+/** A command was not called, because this user only watches. */
 export const WATCHING = "watching";
-/** The action that reports where the mouse is. */
+/** The command that reports where the mouse is. */
 export const HOVER = "tools/hover";
 /** What a page sends without a user who means it. @param {string} id */
 const byItself = (id) =>
-  id === HOVER || ["/unfold", "/shown", "/again"].some((end) => id.endsWith(end));
+  id === HOVER || ["/unfold", "/show", "/restore"].some((end) => id.endsWith(end));
 /** What was sent so shortly before the connection was lost may be lost with it [ms]. */
 const DOUBTFUL = 1000;
 
@@ -49,15 +49,15 @@ export function send(id, value, gesture) {
   }
   if (!byItself(id)) rows.notify(EDITED);
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
-  const action = rows.get(id)?.kind === "action";
-  const there = isConnected();
+  const command = rows.knows(id),
+    there = isConnected();
   // Who hears it notes how things were, and holds edits back.
   if (online && !there && sent.size) rows.notify(CUT);
   if (online) {
     post(edit);
     waiting.delete(id);
-    if (there) sent.set(id, { edit, at: action ? -Infinity : performance.now() });
-  } else if (!action) holdBack([edit]);
+    if (there) sent.set(id, { edit, at: command ? -Infinity : performance.now() });
+  } else if (!command) holdBack([edit]);
   else if (!byItself(id)) rows.notify(NOT_DONE);
 }
 
@@ -118,19 +118,15 @@ export function goOffline() {
 /** Let edits wait, and show what they set. @param {any[][]} edits */
 export function holdBack(edits) {
   for (const edit of edits) {
-    const [id, value] = edit;
-    const seen = shown(id, value);
+    const [id, value] = edit,
+      seen = shown(id, value);
     waiting.set(id, edit);
     if (seen !== undefined) rows.hope(id, seen);
   }
   if (edits.length) rows.notify(WAITING);
 }
 
-/**
- * What a row shows when an edit sets it, as far as the page knows.
- * @param {string} id
- * @param {any} value
- */
+/** What a row shows when an edit sets it, as far as the page knows. @param {string} id @param {any} value */
 function shown(id, value) {
   if (rows.get(id)?.kind !== "color" || typeof value !== "string") return value;
   const hex = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(value);
@@ -162,11 +158,10 @@ export function sendHeldBack(now = (id) => id) {
   return dropped;
 }
 
-/** Do what an action row does, if it can be done now. @param {string} id @param {any[]} [args] */
+/** Call a command, if it can be called now. @param {string} id @param {any[]} [args] */
 export function act(id, args = []) {
-  const row = rows.get(id);
-  if (row && !row.off) send(id, args);
-  else if (row && !row.own && !byItself(id)) mayChange();
+  if (rows.can(id)) send(id, args);
+  else if (rows.knows(id) && !byItself(id)) mayChange();
 }
 
 /** Whether this user may change what others see; one who only watches is told. */

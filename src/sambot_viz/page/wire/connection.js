@@ -32,13 +32,10 @@ import {
   withoutRobot,
 } from "./reconnect.js";
 import { hasDisk } from "../window/files.js";
-import { Cell, folds, useRow } from "../state.js";
+import { Cell, folds, useData, useRow } from "../state.js";
 
 /** @typedef {import("./reconnect.js").Memory} Memory */
-/**
- * @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is
- *   loaded again has kept
- */
+/** @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is loaded again has kept */
 
 /** How often the page looks [ms]. */
 const PERIOD = 250;
@@ -50,16 +47,14 @@ const KEPT = "sambot-viz-again";
 const BACK = 8000;
 
 /** What is said over the view: that the connection is lost, or what came back.
- * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory}
- *   | null>}
- */
+ * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
 const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
 export function followConnection() {
-  let was = false;
-  let lost = false;
-  let stuck = false;
+  let was = false,
+    lost = false,
+    stuck = false;
   let kept = takeKept();
   /** How things were before the connection was lost. @type {Memory | null} */
   let before = kept;
@@ -88,9 +83,9 @@ export function followConnection() {
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
     if (!before || !(lost || kept)) return;
-    const then = before;
-    const silent = kept && !kept.stuck;
-    const again = rows.value("names/session");
+    const then = before,
+      silent = kept && !kept.stuck,
+      again = rows.data("names/session");
     const loaded = Boolean(kept);
     lost = false;
     kept = null;
@@ -113,13 +108,13 @@ export function followConnection() {
       if (!hasJoints()) return;
       whenJoints = () => {};
       const [moved, positions] = jointsToBringBack(then);
-      if (moved.length && rows.value("joints/again")) act("joints/again", [moved, positions]);
+      if (moved.length && rows.data("joints/untouched")) act("joints/restore", [moved, positions]);
       flush();
     };
     whenJoints();
     say(again?.again || "", then, flush(), Boolean(silent));
   });
-  rows.listen("panel:joints_again", () => whenJoints());
+  rows.listen("joints/untouched", () => whenJoints());
   addEventListener("pagehide", (event) => {
     const now = lost && before ? before : remember();
     if (kept || now.session)
@@ -134,14 +129,10 @@ export function followConnection() {
 }
 
 /** Say that the connection is back, and what is not as before.
- * @param {string} again why
- * @param {Memory} before
- * @param {number} dropped edits
- * @param {boolean} [quiet] when all is as before
- */
+ * @param {string} again why @param {Memory} before @param {number} dropped edits @param {boolean} [quiet] when all is as before */
 function say(again, before, dropped, quiet = false) {
-  const lost = lostOf(before);
-  const other = otherConfig(before);
+  const lost = lostOf(before),
+    other = otherConfig(before);
   if (dropped)
     lost.push(
       dropped > 1
@@ -205,10 +196,7 @@ function takeKept() {
   }
 }
 
-/**
- * Open the config that was open before, with the rows that were unfolded.
- * @param {Memory} before
- */
+/** Open the config that was open before, with the rows that were unfolded. @param {Memory} before */
 function openAgain(before) {
   const stop = rows.listen("names/document", () => {
     stop();
@@ -240,7 +228,7 @@ function Lost() {
 
 /** @param {{text: string, lost: string[], other: Memory["file"] | null, before: Memory}} props */
 function Back({ text, lost, other, before }) {
-  const file = useRow("file/state")?.value || {};
+  const file = useData("file/state") || {};
   const same = file.name === other?.name && file.folder === other?.folder;
   const can = other && !same && other.own && other.folder === file.folder && hasDisk();
   return html`<p class=${lost.length || other ? "l-warn" : "l-ok"}>${text}

@@ -40,8 +40,8 @@ export function followLinks() {
   let patient = false;
   const open = () => {
     // A page without a Joints panel has nothing to wait for.
-    const early = patient && rows.panels.has("joints_again") && !hasJoints();
-    if (!waiting || !rows.get("link/open") || early) return;
+    const early = patient && rows.panels.has("joints") && !hasJoints();
+    if (!waiting || !rows.knows("link/open") || early) return;
     const parts = partsOf(waiting);
     waiting = "";
     act("link/open", parts);
@@ -62,7 +62,7 @@ export function followLinks() {
   };
   let made = 0;
   rows.listen("link/made", () => {
-    const now = rows.value("link/made");
+    const now = rows.data("link/made");
     if (!now || now.number === made) return;
     made = now.number;
     void copy(addressOf(now.parts, location), "a link to this view");

@@ -6,28 +6,25 @@ import { act, rows } from "./channel.js";
 import { folds } from "../state.js";
 
 /**
- * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string,
- *   string>, view: Record<string, any>,
- *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[],
- *   turning: boolean,
- *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}}
- *   Memory
+ * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string, string>, view: Record<string, any>,
+ *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[], turning: boolean,
+ *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}} Memory
  *   places: where each display is, by its id
  *   joints: those that were moved, and where they were at first
  */
 
 /** How things are now. @returns {Memory} */
 export function remember() {
-  const { name, own, folder, modified } = rows.value("file/state") || {};
+  const { name, own, folder, modified } = rows.data("file/state") || {};
   return {
-    session: rows.value("names/session")?.id,
+    session: rows.data("names/session")?.id,
     folds: folds.value,
     places: places(),
     view: view(),
     joints: moved(),
     frames: frames(),
-    poses: rows.value("poses") || [],
-    turning: Boolean(rows.value("joints/turning")?.length),
+    poses: rows.data("poses/names") || [],
+    turning: Boolean(rows.data("joints/turning")?.length),
     selected: ids("selection").some((id) => id.startsWith("selected/")),
     modified: Boolean(modified),
     file: { name, own, folder },
@@ -52,7 +49,7 @@ export const withoutRobot = ({ session, folds, places, view }) => ({
 /** @param {string} panel */
 const ids = (panel) => rows.panels.get(panel) || [];
 /** @param {string} id */
-const first = (id) => rows.value("joints/first")?.[id] ?? 0;
+const first = (id) => rows.data("joints/first")?.[id] ?? 0;
 const frames = () =>
   ids("frames")
     .filter((id) => rows.get(id)?.static)
@@ -70,14 +67,11 @@ function moved() {
   );
 }
 
-/**
- * Where each display is: its name, and those above, each with its number among those of the same
- * name.
- */
+/** Where each display is: its name, and those above, each with its number among those of the same name. */
 function places() {
   /** @type {Record<string, string>} */
-  const found = {};
-  const /** @type {Record<string, number>} */ seen = {};
+  const found = {},
+    /** @type {Record<string, number>} */ seen = {};
   for (const id of ids("displays")) {
     const row = rows.get(id);
     if (!row?.display) continue;
@@ -94,18 +88,14 @@ function places() {
 export function idsNow(before) {
   const now = Object.fromEntries(Object.entries(places()).map(([id, place]) => [place, id]));
   return (id) => {
-    const [head, ...rest] = id.split("/");
-    const place = before.places[head];
+    const [head, ...rest] = id.split("/"),
+      place = before.places[head];
     if (place === undefined) return id;
     return now[place] ? [now[place], ...rest].join("/") : null;
   };
 }
 
-/**
- * The folds of displays that are still there.
- * @param {Memory} before
- * @param {Record<string, boolean>} of
- */
+/** The folds of displays that are still there. @param {Memory} before @param {Record<string, boolean>} of */
 export function foldsNow(before, of) {
   const now = idsNow(before);
   return Object.fromEntries(
@@ -131,19 +121,17 @@ function view() {
 }
 
 /** Show the view that this page had.
- * @param {Memory} before
- * @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since
- */
+ * @param {Memory} before @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since */
 export function showView({ view: { "view/type": type, ...values } }, camera = true) {
   if (type === undefined) return;
   const kept = Object.entries(values).filter(
     ([id, value]) => camera || typeof value === "boolean" || rows.get(id)?.kind === "frame",
   );
-  act("views/again", [type, JSON.stringify(Object.fromEntries(kept))]);
+  act("views/restore", [type, JSON.stringify(Object.fromEntries(kept))]);
 }
 
 /** Whether the robot is there, and its joints with it. */
-export const hasJoints = () => Boolean(rows.get("joints/again"));
+export const hasJoints = () => rows.data("joints/untouched") !== undefined;
 
 /** The joints that a program which was started again has put elsewhere, and where they were. A
  * joint with another start is left there: that is what its user has asked for now.
@@ -164,9 +152,9 @@ export function jointsToBringBack(before) {
 
 /** What there was and is not any more, in words. @param {Memory} before @returns {string[]} */
 export function lost(before) {
-  const again = before.session !== rows.value("names/session")?.id;
-  const gone = before.frames.filter((name) => !frames().includes(name));
-  const known = rows.value("poses") || before.poses;
+  const again = before.session !== rows.data("names/session")?.id;
+  const gone = before.frames.filter((name) => !frames().includes(name)),
+    known = rows.data("poses/names") || before.poses;
   const poses = before.poses.filter((name) => !known.includes(name));
   return [
     gone.length && `the static transform${gone.length > 1 ? "s of" : " of"} ${listed(gone)}`,
@@ -183,8 +171,8 @@ export function lost(before) {
 
 /** The config that was open, when another one is open now. @param {Memory} before */
 export function otherConfig(before) {
-  const { name, folder } = before.file;
-  const now = rows.value("file/state");
+  const { name, folder } = before.file,
+    now = rows.data("file/state");
   return name && now && (name !== now.name || folder !== now.folder) ? before.file : null;
 }
 

@@ -1,19 +1,21 @@
 // @ts-check
-/* The rows that the server describes: what the panels show.
+/* What the server describes: rows, which trees show, data, which scripts read, and
+ * commands, which the page can call.
  *
- * Rows come in two parts: all of them, and all that has changed since. There are rows of
- * the session, which everyone sees, and rows of this browser alone.
+ * They come in two parts: all of them, and all that has changed since. Some are of the
+ * session, for everyone, and some of this browser alone.
  */
 
 /**
  * @typedef {{
  *   id: string, in: string, kind: string, name?: string, value?: any, unit?: string,
  *   min?: number, max?: number, step?: number, options?: string[], editable?: boolean,
- *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean, own?: boolean,
+ *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean, local?: boolean,
  *   open?: boolean, bold?: boolean, lazy?: boolean, part?: number, [key: string]: any,
  * }} Row
- * @typedef {{base: number, from?: string, panels: Record<string, Row[]>, rows?: Record<string,
- *   any>}} Part
+ *   local: viewers may set it too
+ * @typedef {{id: string, kind: "data" | "command", value?: any, local?: boolean}} Other
+ * @typedef {{base: number, from?: string, panels: Record<string, (Row | Other)[]>, rows?: Record<string, any>}} Part
  *   from: another one is of another connection or program
  */
 
@@ -21,6 +23,10 @@ export class Rows {
   constructor() {
     /** @type {Map<string, Row>} */
     this.byId = new Map();
+    /** Data and commands. @type {Map<string, Other>} */
+    this.others = new Map();
+    /** The ids of the data and commands of each panel. @type {Map<string, string[]>} */
+    this.othersOf = new Map();
     /** The ids of the rows of each panel, in order. @type {Map<string, string[]>} */
     this.panels = new Map();
     /** The ids of the rows below a row, by its id; those at the top by "panel:NAME".
@@ -42,7 +48,7 @@ export class Rows {
   watch(on) {
     if (this.watching === on) return;
     this.watching = on;
-    for (const id of [...this.byId.keys()]) this.notify(id);
+    for (const id of [...this.byId.keys(), ...this.others.keys()]) this.notify(id);
   }
 
   /**
@@ -68,10 +74,14 @@ export class Rows {
   }
 
   /**
-   * @param {string} name @param {Row[]} rows @param {Set<string>} touched
+   * @param {string} name @param {(Row | Other)[]} items @param {Set<string>} touched
    */
-  replace(name, rows, touched) {
-    rows = rows.flatMap((row) => [row, ...partsOf(row)]);
+  replace(name, items, touched) {
+    const rows = /** @type {Row[]} */ (items.filter((item) => !isOther(item))).flatMap((row) => [
+      row,
+      ...partsOf(row),
+    ]);
+    this.replaceOthers(name, /** @type {Other[]} */ (items.filter(isOther)), touched);
     const before = this.panels.get(name) || [];
     const ids = rows.map((row) => row.id);
     const kept = new Set(ids);
@@ -103,6 +113,24 @@ export class Rows {
       }
     }
     if (moved) touched.add(`panel:${name}`);
+  }
+
+  /** @param {string} name @param {Other[]} others @param {Set<string>} touched */
+  replaceOthers(name, others, touched) {
+    const before = this.othersOf.get(name) || [],
+      ids = others.map((other) => other.id);
+    for (const id of before)
+      if (!ids.includes(id)) {
+        this.others.delete(id);
+        touched.add(id);
+      }
+    for (const other of others) {
+      if (!same(this.others.get(other.id), other)) {
+        this.others.set(other.id, other);
+        touched.add(other.id);
+      }
+    }
+    this.othersOf.set(name, ids);
   }
 
   /** @param {string} id @param {any} patch @param {Set<string>} touched */
@@ -137,7 +165,12 @@ export class Rows {
 
   /** @param {string} id @param {any} patch @param {Set<string>} touched */
   show(id, patch, touched) {
-    const row = this.byId.get(id);
+    const other = this.others.get(id),
+      row = this.byId.get(id);
+    if (other && !same(other.value ?? null, patch.value)) {
+      this.others.set(id, { ...other, ...patch });
+      touched.add(id);
+    }
     if (!row) return;
     const changed = Object.keys(patch).filter((key) => !same(row[key] ?? null, patch[key]));
     if (!changed.length) return;
@@ -159,14 +192,29 @@ export class Rows {
   /** @param {string} id */
   get(id) {
     const row = this.byId.get(id);
-    if (!row || !this.watching || row.own || row.fixed || row.off) return row;
+    if (!row || !this.watching || row.local || row.fixed || row.off) return row;
     if (!this.locked.has(row)) this.locked.set(row, { ...row, off: true });
     return this.locked.get(row);
   }
 
-  /** The value of a row, for rows that are only data. @param {string} id */
+  /** The value of a row. @param {string} id */
   value(id) {
     return this.byId.get(id)?.value;
+  }
+
+  /** The value of data. @param {string} id */
+  data(id) {
+    return this.others.get(id)?.value ?? undefined;
+  }
+
+  /** Whether there is a command. @param {string} id */
+  knows(id) {
+    return this.others.get(id)?.kind === "command";
+  }
+
+  /** Whether a command can be called now by this user. @param {string} id */
+  can(id) {
+    return this.knows(id) && (!this.watching || Boolean(this.others.get(id)?.local));
   }
 
   /** The ids below a row, or at the top of a panel ("panel:NAME"). @param {string} key */
@@ -175,7 +223,7 @@ export class Rows {
   }
 
   /**
-   * Call a function after each change of a row, of the list of a panel ("panel:NAME"), or
+   * Call a function after each change of a row, of data, of a command, of the list of a panel ("panel:NAME"), or
    * after all rows were sent ("whole:session", "whole:browser").
    * @param {string} key @param {() => void} listener @returns {() => void} stops it
    */
@@ -195,12 +243,15 @@ export class Rows {
   }
 }
 
+/** @param {{kind: string}} item */
+const isOther = ({ kind }) => kind === "data" || kind === "command";
+
 /** A row for each number of a vector. @param {Row} row @returns {Row[]} */
 function partsOf(row) {
   if (row.kind !== "vector" || !row.parts) return [];
-  const { unit, step, fixed, off, own, help } = row;
+  const { unit, step, fixed, off, local, help } = row;
   const shared = Object.fromEntries(
-    Object.entries({ unit, step, fixed, off, own, help }).filter(
+    Object.entries({ unit, step, fixed, off, local, help }).filter(
       ([, value]) => value !== undefined,
     ),
   );

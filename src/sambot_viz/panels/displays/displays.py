@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-import weakref
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -12,13 +10,13 @@ from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.displays.display_actions import DisplayActions
-from sambot_viz.panels.displays.expanded import keep_expanded, mark_expanded
-from sambot_viz.panels.lazy_rows import LazyRows
+from sambot_viz.panels.command import Command
+from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
 from sambot_viz.panels.row import Json, Row
 from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_rows
+from sambot_viz.panels.unfolded import LazyRows, keep_expanded, mark_expanded
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import GROUP, row_text
 from sambot_viz.session import Session
@@ -50,21 +48,17 @@ class DisplaysPanel(Panel):
         )
         self.moved_by = (signals.joints,)
         self._session = session
-        self._numbers: weakref.WeakKeyDictionary[DisplayConfig, int] = (
-            weakref.WeakKeyDictionary()
-        )
-        self._count = itertools.count(1)
-        self._actions = DisplayActions(session, self.display_of)
+        self._ids = Ids[DisplayConfig]("d")
         self._lazy = LazyRows("displays/unfold", lambda: remake(self))
         self._facts: list[tuple[str, EntryList, str]] = []
 
     def rows(self) -> Sequence[Row]:
-        """All rows; a row comes after the one above it."""
-        return [
-            *mark_expanded(self._tree(), self._session.config.expanded),
-            *self._actions.rows(),
-            self._lazy.action(),
-        ]
+        """Return all rows, each after its parent."""
+        return [*mark_expanded(self._tree(), self._session.config.expanded)]
+
+    def commands(self) -> list[Command]:
+        """Return the command to unfold a row."""
+        return [self._lazy.command()]
 
     def keep_unfolded(self, unfolded: Collection[str]) -> None:
         """Write into the document which rows are unfolded, from their ids."""
@@ -87,21 +81,19 @@ class DisplaysPanel(Panel):
     # Finding what a row means
 
     def id_of(self, config: DisplayConfig) -> str:
-        """The id of a display's row; it stays the same when the display is moved."""
-        if config not in self._numbers:
-            self._numbers[config] = next(self._count)
-        return f"d{self._numbers[config]}"
+        """Return the id of a display's row; it stays the same when it is moved."""
+        return self._ids.of(config)
 
     def display_of(self, row_id: str) -> DisplayConfig:
-        """The display of a row.
+        """Return the display of a row.
 
         Raises:
             UsageError: it is not there any more.
         """
-        for config, number in self._numbers.items():
-            if f"d{number}" == row_id and self._session.config.holds(config):
-                return config
-        raise UsageError("this display is not there any more")
+        config = self._ids.find(row_id)
+        if config is None or not self._session.config.holds(config):
+            raise UsageError("this display is not there any more")
+        return config
 
     # The rows
 
@@ -114,12 +106,12 @@ class DisplaysPanel(Panel):
         yield from global_status_rows(session)
 
     def _display_rows(
-        self, configs: Sequence[DisplayConfig], above: str
+        self, configs: Sequence[DisplayConfig], parent: str
     ) -> Iterator[Row]:
         displays = {id(display.config): display for display in self._session.displays}
         for config in configs:
             row_id, display = self.id_of(config), displays.get(id(config))
-            yield self._head(config, display, row_id, above)
+            yield self._head(config, display, row_id, parent)
             if display is None:
                 yield _unsupported(config, row_id)
             elif config.kind != GROUP:
@@ -129,7 +121,7 @@ class DisplaysPanel(Panel):
             yield from self._display_rows(config.displays, row_id)
 
     def _head(
-        self, config: DisplayConfig, display: Display | None, row_id: str, above: str
+        self, config: DisplayConfig, display: Display | None, row_id: str, parent: str
     ) -> Row:
         level = None
         if display is not None and display.shown:
@@ -138,7 +130,7 @@ class DisplaysPanel(Panel):
             level = "info"
         return Row(
             row_id,
-            above,
+            parent,
             "display",
             config.name,
             value=config.enabled,
@@ -150,12 +142,12 @@ class DisplaysPanel(Panel):
             set=partial(self._session.set_enabled, config),
         )
 
-    def _status_rows(self, display: Display, above: str) -> Iterator[Row]:
-        row_id = f"{above}/:status"
+    def _status_rows(self, display: Display, parent: str) -> Iterator[Row]:
+        row_id = f"{parent}/:status"
         unfolded = self._lazy.is_unfolded(row_id)
-        return status_rows(self._session, display, row_id, above, all_rows=unfolded)
+        return status_rows(self._session, display, row_id, parent, all_rows=unfolded)
 
-    def _property_rows(self, display: Display, above: str) -> Iterator[Row]:
+    def _property_rows(self, display: Display, parent: str) -> Iterator[Row]:
         item = display.config
         change = partial(self._session.set_property, display)
         entries = {found.title: found for found in display.entries()}
@@ -167,7 +159,7 @@ class DisplaysPanel(Panel):
             of = declared.above or declared
             if of.property.open_keys and of.path not in entries:
                 continue
-            row = property_row(item, declared, above, change)
+            row = property_row(item, declared, parent, change)
             # The links of a robot come after the properties of their list.
             for title in [t for t in of_list if not path.startswith(f"{t}/")]:
                 yield from of_list.pop(title)
@@ -179,22 +171,22 @@ class DisplaysPanel(Panel):
                     of_list[path] = [*self._entry_rows(display, found, row.id)]
             yield row
             if path in notes:
-                yield Row(f"{row.id}/:note", row.above, "note", value=notes[path])
+                yield Row(f"{row.id}/:note", row.parent, "note", value=notes[path])
         for rows in of_list.values():
             yield from rows
 
     def _entry_rows(
-        self, display: Display, entries: EntryList, above: str
+        self, display: Display, entries: EntryList, parent: str
     ) -> Iterator[Row]:
         for name in entries.names:
-            item, row_id = entries.item(name), _entry_id(above, name)
+            item, row_id = entries.item(name), _entry_id(parent, name)
             change = partial(self._session.set_entry, display, entries.title, name)
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
             unfolded = self._lazy.is_unfolded(row_id)
             yield Row(
                 row_id,
-                above,
+                parent,
                 "display" if box else "group",
                 name,
                 value=item.get("Value") if box else None,
@@ -209,23 +201,23 @@ class DisplaysPanel(Panel):
                 if path != "Value" and path in item.declared:
                     yield property_row(item, item.declared[path], row_id, change)
             for key, value in entries.facts(name).items():
-                yield Row(_fact_id(row_id, key), row_id, "fact", key, value)
+                yield Row(_fact_id(row_id, key), row_id, "readonly", key, value)
 
 
-def _entry_id(above: str, name: str) -> str:
+def _entry_id(parent: str, name: str) -> str:
     """The id of a link, joint or frame; its name may hold slashes."""
-    return f"{above}/={name.replace('%', '%25').replace('/', '%2F')}"
+    return f"{parent}/={name.replace('%', '%25').replace('/', '%2F')}"
 
 
 def _fact_id(row_id: str, key: str) -> str:
     return f"{row_id}/:{key}"
 
 
-def _unsupported(config: DisplayConfig, above: str) -> Row:
+def _unsupported(config: DisplayConfig, parent: str) -> Row:
     known = config.kind in NOT_SHOWN
     why = f"it {REASON}" if known else "this version does not know this type"
     sentence = f"Not shown: {why}. It stays in the file as it is."
-    return Row(f"{above}/:status", above, "note", "Status", sentence, level="info")
+    return Row(f"{parent}/:status", parent, "note", "Status", sentence, level="info")
 
 
 def _help(config: DisplayConfig, display: Display | None) -> str:

@@ -38,12 +38,12 @@ def answer_rows(found: Explanation) -> Iterator[Row]:
 
 
 def _copied(
-    key: str, name: str, value: str, above: str = "", kind: str = "fact"
+    key: str, name: str, value: str, parent: str = "", kind: str = "readonly"
 ) -> Row:
     return Row(
         f"frames/{key}",
-        above,
-        "lines" if kind == "lines" else "fact",
+        parent,
+        "lines" if kind == "lines" else "readonly",
         name,
         value,
         extra={"copy": True},

@@ -11,9 +11,10 @@ from sambot_viz.frames import Transform
 from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.static_transform import StaticTransform, parse_static_transform
+from sambot_viz.panels.command import FLAG, NUMBER, TEXT, command
 from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.panels.row import Data, Json, Level, Row
 from sambot_viz.session import Session
 from sambot_viz.session.limits import MOST_FRAMES, require_room
 from sambot_viz.session.robot.user_frames import UserFrame
@@ -21,7 +22,6 @@ from sambot_viz.session.robot.user_frames import UserFrame
 Say = Callable[[str, Level], None]
 """Shows a sentence to the browser."""
 
-_NUMBER = (float, int)
 _PROGRAM = "static_transform_publisher"
 
 
@@ -53,13 +53,12 @@ class FramesPanel(Panel):
         self._shown = False
 
     def rows(self) -> Sequence[Row]:
-        """The two frames, the answer, the static transforms, and what can be done."""
-        return [
-            *self._choice(),
-            *answer_rows(self._answer()),
-            *self._static(),
-            *self._actions(),
-        ]
+        """Return the two frames, the answer, and the static transforms."""
+        return [*self._choice(), *answer_rows(self._answer()), *self._static()]
+
+    def data(self) -> Sequence[Data]:
+        """Return whether the panel is known to be on the screen."""
+        return [Data("frames/shown", self._shown)]
 
     def values(self) -> dict[str, Json]:
         """The answer, which follows motions while the panel is on the screen."""
@@ -89,7 +88,7 @@ class FramesPanel(Panel):
             "From",
             value=source,
             help="The frame to look from; parent of a static transform.",
-            own=True,
+            client_local=True,
             set=partial(self._choose, "_from"),
         )
         yield Row(
@@ -99,7 +98,7 @@ class FramesPanel(Panel):
             "To",
             value=target,
             help="The frame to look at; child of a static transform.",
-            own=True,
+            client_local=True,
             set=partial(self._choose, "_to"),
         )
 
@@ -129,7 +128,7 @@ class FramesPanel(Panel):
         yield Row(
             head,
             "frames/static",
-            "fact",
+            "readonly",
             child,
             value=f"in {frame.parent}",
             icon="frame",
@@ -177,40 +176,33 @@ class FramesPanel(Panel):
 
     # What the page can ask for
 
-    def _actions(self) -> Iterator[Row]:
-        yield Row(
-            "frames/shown",
-            "",
-            "action",
-            value=self._shown,
-            takes=(bool,),
-            own=True,
-            set=self._show,
-        )
-        yield Row(
-            "frames/add",
-            "",
-            "action",
-            takes=(*[_NUMBER] * 6, str, str),
-            set=self._add_fields,
-        )
-        yield Row("frames/paste", "", "action", takes=(str,), set=self._paste)
-        yield Row("frames/remove", "", "action", takes=(str,), set=self._remove)
-
-    def _show(self, arguments: tuple[bool]) -> None:
-        if self._shown != arguments[0]:
-            (self._shown,) = arguments
+    @command("frames/show", FLAG, client_local=True)
+    def _show(self, shown: bool) -> None:
+        """Follow motions, or do not: the panel is on the screen, or is not."""
+        if self._shown != shown:
+            self._shown = shown
             self._remake(self)
 
-    def _add_fields(self, arguments: tuple[float | str, ...]) -> None:
-        """Add what was typed into fields: x, y, z, roll, pitch, yaw, parent, child."""
-        numbers = [float(value) for value in arguments[:6]]
-        parent, child = (plain_name(str(name).strip()) for name in arguments[6:])
-        transform = Transform.from_xyz_rpy(numbers[:3], numbers[3:])
+    @command("frames/add", *[NUMBER] * 6, TEXT, TEXT, name="Add")
+    def _add_fields(
+        self,
+        x: float,
+        y: float,
+        z: float,
+        roll: float,
+        pitch: float,
+        yaw: float,
+        parent: str,
+        child: str,
+    ) -> None:
+        """Add what was typed into fields [m] and [rad]."""
+        transform = Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+        parent, child = plain_name(parent.strip()), plain_name(child.strip())
         self._add(StaticTransform(parent, child, transform))
 
-    def _paste(self, arguments: tuple[str]) -> None:
-        self._add(parse_static_transform(pasted_arguments(arguments[0])))
+    @command("frames/paste", TEXT, name="Add")
+    def _paste(self, pasted: str) -> None:
+        self._add(parse_static_transform(pasted_arguments(pasted)))
 
     def _add(self, wanted: StaticTransform) -> None:
         parent, child = wanted.parent, wanted.child
@@ -252,9 +244,9 @@ class FramesPanel(Panel):
             f"{by} already holds '{child}' in '{parent}': in tf2 a frame has one parent"
         )
 
-    def _remove(self, arguments: tuple[str]) -> None:
-        child = arguments[0].removeprefix("static/")
-        self._session.remove_frame(child)
+    @command("frames/remove", TEXT)
+    def _remove(self, row_id: str) -> None:
+        self._session.remove_frame(row_id.removeprefix("static/"))
 
 
 def pasted_arguments(pasted: str) -> str:

@@ -1,9 +1,10 @@
-"""The Joints panel: a slider and a number for every joint that can be set."""
+"""The Joints panel: a slider for every joint that can be set, and named poses."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import zip_longest
 from typing import Any
 
 from sambot_viz.errors import UsageError
@@ -14,22 +15,20 @@ from sambot_viz.joints.values import (
     as_topic_pub,
     as_yaml,
 )
-from sambot_viz.panels.joints.joint_groups import joint_groups
+from sambot_viz.panels.command import LIST, TEXT, command
+from sambot_viz.panels.joints.joint_rows import ID_PREFIX, joint_id, joint_rows
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Row, own
+from sambot_viz.panels.row import Answer, Data, Row
+from sambot_viz.panels.validation import validate
 from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Session
+from sambot_viz.session.limits import MOST_POSES, require_room
 from sambot_viz.session.robot.joint_arrow import JointArrow
 
-STEP_ANGLE, STEP_LENGTH = 0.01, 0.001
-"""What an arrow key adds [rad] and [m]."""
-FEWEST_STEPS = 20
-"""A joint with a short range has smaller steps, at least so many."""
 FASTEST = 100.0
 """Of a wheel that keeps turning [rad/s]."""
-FOLLOWERS, SKIPPED = "joints/followers", "joints/skipped"
-_FEW = 12
-_TOOLS, _PREFIX = "joints/tools", "j/"
+LONGEST_POSE_NAME = 60
+"""Of a pose [characters]."""
 
 _FORMS: dict[str, tuple[str, Callable[[dict[str, float]], str]]] = {
     "yaml": ("yaml of a sensor_msgs/JointState", as_yaml),
@@ -65,76 +64,104 @@ class JointsPanel(Panel):
         self._arrow = JointArrow(session)
 
     def rows(self) -> Sequence[Row]:
-        """The joints, in groups if they are many, and what can be done with them."""
-        joints = self._session.joints
-        if joints is None or not joints.sliders:
+        """Return the joints, in groups if they are many, and the turn rate."""
+        joints = self._sliders()
+        if joints is None:
             why = _NO_ROBOT if self._session.robot is None else _NOTHING_TO_MOVE
             return [Row("joints/none", "", "note", value=why)]
-        values = self.values()
-        rows = [
-            *self._free(joints),
-            *_followers(joints),
-            *_skipped(joints),
-            Row("joints/over", "", "names", value=values["joints/over"]),
-            Row("joints/turning", "", "names", value=values["joints/turning"]),
+        return [*joint_rows(joints, self._move), *self._rate_row(joints)]
+
+    def data(self) -> Sequence[Data]:
+        """Return which joints are over a limit or turning, and where all began."""
+        if self._session.joints is None:
+            return ()
+        first = {
+            joint_id(n): q for n, q in self._session.first_positions.items() if q != 0
+        }
+        return [
+            *(Data(key, value) for key, value in self._states().items()),
+            Data("joints/first", first),
         ]
-        return [*rows, *self._tools(joints), *self._actions()]
 
     def values(self) -> dict[str, Any]:
-        """The positions, the joints over a limit, and the joints that keep turning."""
+        """Return the positions, and what else a motion changes."""
         joints = self._session.joints
         if joints is None:
             return {}
-        values: dict[str, Any] = {
-            joint_id(name): position
-            for name, position in joints.all_positions().items()
+        positions = joints.all_positions().items()
+        return {joint_id(name): q for name, q in positions} | self._states()
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether there are joints to move."""
+        return self._sliders() is not None
+
+    def _sliders(self) -> JointState | None:
+        joints = self._session.joints
+        return joints if joints is not None and joints.sliders else None
+
+    def _states(self) -> dict[str, Any]:
+        joints, turning = self._session.joints, self._session.motion.turning
+        return {
+            "joints/over": [] if joints is None else list(joints.over_limit()),
+            "joints/turning": [joint_id(name) for name in turning],
+            "joints/untouched": not self._session.joints_moved,
         }
-        values["joints/over"] = list(joints.over_limit())
-        values["joints/turning"] = [joint_id(n) for n in self._session.motion.turning]
-        return values
 
-    # The joints
-
-    def _free(self, joints: JointState) -> Iterator[Row]:
-        for group in joint_groups(joints.sliders):
-            above = ""
-            if group.label:
-                above = f"joints/group/{group.names[0]}"
-                label = f"{group.label} ({len(group.names)})"
-                yield Row(above, "", "group", label, expanded=True)
-            for name in group.names:
-                yield self._slider(joints.joints[name], joints.positions[name], above)
-
-    def _slider(self, joint: Joint, position: float, above: str) -> Row:
-        lower, upper = sorted(joint.range)
-        return Row(
-            joint_id(joint.name),
-            above,
-            "slider",
-            joint.name,
-            value=position,
-            unit=_unit(joint),
-            least=lower,
-            most=upper,
-            step=_step(joint),
-            help=_help(joint),
-            extra={"wheel": True} if joint.type == "continuous" else None,
-            set=partial(self._move, joint),
-        )
+    # Positions
 
     def _move(self, joint: Joint, value: float) -> None:
         self._session.set_joint_positions({joint.name: value})
         self._arrow.moved(joint)
 
-    # What can be done
+    @command("joints/center")
+    def _center(self) -> None:
+        self._session.center_joints()
 
-    def _tools(self, joints: JointState) -> Iterator[Row]:
-        """The turn rate, below a row that no tree shows."""
-        if any(joints.joints[name].type == "continuous" for name in joints.sliders):
-            yield Row(_TOOLS, "", "names")
-            yield Row(
+    @command("joints/randomize")
+    def _randomize(self) -> None:
+        self._session.randomize_joints()
+
+    @command("joints/restore", LIST, LIST)
+    def _restore(self, row_ids: list[Any], positions: list[Any]) -> Answer | None:
+        """Move the joints to where a page that comes back had them.
+
+        Only as long as nothing has moved: so a user of now is never disturbed, and of
+        two pages that come back the first one restores the joints.
+        """
+        joints = self._sliders()
+        if self._session.joints_moved or joints is None:
+            return None
+        rows = {row.id: row for row in joint_rows(joints, self._move)}
+        wanted: dict[str, float] = {}
+        for row_id, position in zip_longest(row_ids, positions):
+            row = rows.get(row_id)
+            if row is None or row.kind != "slider":
+                raise UsageError("this robot does not have these joints")
+            wanted[row.name] = validate(row, position)
+        self._session.set_joint_positions(wanted, "Joints as before the restart")
+        return Answer("The joints are where they were; Undo puts them at their start")
+
+    @command("joints/copy", TEXT, client_local=True)
+    def _copy(self, form: str) -> Answer:
+        joints = self._session.joints
+        if joints is None or form not in _FORMS:
+            raise UsageError(f"there is no form '{form}' to copy joints in")
+        what, write = _FORMS[form]
+        # A joint that follows takes its position from its leader.
+        only_free = form in ("launch", "arguments")
+        values = dict(joints.positions) if only_free else joints.all_positions()
+        count = f"{len(values)} joint value{'s' if len(values) != 1 else ''}"
+        return Answer(f"{count} as {what}", write(values))
+
+    # Wheels that keep turning
+
+    def _rate_row(self, joints: JointState) -> Sequence[Row]:
+        if all(joints.joints[name].type != "continuous" for name in joints.sliders):
+            return ()
+        return [
+            Row(
                 "joints/rate",
-                _TOOLS,
+                "",
                 "float",
                 "Turn rate",
                 value=self._rate,
@@ -143,15 +170,11 @@ class JointsPanel(Panel):
                 most=FASTEST,
                 step=0.1,
                 help="How fast wheels turn by themselves; a negative rate turns back.",
+                # The tree does not show it: it is among the buttons.
+                extra={"apart": True},
                 set=self._set_rate,
             )
-
-    def _actions(self) -> Iterator[Row]:
-        session = self._session
-        yield _action("joints/center", lambda _: session.center_joints())
-        yield _action("joints/randomize", lambda _: session.randomize_joints())
-        yield _action("joints/turn", self._turn, str)
-        yield from own([_action("joints/copy", self._copy, str)])
+        ]
 
     def _set_rate(self, rate: float) -> None:
         before = self._rate
@@ -170,9 +193,10 @@ class JointsPanel(Panel):
             self._session.motion.turn(name, rate)
         self._remake(self)
 
-    def _turn(self, arguments: tuple[str]) -> None:
+    @command("joints/turn", TEXT)
+    def _turn(self, row_id: str) -> None:
         """Start the wheel of a row, or stop it."""
-        name, motion = arguments[0].removeprefix(_PREFIX), self._session.motion
+        name, motion = row_id.removeprefix(ID_PREFIX), self._session.motion
         if motion.turns(name):
             motion.turn(name, 0.0)
         elif self._rate == 0:
@@ -205,84 +229,78 @@ class JointsPanel(Panel):
             raise UsageError(f"there is no joint '{name}' that can be set")
         return joints.positions[name]
 
-    def _copy(self, arguments: tuple[str]) -> Answer:
+
+class PosesPanel(Panel):
+    """The poses that have a name, and the file they are kept in.
+
+    Args:
+        session: whose joints take the poses.
+        remake: called when the poses have changed.
+    """
+
+    name = "poses"
+
+    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+        self.remade_by = (session.signals.robot,)
+        self._session = session
+        self._remake = remake
+
+    def data(self) -> Sequence[Data]:
+        """Return the names of the poses, and where they are kept."""
+        if not self.offers("poses/use"):
+            return ()
+        names = list(self._session.poses.names)
+        return [
+            Data("poses/names", names),
+            Data("poses/place", f"Kept {self._place()}."),
+        ]
+
+    def _place(self) -> str:
+        path = self._session.poses.path
+        return "in memory only" if path is None else f"in {path.absolute()}"
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether there are joints to pose."""
         joints = self._session.joints
-        if joints is None or arguments[0] not in _FORMS:
-            raise UsageError(f"there is no form '{arguments[0]}' to copy joints in")
-        what, write = _FORMS[arguments[0]]
-        # A joint that follows takes its position from its leader.
-        only_free = arguments[0] in ("launch", "arguments")
-        values = dict(joints.positions) if only_free else joints.all_positions()
-        count = f"{len(values)} joint value{'s' if len(values) != 1 else ''}"
-        return Answer(f"{count} as {what}", write(values))
+        return joints is not None and bool(joints.sliders)
 
+    @command("poses/use", TEXT)
+    def _use(self, name: str) -> Answer | None:
+        left_out = self._session.use_pose(name)
+        if left_out:
+            return Answer(f"Without {', '.join(left_out)}, which cannot be set")
+        return None
 
-def _followers(joints: JointState) -> Iterator[Row]:
-    """The joints that follow others; they can only be read."""
-    followers = joints.followers
-    if not followers:
-        return
-    positions = joints.all_positions()
-    name = f"Follow other joints ({len(followers)})"
-    yield Row(FOLLOWERS, "", "group", name, expanded=len(followers) <= _FEW)
-    for name, follower in followers.items():
-        joint, mimic = joints.joints[name], follower.mimic
-        lower, upper = sorted(joint.range) if joint.limit is not None else (None, None)
-        yield Row(
-            joint_id(name),
-            FOLLOWERS,
-            "slider",
-            name,
-            value=positions[name],
-            unit=_unit(joint),
-            least=lower,
-            most=upper,
-            help=_help(joint),
-            extra={
-                "follows": joint_id(mimic.joint),
-                "times": mimic.multiplier,
-                "plus": mimic.offset,
-            },
-        )
+    @command("poses/save", TEXT)
+    def _save(self, name: str) -> Answer:
+        name, joints = name.strip(), self._session.joints
+        if joints is None:
+            raise UsageError("there is no robot to save a pose of")
+        if len(name) > LONGEST_POSE_NAME:
+            raise UsageError(
+                f"a pose's name has at most {LONGEST_POSE_NAME} characters"
+            )
+        poses = self._session.poses
+        require_room(len({*poses.names, name}), MOST_POSES, "named poses")
+        poses.save(name, joints.positions)
+        self._remake(self)
+        return Answer(f"Saved pose '{name}' {self._place()}")
 
+    @command("poses/remove", TEXT)
+    def _delete(self, name: str) -> Answer:
+        poses = self._session.poses
+        pose = poses.get(name)
 
-def _skipped(joints: JointState) -> Iterator[Row]:
-    """The joints without a position that a user may look for, and why."""
-    skipped = {
-        n: why for n, why in joints.skipped.items() if not why.startswith("fixed")
-    }
-    if not skipped:
-        return
-    name = f"Without a position ({len(skipped)})"
-    yield Row(SKIPPED, "", "group", name, expanded=len(skipped) <= _FEW)
-    for name, why in skipped.items():
-        yield Row(f"joints/skipped/{name}", SKIPPED, "fact", name, why)
+        def change(action: Callable[[], None]) -> None:
+            action()
+            self._remake(self)
 
-
-def _action(row_id: str, act: Callable[[Any], object], *takes: type) -> Row:
-    return Row(row_id, "", "action", takes=takes, set=act)
-
-
-def joint_id(name: str) -> str:
-    """The id of a joint's row."""
-    return f"{_PREFIX}{name}"
-
-
-def _unit(joint: Joint) -> str:
-    return "m" if joint.type == "prismatic" else "rad"
-
-
-def _step(joint: Joint) -> float:
-    """A round step: 0.01 rad, 1 mm, or less for a joint with a short range."""
-    lower, upper = sorted(joint.range)
-    step = STEP_LENGTH if joint.type == "prismatic" else STEP_ANGLE
-    while upper - lower < FEWEST_STEPS * step and step > 1e-6:
-        step /= 10
-    return step
-
-
-def _help(joint: Joint) -> str:
-    return f"{joint.type} joint, {joint.parent} → {joint.child}"
+        save = partial(change, partial(poses.save, name, pose))
+        remove = partial(change, partial(poses.remove, name))
+        remove()
+        label = f"Remove pose {name}"
+        self._session.edits.record(label, save, remove, of_document=False)
+        return Answer(f"Removed pose '{name}'; Undo brings it back")
 
 
 _NO_ROBOT = "There is no robot yet; Problems says why, if its file has a mistake."

@@ -10,8 +10,8 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, cast
 
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.gate import checked
-from sambot_viz.panels.joints.joints import joint_id
+from sambot_viz.panels.command import LIST, command
+from sambot_viz.panels.joints.joint_rows import joint_id
 from sambot_viz.panels.link.link_parts import (
     OFF,
     ON,
@@ -25,7 +25,8 @@ from sambot_viz.panels.link.link_parts import (
 )
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Answer, Json, Row, own
+from sambot_viz.panels.row import Answer, Data, Json, Row
+from sambot_viz.panels.validation import validate
 from sambot_viz.panels.views import CURRENT, look_as
 from sambot_viz.rviz import FIXED_FRAME, ConfigItem
 from sambot_viz.session import Session
@@ -61,20 +62,13 @@ class LinkPanel(Panel):
         self._made: Json = None
         self._count = 0
 
-    def rows(self) -> Sequence[Row]:
-        """The last link that was made, as its parts, and the actions."""
-        return [
-            Row("link/made", "", "names", value=self._made),
-            *own(
-                [
-                    _action("link/copy", lambda _: self._copy()),
-                    _action("link/open", self._open, list, list),
-                ]
-            ),
-        ]
+    def data(self) -> Sequence[Data]:
+        """Return the last permalink that was made, as its parts."""
+        return [Data("link/made", self._made)]
 
     # Making one
 
+    @command("link/copy", client_local=True)
     def _copy(self) -> None:
         self._count += 1
         parts = [list(pair) for pair in self._parts()]
@@ -114,8 +108,10 @@ class LinkPanel(Panel):
 
     # Opening one
 
-    def _open(self, arguments: tuple[list[Any], list[Any]]) -> Answer:
-        link = LinkParts.read(*arguments)
+    # Viewers may open one: what others see then stays as it is.
+    @command("link/open", LIST, LIST, name="link", client_local=True)
+    def _open(self, names: list[Any], values: list[Any]) -> Answer:
+        link = LinkParts.read(names, values)
         robot = self._session.robot
         link.elsewhere = robot is not None and link.robot not in (None, robot.name)
         link.watching = not self._session.roles.may_edit(self._browser.client_id)
@@ -157,7 +153,7 @@ class LinkPanel(Panel):
                 link.missing["frame"] += [given]
                 return None
             try:
-                checked(row, value)
+                validate(row, value)
             except UsageError as error:
                 link.refuse(str(error))
                 return None
@@ -185,7 +181,7 @@ class LinkPanel(Panel):
             try:
                 if row is None:
                     raise UsageError("this page has no panel that moves joints")
-                positions[name] = checked(row, number(given))
+                positions[name] = validate(row, number(given))
             except UsageError as error:
                 positions.pop(name, None)
                 link.refuse(str(error))
@@ -227,10 +223,6 @@ class LinkPanel(Panel):
                 link.missing[kind if kind in ("link", "frame") else "thing"] += [name]
         if items != set(self._browser.tools.selection):
             self._browser.tools.select(items, None)
-
-
-def _action(row_id: str, act: Callable[[Any], object], *takes: type) -> Row:
-    return Row(row_id, "", "action", "link", takes=takes, set=act)
 
 
 def _path(row: Row) -> str:

@@ -1,4 +1,4 @@
-"""What many rows of the page need to know: the frames there are, the version."""
+"""Facts of the session for scripts of the page: frames, ids, version, what is read."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import viser
 
 from sambot_viz._version import __version__
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.row import Data
 from sambot_viz.session import Session
 
 _STARTED_AGAIN, _PRIVATE = "The program was started again.", "This page begins again."
 
 
-class NamesPanel(Panel):
-    """Facts without a panel of their own.
+class SessionInfoPanel(Panel):
+    """Facts that no panel shows.
 
     Args:
         session: whose facts these are.
@@ -38,15 +38,35 @@ class NamesPanel(Panel):
         self._document = weakref.ref(session.config)
         self._documents = 0
 
-    def rows(self) -> Sequence[Row]:
-        """The frames, which session and which document this is, and the version."""
+    def data(self) -> Sequence[Data]:
+        """Return the frames, which session and document this is, and the version."""
         if self._document() is not self._session.config:
             self._document = weakref.ref(self._session.config)
             self._documents += 1
         frames = sorted(self._session.tree.frames)
         return [
-            Row("names/frames", "", "names", value=frames),
-            Row("names/session", "", "names", value=self._session_value),
-            Row("names/document", "", "names", value=self._documents),
-            Row("names/version", "", "names", value=__version__),
+            Data("names/frames", frames),
+            Data("names/session", self._session_value),
+            Data("names/document", self._documents),
+            Data("names/version", __version__),
         ]
+
+
+class StatusBarPanel(Panel):
+    """Data of the status bar; its hint is a row of each browser.
+
+    Args:
+        session: what is shown.
+    """
+
+    name = "statusbar"
+
+    def __init__(self, session: Session) -> None:
+        signals = session.signals
+        self.remade_by = (signals.status, signals.robot)
+        self._session = session
+
+    def data(self) -> Sequence[Data]:
+        """Return how many files of how many are read."""
+        progress = self._session.context.assets.progress
+        return [Data("statusbar/progress", progress)]

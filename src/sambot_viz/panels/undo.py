@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sambot_viz.panels.command import command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Json, Row
+from sambot_viz.panels.row import Answer, Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
@@ -31,30 +32,27 @@ class UndoPanel(Panel):
         self._edits, self._id = session.edits, browser.client_id
         self._session, self._displays = session, displays
 
-    def rows(self) -> Sequence[Row]:
-        """Undo and Redo, with what they would do, and what the last one touched."""
-        undo, redo = self._edits.undo_label(self._id), self._edits.redo_label(self._id)
-        return [
-            Row(
-                "edit/undo",
-                "",
-                "action",
-                "Undo",
-                value=undo or "",
-                enabled=undo is not None,
-                set=lambda _: _said("Undone", self._edits.undo(self._id)),
-            ),
-            Row(
-                "edit/redo",
-                "",
-                "action",
-                "Redo",
-                value=redo or "",
-                enabled=redo is not None,
-                set=lambda _: _said("Done again", self._edits.redo(self._id)),
-            ),
-            Row("edit/touched", "", "names", value=self._touched()),
-        ]
+    def data(self) -> Sequence[Data]:
+        """Return what would be undone and done again, and what was touched last."""
+        labels = {
+            "undo": self._edits.undo_label(self._id) or "",
+            "redo": self._edits.redo_label(self._id) or "",
+        }
+        return [Data("edit/labels", labels), Data("edit/touched", self._touched())]
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether there is something to undo, or to do again."""
+        undoes = command_id == "edit/undo"
+        find = self._edits.undo_label if undoes else self._edits.redo_label
+        return find(self._id) is not None
+
+    @command("edit/undo", name="Undo")
+    def _undo(self) -> Answer | None:
+        return _said("Undone", self._edits.undo(self._id))
+
+    @command("edit/redo", name="Redo")
+    def _redo(self) -> Answer | None:
+        return _said("Done again", self._edits.redo(self._id))
 
     def _touched(self) -> Json:
         """The row that the page goes to; two of one row have different numbers."""

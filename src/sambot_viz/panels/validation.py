@@ -1,7 +1,8 @@
-"""The one place where what a browser sends back is checked.
+"""The one place that checks what a browser sends back: role, type and limits.
 
-A message is a list: the id of a row, the new value, and for what a hand does in one go
-(a drag, a key that is held) the number of that gesture.
+A message is a list: the id of a row and its new value, or the id of a command and its
+arguments; and for what a hand does in one go (a drag, a key that is held) the number of
+that gesture.
 """
 
 from __future__ import annotations
@@ -9,20 +10,21 @@ from __future__ import annotations
 import math
 import re
 import reprlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, cast
 
 from sambot_viz.errors import UsageError
 from sambot_viz.geometry import finite
-from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.command import LARGEST, Argument, Command
+from sambot_viz.panels.row import Data, Json, Row
+from sambot_viz.session.roles import WATCHING
 from sambot_viz.text import text
 
 LONGEST_TEXT = 1000
 """Of a value that is a text [characters]."""
 LONGEST_ID = 400
-LARGEST = 1e12
-"""No number of a user is larger."""
 _MOST_PARTS = 4000
 _REPR = reprlib.Repr()
 """Of lists in lists only the outermost are written."""
@@ -31,22 +33,22 @@ _REPR.maxstring = 60
 
 
 @dataclass(frozen=True, slots=True)
-class NewValue:
-    """A value that a browser wants a row to have.
+class Sent:
+    """A value that a browser wants a row to have, or a command to be called with.
 
     Attributes:
-        row: the id of the row.
+        id: of the row or command.
         value: not checked yet.
         gesture: the same number for all values of one drag; None for a single one.
     """
 
-    row: str
+    id: str
     value: Json
     gesture: int | None
 
 
-def read(message: object) -> NewValue | None:
-    """What a browser has sent; None when it is not an edit."""
+def read(message: object) -> Sent | None:
+    """Read what a browser has sent; None when it is not an edit."""
     if not isinstance(message, list) or not 2 <= len(cast("list[Any]", message)) <= 3:
         return None
     parts = cast("list[Any]", message)
@@ -55,11 +57,35 @@ def read(message: object) -> NewValue | None:
         return None
     if isinstance(gesture, bool) or not isinstance(gesture, int | None):
         return None
-    return NewValue(parts[0], parts[1], gesture)
+    return Sent(parts[0], parts[1], gesture)
 
 
-def checked(row: Row, value: Json) -> Any:
-    """A value that the row's `set` may be called with.
+def accept(
+    item: Row | Data | Command, value: Json, *, may_edit: bool
+) -> Callable[[], object]:
+    """Check what a browser has sent, and return the call that does it.
+
+    Args:
+        item: the row or command that it names.
+        value: a row's new value, or a command's arguments.
+        may_edit: whether the browser may change what everyone sees.
+
+    Raises:
+        UsageError: the user is a viewer and others would see it, or as for `validate`.
+    """
+    if isinstance(item, Data):
+        raise UsageError("This cannot be changed")
+    if not (item.client_local or may_edit):
+        raise UsageError(WATCHING)
+    if isinstance(item, Command):
+        return partial(item.run, *arguments_of(item, value))
+    valid = validate(item, value)
+    assert item.set is not None
+    return partial(item.set, valid)
+
+
+def validate(row: Row, value: Json) -> Any:
+    """Return a value that the row's `set` may be called with.
 
     Raises:
         UsageError: it has another type, is outside the limits or not offered, or the
@@ -74,13 +100,11 @@ def checked(row: Row, value: Json) -> Any:
     if row.kind == "enum" and not row.editable:
         return _option(row, value)
     if row.kind in ("enum", "text", "frame", "file") and isinstance(value, str):
-        return _short(row, value)
+        return _short(text(row.name), value)
     if row.kind == "color":
         return _color(row, value)
     if row.kind == "vector":
         return _numbers(row, value, len(cast("list[Any]", row.value)))
-    if row.kind == "action":
-        return _arguments(row, value)
     raise UsageError(f"'{text(row.name)}' does not take {_shown(value)}")
 
 
@@ -109,13 +133,13 @@ def _option(row: Row, value: Json) -> str:
     raise UsageError(f"'{text(row.name)}' does not offer {_shown(value)}")
 
 
-def _short(row: Row, value: str) -> str:
+def _short(name: str, value: str) -> str:
     if len(value) > LONGEST_TEXT:
-        raise UsageError(f"'{text(row.name)}' takes at most {LONGEST_TEXT} characters")
+        raise UsageError(f"'{name}' takes at most {LONGEST_TEXT} characters")
     # What cannot be encoded must never reach viser's buffer.
     shown = re.sub(r"[\t\r\n]", " ", value)
     if text(shown, LONGEST_TEXT) != shown:
-        raise UsageError(f"'{text(row.name)}' contains a character that cannot be seen")
+        raise UsageError(f"'{name}' contains a character that cannot be seen")
     return value
 
 
@@ -134,7 +158,7 @@ def _color(row: Row, value: Json) -> str | tuple[float, ...]:
     In a file RViz lowers 300 to 255; a user who types it hears of it.
     """
     if isinstance(value, str):
-        parts = [part.strip() for part in _short(row, value).split(";")]
+        parts = [part.strip() for part in _short(text(row.name), value).split(";")]
         numbers = [int(part) for part in parts if re.fullmatch(r"[+-]?\d{1,12}", part)]
         fits = len(parts) == 1 or len(parts) == len(numbers) == 3
     else:
@@ -147,30 +171,49 @@ def _color(row: Row, value: Json) -> str | tuple[float, ...]:
     return value if isinstance(value, str) else tuple(numbers)
 
 
-def _arguments(row: Row, value: Json) -> tuple[Any, ...]:
+def arguments_of(command: Command, value: Json) -> tuple[Any, ...]:
+    """Return the arguments that a command may be called with.
+
+    Raises:
+        UsageError: there are more or fewer, or one has another type or is outside its
+            limits.
+    """
+    name = text(command.name or command.id)
     parts = cast("list[Any]", value) if isinstance(value, list) else []
-    fits = len(parts) == len(row.takes) and all(
-        isinstance(part, kind) and not (isinstance(part, bool) and kind is not bool)
-        for part, kind in zip(parts, row.takes, strict=False)
+    fits = value is None or isinstance(value, list)
+    if not fits or len(parts) != len(command.arguments):
+        raise UsageError(f"'{name}' does not take {_shown(value)}")
+    return tuple(
+        _argument(name, argument, part)
+        for argument, part in zip(command.arguments, parts, strict=True)
     )
-    if value is None and not row.takes:
-        return ()
-    if not fits:
-        raise UsageError(f"'{text(row.name)}' does not take {_shown(value)}")
-    return tuple(_argument(row, part) for part in parts)
 
 
-def _argument(row: Row, part: Json) -> Any:
+def _argument(name: str, argument: Argument, part: Json) -> Any:
+    if part is None and argument.optional:
+        return None
+    kinds = (int, float) if argument.type is float else argument.type
+    if not isinstance(part, kinds) or (
+        isinstance(part, bool) and argument.type is not bool
+    ):
+        raise UsageError(f"'{name}' does not take {_shown(part)}")
+    if not isinstance(part, list):
+        return _scalar(name, part, argument.least, argument.most)
+    listed = cast("list[Any]", part)
+    if len(listed) > _MOST_PARTS or any(
+        not isinstance(p, str | int | float | None) for p in listed
+    ):
+        raise UsageError(f"'{name}' does not take such a list")
+    return [_scalar(name, p, argument.least, argument.most) for p in listed]
+
+
+def _scalar(name: str, part: Json, least: float, most: float) -> Any:
     if isinstance(part, str):
-        return _short(row, part)
-    number = isinstance(part, int | float) and not isinstance(part, bool)
-    if number and finite(part) is None:
-        raise UsageError(f"'{text(row.name)}' needs a number")
-    if isinstance(part, list):
-        parts = cast("list[Any]", part)
-        if len(parts) > _MOST_PARTS or any(isinstance(p, list | dict) for p in parts):
-            raise UsageError(f"'{text(row.name)}' does not take such a list")
-        return [_argument(row, p) for p in parts]
+        return _short(name, part)
+    if isinstance(part, int | float) and not isinstance(part, bool):
+        number = finite(part)
+        if number is None or not least <= number <= most:
+            raise UsageError(f"'{name}' needs a number, not {_shown(part)}")
     return part
 
 

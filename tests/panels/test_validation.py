@@ -1,4 +1,4 @@
-"""The gate: what a browser sends is a value that a row can have, or is refused."""
+"""Validation: what a browser sends is a value that a row can have, or is refused."""
 
 from __future__ import annotations
 
@@ -12,11 +12,21 @@ from typing import Any, get_args
 import pytest
 
 from sambot_viz import SambotVizError
-from sambot_viz.panels import gate
-from sambot_viz.panels.row import Kind, Row
+from sambot_viz.panels import validation
+from sambot_viz.panels.command import (
+    FLAG,
+    INTEGER,
+    LIST,
+    NUMBER,
+    TEXT,
+    Argument,
+    Command,
+)
+from sambot_viz.panels.row import Data, Kind, Row
 
 SIGNS = string.printable + "äß→\ud800\udfff\u202e\x00\x7f\u2028\ufeff\U0001f600"
 NUMBERS = (0, 1, -1, 3, 2**31, 2**53 + 1, -(2**63), 10**400, 1e-300, 0.5, 1e13, -1e300)
+LONGEST = validation.LONGEST_TEXT
 ODD: tuple[Any, ...] = (None, True, False, math.nan, math.inf, -math.inf, *NUMBERS)
 
 
@@ -26,14 +36,26 @@ def settable(kind: Kind, **more: Any) -> Row:
     return Row("row", "", kind, "Name", value=value, set=lambda value: None, **more)
 
 
-ROWS = [
+def called(*arguments: Argument) -> Command:
+    return Command("x/do", arguments, name="Name")
+
+
+def checked(item: Row | Command, value: Any) -> Any:
+    """What the row is set to, or the arguments of the command."""
+    if isinstance(item, Command):
+        return validation.arguments_of(item, value)
+    return validation.validate(item, value)
+
+
+ROWS: list[Row | Command] = [
     *(settable(kind) for kind in get_args(Kind)),
     settable("float", least=-1.0, most=1.0, unit="m"),
     settable("int", least=0),
     settable("enum", options=("Lines", "Billboards", "\ud800 \u202e")),
     settable("enum", options=("Lines",), editable=True),
-    settable("action", takes=(str, (str, type(None)), int)),
-    settable("action", takes=(list, bool, float)),
+    called(),
+    called(TEXT, Argument(str, optional=True), INTEGER),
+    called(LIST, FLAG, NUMBER),
     Row("row", "", "float", "Name", value=1.0),
     settable("bool", enabled=False),
 ]
@@ -45,7 +67,7 @@ def garbage(chance: random.Random, depth: int = 3) -> Any:
         lambda: chance.choice(ODD),
         lambda: chance.uniform(-1e15, 1e15),
         lambda: "".join(chance.choices(SIGNS, k=chance.randrange(12))),
-        lambda: "x" * chance.choice((gate.LONGEST_TEXT, gate.LONGEST_TEXT + 1, 70_000)),
+        lambda: "x" * chance.choice((LONGEST, LONGEST + 1, 70_000)),
         lambda: bytes(chance.randrange(4)),
         lambda: [garbage(chance, depth - 1) for _ in range(chance.randrange(5))],
         lambda: {"a": garbage(chance, depth - 1)},
@@ -59,7 +81,7 @@ def test_whatever_comes_is_refused_with_a_sentence_or_can_be_sent_on() -> None:
     for row, _ in itertools.product(ROWS, range(400)):
         value = garbage(chance)
         try:
-            found = gate.checked(row, value)
+            found = checked(row, value)
         except SambotVizError as error:
             sentence = str(error)
             assert sentence.isprintable(), sentence
@@ -76,7 +98,7 @@ def assert_plain(value: object) -> None:
     """Only what can be kept and drawn comes through."""
     if isinstance(value, str):
         value.encode()
-        assert len(value) <= gate.LONGEST_TEXT
+        assert len(value) <= validation.LONGEST_TEXT
     elif isinstance(value, int | float):
         assert math.isfinite(float(value))
     elif isinstance(value, list | tuple):
@@ -88,14 +110,14 @@ def test_what_is_no_new_value_is_dropped() -> None:
     chance = random.Random(2)
     for _ in range(5000):
         message = garbage(chance)
-        found = gate.read(message)
+        found = validation.read(message)
         if found is not None:
-            assert isinstance(found.row, str)
+            assert isinstance(found.id, str)
             assert found.gesture is None or type(found.gesture) is int
     for message in ([], ["row"], ["row", 1, 2, 3], [1, 2], ["x" * 401, 1], "row", None):
-        assert gate.read(message) is None
+        assert validation.read(message) is None
     for gesture in (True, 1.5, "1", [1]):
-        assert gate.read(["row", 1, gesture]) is None
+        assert validation.read(["row", 1, gesture]) is None
 
 
 def test_a_deep_nest_of_lists_is_refused() -> None:
@@ -104,9 +126,9 @@ def test_a_deep_nest_of_lists_is_refused() -> None:
         nest = [nest]
     for row in ROWS:
         with pytest.raises(SambotVizError):
-            gate.checked(row, nest)
+            checked(row, nest)
         with pytest.raises(SambotVizError):
-            gate.checked(row, [nest])
+            checked(row, [nest])
 
 
 @pytest.mark.parametrize(
@@ -124,23 +146,26 @@ def test_a_deep_nest_of_lists_is_refused() -> None:
         (settable("frame"), "", ""),
         (settable("enum", options=("a", "b")), "b", "b"),
         (settable("enum", options=("a",), editable=True), "other", "other"),
-        (settable("action"), [], ()),
-        (settable("action"), None, ()),
-        (settable("action", takes=(str, (int, type(None)))), ["a", None], ("a", None)),
-        (settable("action", takes=(bool,)), [False], (False,)),
-        (settable("action", takes=(list,)), [["a", 1]], (["a", 1],)),
+        (called(), [], ()),
+        (called(), None, ()),
+        (called(TEXT, Argument(int, optional=True)), ["a", None], ("a", None)),
+        (called(FLAG), [False], (False,)),
+        (called(LIST), [["a", 1]], (["a", 1],)),
+        (called(NUMBER), [1], (1,)),
     ],
 )
-def test_values_of_the_right_type_pass(row: Row, value: Any, found: Any) -> None:
-    assert gate.checked(row, value) == found
-    assert type(gate.checked(row, value)) is type(found)
+def test_values_of_the_right_type_pass(
+    row: Row | Command, value: Any, found: Any
+) -> None:
+    assert checked(row, value) == found
+    assert type(checked(row, value)) is type(found)
 
 
 def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
     row = settable("enum", options=("plain", "a\u202eb"))
     shown = row.json()["options"][1]
     assert shown != "a\u202eb"
-    assert gate.checked(row, shown) == "a\u202eb"
+    assert checked(row, shown) == "a\u202eb"
 
 
 @pytest.mark.parametrize(
@@ -163,13 +188,39 @@ def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
         (settable("enum", options=("a",)), "b", "'Name' does not offer 'b'"),
         (settable("bool"), 1, "'Name' does not take 1"),
         (settable("status"), "Ok", "'Name' does not take 'Ok'"),
-        (settable("action", takes=(int,)), [True], "'Name' does not take"),
-        (settable("action", takes=(int,)), [10**400], "'Name' needs a number"),
+        (called(INTEGER), [True], "'Name' does not take True"),
+        (called(INTEGER), [1.5], "'Name' does not take 1.5"),
+        (called(INTEGER), [10**400], "'Name' needs a number"),
+        (called(NUMBER), [1.7e308], "'Name' needs a number, not 1.7e+308"),
+        (called(LIST), [[1, -1e13]], "'Name' needs a number, not -1000"),
+        (called(Argument(float, least=0, most=1)), [1.5], "'Name' needs a number"),
+        (called(TEXT), [None], "'Name' does not take None"),
+        (called(TEXT), ["a", "b"], "'Name' does not take ['a', 'b']"),
+        (called(), {"a": 1}, "'Name' does not take {'a': 1}"),
         (settable("bool", enabled=False), True, "cannot be changed at present"),
         (Row("row", "", "bool", "Name"), True, "cannot be changed at present"),
     ],
 )
-def test_others_are_refused_with_a_reason(row: Row, value: Any, sentence: str) -> None:
+def test_others_are_refused_with_a_reason(
+    row: Row | Command, value: Any, sentence: str
+) -> None:
     with pytest.raises(SambotVizError) as refused:
-        gate.checked(row, value)
+        checked(row, value)
     assert sentence in str(refused.value)
+
+
+def test_who_may_not_edit_sets_and_calls_only_what_is_local_to_the_client() -> None:
+    done: list[Any] = []
+    for client_local in (False, True):
+        row = Row("a", "", "float", set=done.append, client_local=client_local)
+        call = Command("b", (TEXT,), done.append, client_local=client_local)
+        for item, value in ((row, 1.0), (call, ["x"])):
+            if client_local:
+                validation.accept(item, value, may_edit=False)()
+            else:
+                with pytest.raises(SambotVizError):
+                    validation.accept(item, value, may_edit=False)
+            validation.accept(item, value, may_edit=True)()
+    assert done == [1.0, "x", 1.0, 1.0, "x", "x"]
+    with pytest.raises(SambotVizError):
+        validation.accept(Data("c", 1), 2, may_edit=True)

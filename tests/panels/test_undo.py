@@ -6,11 +6,11 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from panel_rows import edit, rows_of
+from panel_rows import data_of, edit
 
 from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.edits import UndoPanel
 from sambot_viz.panels.row import Answer
+from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 
@@ -28,7 +28,7 @@ def panel(session: Session, browser: Browser, displays: DisplaysPanel) -> UndoPa
 
 
 def touched(panel: UndoPanel) -> Any:
-    value = rows_of(panel)["edit/touched"].value
+    value = data_of(panel)["edit/touched"]
     return value and value["row"]
 
 
@@ -73,9 +73,9 @@ def test_each_undo_is_told_from_the_one_before(
         with session.edits.acting(browser.client_id):
             session.rename_display(session.config.displays[0], name)
     edit(panel, "edit/undo", None)
-    before = rows_of(panel)["edit/touched"].value
+    before = data_of(panel)["edit/touched"]
     edit(panel, "edit/undo", None)
-    after = rows_of(panel)["edit/touched"].value
+    after = data_of(panel)["edit/touched"]
     assert before["row"] == after["row"] and before != after
 
 
@@ -88,8 +88,7 @@ def test_undo_and_redo_say_what_they_did(
         ("edit/undo", "Undone: Global Options: Frame Rate"),
         ("edit/redo", "Done again: Global Options: Frame Rate"),
     ):
-        row = rows_of(panel)[row_id]
-        assert row.set is not None and row.set(()) == Answer(said)
+        assert edit(panel, row_id) == Answer(said)
 
 
 def test_other_edits_and_other_browsers_name_nothing(

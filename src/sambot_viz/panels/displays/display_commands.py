@@ -1,4 +1,4 @@
-"""Adding and copying displays: the types there are, and what was made last."""
+"""What the page can do with displays: add, copy, rename, move, remove."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from collections.abc import Callable, Sequence
 from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.row import Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
@@ -21,14 +22,14 @@ TYPES: list[Json] = [
 """`why` says why a type cannot be added."""
 
 
-class NewDisplaysPanel(Panel):
-    """What the Add dialog and Duplicate need.
+class DisplayCommands(Panel):
+    """The types that can be added, what was made last, and the commands.
 
     Each page sends a mark with what it asks for, and selects the row that comes back
     with its mark.
 
     Args:
-        session: what displays are added to.
+        session: whose displays these are.
         displays: the rows of the displays.
         remake: called when a display was made.
     """
@@ -46,35 +47,18 @@ class NewDisplaysPanel(Panel):
         self._remake = remake
         self._made: Json = None
 
-    def rows(self) -> Sequence[Row]:
-        """Data for the dialog, and the two actions."""
-        return [
-            Row("displays/types", "", "names", value=TYPES),
-            Row("displays/made", "", "names", value=self._made),
-            Row(
-                "displays/add",
-                "",
-                "action",
-                "Add",
-                takes=(str, str, str),
-                set=lambda sent: self._add(*sent),
-            ),
-            Row(
-                "displays/duplicate",
-                "",
-                "action",
-                "Duplicate",
-                takes=(str, str),
-                set=lambda sent: self._duplicate(*sent),
-            ),
-        ]
+    def data(self) -> Sequence[Data]:
+        """Return what the Add dialog offers, and the last display that was made."""
+        return [Data("displays/types", TYPES), Data("displays/made", self._made)]
 
+    @command("displays/add", TEXT, TEXT, TEXT, name="Add")
     def _add(self, kind: str, name: str, mark: str) -> None:
         """Add a display at the end."""
         if kind not in DISPLAYS:
             raise UsageError(f"displays of type {row_text(kind)} cannot be added")
         self._note(self._session.add_display(kind, name=name.strip() or None), mark)
 
+    @command("displays/duplicate", TEXT, TEXT, name="Duplicate")
     def _duplicate(self, row_id: str, mark: str) -> None:
         """Copy a display, behind it."""
         config = self._displays.display_of(row_id)
@@ -83,3 +67,19 @@ class NewDisplaysPanel(Panel):
     def _note(self, config: DisplayConfig, mark: str) -> None:
         self._made = {"mark": mark, "row": self._displays.id_of(config)}
         self._remake(self)
+
+    @command("displays/remove", TEXT, name="Remove")
+    def _delete(self, row_id: str) -> None:
+        self._session.remove_display(self._displays.display_of(row_id))
+
+    @command("displays/rename", TEXT, TEXT, name="Rename")
+    def _rename(self, row_id: str, name: str) -> None:
+        if not name.strip():
+            raise UsageError("a display needs a name")
+        display = self._displays.display_of(row_id)
+        self._session.rename_display(display, name.strip())
+
+    @command("displays/move", TEXT, TEXT, INTEGER, name="Move")
+    def _move(self, row_id: str, group: str, index: int) -> None:
+        into = self._displays.display_of(group) if group else None
+        self._session.move_display(self._displays.display_of(row_id), index, into)

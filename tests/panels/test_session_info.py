@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from panel_rows import rows_of
+from panel_rows import data_of
 
-from sambot_viz.panels.status_bar import StatusBarPanel
+from sambot_viz.panels.session_info import StatusBarPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 
 
 def test_nothing_is_being_read_at_rest(session: Session, browser: Browser) -> None:
     assert session.context.assets.wait(30.0)
-    assert rows_of(StatusBarPanel(session))["statusbar/progress"].value is None
+    assert data_of(StatusBarPanel(session))["statusbar/progress"] is None
