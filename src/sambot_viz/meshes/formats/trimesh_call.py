@@ -1,4 +1,4 @@
-"""trimesh, which reads glTF: called quietly, its errors as one class.
+"""trimesh, which reads glTF and PLY: called quietly, its errors as one class.
 
 Importing it takes half a second, so only the first such file does it.
 """
