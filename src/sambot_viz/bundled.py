@@ -32,7 +32,7 @@ _CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
 
 
 def assets_folder() -> Path:
-    """The folder of the bundled robots.
+    """Return the folder of the bundled robots.
 
     Raises:
         UsageError: this installation was made without it.
@@ -41,7 +41,7 @@ def assets_folder() -> Path:
 
 
 def configs_folder() -> Path:
-    """The folder of the bundled .rviz files.
+    """Return the folder of the bundled .rviz files.
 
     Raises:
         UsageError: this installation was made without it.
@@ -50,7 +50,7 @@ def configs_folder() -> Path:
 
 
 def model_path(name: str = DEFAULT_MODEL) -> Path:
-    """The bundled model file `name`, such as "mbot.urdf.xacro".
+    """Return the bundled model file `name`, such as "mbot.urdf.xacro".
 
     Raises:
         UsageError: there is no such file; the message offers the nearest one.
@@ -59,7 +59,7 @@ def model_path(name: str = DEFAULT_MODEL) -> Path:
 
 
 def config_path(name: str = DEFAULT_CONFIG) -> Path:
-    """The bundled config file `name`, such as "mbot.rviz".
+    """Return the bundled config file `name`, such as "mbot.rviz".
 
     Raises:
         UsageError: there is no such file; the message offers the nearest one.
@@ -68,17 +68,17 @@ def config_path(name: str = DEFAULT_CONFIG) -> Path:
 
 
 def model_names() -> list[str]:
-    """The names of the bundled models, sorted; files that others include left out."""
+    """List the bundled models, sorted; files that others include are left out."""
     return sorted(path.name for path in assets_folder().glob("*.urdf.xacro"))
 
 
 def config_names() -> list[str]:
-    """The names of the bundled configs, sorted."""
+    """Return the names of the bundled configs, sorted."""
     return sorted(path.name for path in configs_folder().glob("*.rviz"))
 
 
 def is_bundled(config: str | None) -> bool:
-    """Whether a config file is one that comes with the program."""
+    """Tell if a config file is one that comes with the program."""
     if config is None:
         return False
     path = Path(config).absolute()
@@ -121,7 +121,7 @@ class Found:
 
 
 def find(model: Path | None, config: Path | None = None) -> Found:
-    """The model and config files that are meant.
+    """Return the model and config files that are meant.
 
     Args:
         model: a file, a package folder, or None for the bundled robot.

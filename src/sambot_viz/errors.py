@@ -90,7 +90,7 @@ class Problem:
         *,
         cause: str | None = None,
     ) -> Problem:
-        """A problem at a place, in a file as a whole, or without a file."""
+        """Return a problem at a place, in a file as a whole, or without a file."""
         if isinstance(where, Place):
             file, line, column = where.file, where.line, where.column
         else:
@@ -109,7 +109,7 @@ class Problem:
         return f"{text}; {self.hint}" if self.hint else text
 
     def as_json(self) -> dict[str, str | int | None]:
-        """The seven fields of ``check --format json``."""
+        """Return the seven fields of ``check --format json``."""
         return {
             "severity": self.severity,
             "code": self.code,
@@ -210,7 +210,7 @@ class UsageError(SambotVizError):
 
 
 def did_you_mean(name: str, names: Iterable[str]) -> str:
-    """A sentence that offers the nearest valid names.
+    """Return a sentence that offers the nearest valid names.
 
     Args:
         name: what was asked for.

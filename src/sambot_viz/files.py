@@ -10,11 +10,14 @@ from collections.abc import Iterable
 from pathlib import Path
 
 Stamp = tuple[int, int, int]
-"""What differs after a save: time of change [ns], size [B], number of the file."""
+"""Facts that differ after a save: time of change [ns], size [B], inode."""
 
 
 def stamp(path: Path) -> Stamp | None:
-    """What differs after a save; links are followed, None when there is no file."""
+    """Return facts that differ after a save; None when there is no file.
+
+    Links are followed.
+    """
     try:
         found = path.stat()
     except (OSError, ValueError):
@@ -57,7 +60,7 @@ class NotAFileError(OSError):
 
 
 def reason_of(error: OSError | ValueError) -> str:
-    """Why a file cannot be used, to follow a colon in a sentence."""
+    """Say why a file cannot be used, to follow a colon in a sentence."""
     if isinstance(error, FileNotFoundError):
         return "there is no such file"
     text = getattr(error, "strerror", None) or str(error) or "it cannot be read"
@@ -65,7 +68,7 @@ def reason_of(error: OSError | ValueError) -> str:
 
 
 def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
-    """The bytes of a regular file, unless there are more than `largest`.
+    """Return the bytes of a regular file, unless there are more than `largest`.
 
     No more than that is read, whatever the size that the system reports.
 
@@ -94,7 +97,7 @@ def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
 
 
 def is_below(path: Path, folders: Iterable[Path]) -> bool:
-    """Whether a path, with its links followed, leads into one of these folders.
+    """Tell if a path, with its links followed, leads into one of these folders.
 
     Args:
         path: may or may not exist.
@@ -109,7 +112,7 @@ def is_below(path: Path, folders: Iterable[Path]) -> bool:
 
 
 def is_lfs_pointer(data: bytes) -> bool:
-    """Whether the first bytes of a file are those of a git-LFS pointer.
+    """Tell if the first bytes of a file are those of a git-LFS pointer.
 
     A clone without git-LFS has such a text of three lines in place of each large file.
     """

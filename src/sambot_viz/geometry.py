@@ -24,7 +24,7 @@ Rgba = tuple[float, float, float, float]
 
 
 def finite(value: Any) -> float | None:
-    """A value as a finite float, or None when it is not one (text, bool, NaN, …)."""
+    """Return a value as a finite float, None when it is not one (text, bool, NaN)."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
         return None
     try:
@@ -35,7 +35,7 @@ def finite(value: Any) -> float | None:
 
 
 def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> list[list[float]]:
-    """The (3, 3) rotation Rz(yaw) @ Ry(pitch) @ Rx(roll), as URDF means rpy [rad]."""
+    """Return Rz(yaw) @ Ry(pitch) @ Rx(roll), (3, 3), as URDF means rpy [rad]."""
     cr, sr = math.cos(roll), math.sin(roll)
     cp, sp = math.cos(pitch), math.sin(pitch)
     cy, sy = math.cos(yaw), math.sin(yaw)
@@ -47,7 +47,7 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> list[list[float]
 
 
 def rotation_from_axis(axis: Vector3, angle: float) -> list[list[float]]:
-    """The (3, 3) rotation by an angle [rad] about an axis of length 1 (Rodrigues)."""
+    """Return the (3, 3) rotation by an angle [rad] about an axis of length 1."""
     x, y, z = axis
     c, s = math.cos(angle), math.sin(angle)
     k = 1.0 - c
@@ -59,7 +59,7 @@ def rotation_from_axis(axis: Vector3, angle: float) -> list[list[float]]:
 
 
 def rotations_from_axes(axes: Matrix, angles: Matrix) -> Matrix:
-    """The same for many: axes (N, 3) and angles (N,) [rad] to rotations (N, 3, 3)."""
+    """Turn axes (N, 3) and angles (N,) [rad] into rotations (N, 3, 3)."""
     cross: Matrix = np.zeros((len(axes), 3, 3))
     x, y, z = axes[:, 0], axes[:, 1], axes[:, 2]
     cross[:, 0, 1], cross[:, 0, 2] = -z, y
@@ -71,7 +71,7 @@ def rotations_from_axes(axes: Matrix, angles: Matrix) -> Matrix:
 
 
 def rotation_from_xyzw(xyzw: Xyzw) -> list[list[float]]:
-    """The (3, 3) rotation of a quaternion that need not be quite of length 1."""
+    """Return the (3, 3) rotation of a quaternion that need not be quite of length 1."""
     x, y, z, w = xyzw
     s = 2.0 / (x * x + y * y + z * z + w * w)
     return [
@@ -82,7 +82,7 @@ def rotation_from_xyzw(xyzw: Xyzw) -> list[list[float]]:
 
 
 def xyzw_from_rpy(roll: float, pitch: float, yaw: float) -> Xyzw:
-    """The unit quaternion (x, y, z, w) of fixed-axis angles [rad], tf2's setRPY."""
+    """Return the quaternion (x, y, z, w) of fixed-axis angles [rad], tf2's setRPY."""
     cr, sr = math.cos(roll / 2), math.sin(roll / 2)
     cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
     cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
@@ -95,7 +95,7 @@ def xyzw_from_rpy(roll: float, pitch: float, yaw: float) -> Xyzw:
 
 
 def xyzw_product(a: Xyzw, b: Xyzw) -> Xyzw:
-    """The rotation b followed by the rotation a, both (x, y, z, w)."""
+    """Return the rotation b followed by the rotation a, both (x, y, z, w)."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -107,7 +107,7 @@ def xyzw_product(a: Xyzw, b: Xyzw) -> Xyzw:
 
 
 def xyzw_from_matrix(matrix: Matrix) -> Xyzw:
-    """The unit quaternion (x, y, z, w) of a (4, 4) transform, with KDL's sign."""
+    """Return the unit quaternion (x, y, z, w) of a (4, 4) transform, KDL's sign."""
     # Dividing by the largest of the four components keeps all digits.
     rows: list[list[float]] = matrix.tolist()
     trace = rows[0][0] + rows[1][1] + rows[2][2]
@@ -132,13 +132,13 @@ def xyzw_from_matrix(matrix: Matrix) -> Xyzw:
 
 
 def wxyz_from_matrix(T: Matrix) -> Wxyz:
-    """The rotation of a (4, 4) or (3, 3) matrix as a unit quaternion (w, x, y, z)."""
+    """Return the unit quaternion (w, x, y, z) of a (4, 4) or (3, 3) matrix."""
     x, y, z, w = xyzw_from_matrix(T)
     return (w, x, y, z)
 
 
 def wxyz_from_z(direction: Vector3) -> Wxyz:
-    """The shortest rotation that turns +z into a direction (any length but 0)."""
+    """Return the shortest rotation of +z into a direction (any length but 0)."""
     x, y, z = direction
     norm = math.sqrt(x * x + y * y + z * z)
     x, y, z = x / norm, y / norm, z / norm
@@ -150,7 +150,7 @@ def wxyz_from_z(direction: Vector3) -> Wxyz:
 
 
 def inverse_matrix(matrix: Matrix) -> Matrix:
-    """The inverse of a rigid (4, 4) transform, read-only."""
+    """Return the inverse of a rigid (4, 4) transform, read-only."""
     # Twelve products of Python floats take half the time of slicing with numpy.
     (a, b, c, x), (d, e, f, y), (g, h, i, z), _ = matrix.tolist()
     inverse = np.array(

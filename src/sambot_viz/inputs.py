@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class Inputs:
-    """What `Options.model` and `Options.config` mean.
+    """The model and the config that `Options` name, opened.
 
     Each file is read once. What is plainly wrong with one (no such file, not XML, not
     a .rviz document) is raised here, before a server is started; `begin` loads the
@@ -82,12 +82,12 @@ class Inputs:
 
     @property
     def options(self) -> Options:
-        """What the user asked for."""
+        """The options that the user gave."""
         return self._options
 
     @property
     def takes_bundled_config(self) -> bool:
-        """Whether the config is the bundled one, which was made for sam_bot."""
+        """True for the bundled config, which was made for sam_bot."""
         missing = self.config is None and self._options.config is None
         return missing or self.broken_config is not None
 
@@ -98,7 +98,7 @@ class Inputs:
             _in_thread(lambda: self.load(opened), self._robot)
 
     def robot(self) -> Robot:
-        """The robot, as soon as it is loaded.
+        """Return the robot, as soon as it is loaded.
 
         Raises:
             RobotError: the model cannot be shown.
@@ -108,7 +108,7 @@ class Inputs:
         return self._robot.result()
 
     def refusal(self) -> RobotError | None:
-        """Why there is no robot to show yet; None when there is one.
+        """Say why there is no robot to show yet; None when there is one.
 
         Raises:
             RobotError: the model cannot be shown, and may not be broken.
@@ -123,7 +123,7 @@ class Inputs:
         return None
 
     def problems(self) -> tuple[Problem, ...]:
-        """What is wrong with the model, and with the config once it is a document.
+        """List what is wrong with the model, and with the config once it is a document.
 
         Raises:
             RobotError: as `refusal`.
@@ -170,7 +170,7 @@ class Inputs:
         )
 
     def document(self) -> RvizConfig:
-        """The config as a document; to be called once.
+        """Return the config as a document; to be called once.
 
         The bundled one takes the place of one that is broken.
 
@@ -191,7 +191,7 @@ class Inputs:
         return document
 
     def presets(self) -> Presets:
-        """The named poses.
+        """Return the named poses.
 
         Raises:
             JointError: their file holds something else.
@@ -227,7 +227,7 @@ class Inputs:
 
 
 def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
-    """The robot of an object from Python."""
+    """Return the robot of an object from Python."""
     from sambot_viz.robot.model import Robot
 
     if isinstance(model, Robot):
@@ -244,7 +244,7 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
 
 
 def poses_beside(model: Path) -> Path:
-    """Where the poses of a model are kept: robot.urdf.xacro has robot.poses.yaml.
+    """Return the poses file of a model: robot.urdf.xacro has robot.poses.yaml.
 
     Those of the bundled robot are kept in the working folder: its own one belongs to
     the package.

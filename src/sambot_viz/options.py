@@ -382,7 +382,7 @@ class Options:
 
 
 def declared() -> Iterator[Field[Any]]:
-    """The fields of `Options` that a user can give, in the order of the help."""
+    """Return the fields of `Options` that a user can give, in the order of the help."""
     return (each for each in fields(Options) if _KEY in each.metadata)
 
 
@@ -393,7 +393,7 @@ def flag_of(option: Field[Any]) -> Flag:
 
 
 def keyword_help() -> str:
-    """The options as the "Args" of a docstring."""
+    """Return the options as the "Args" of a docstring."""
     lines = ["Args:"]
     for each in declared():
         flag = flag_of(each)

@@ -95,12 +95,12 @@ def group_problems(problems: Iterable[Problem]) -> list[ProblemGroup]:
 
 
 def in_order(problems: Iterable[Problem]) -> list[Problem]:
-    """Each problem once: errors, warnings, infos; else in the order given."""
+    """Return each problem once: errors, warnings, infos; else in the order given."""
     return sorted(dict.fromkeys(problems), key=lambda p: SEVERITIES.index(p.severity))
 
 
 def _key(problem: Problem) -> object:
-    """What problems with one cause have in common."""
+    """Facts that problems with one cause have in common."""
     kind = (problem.severity, problem.code, problem.hint)
     if problem.cause is not None and problem.code in _SENTENCES:
         return (*kind, problem.cause)

@@ -23,7 +23,7 @@ _LONGEST_LINE = 160
 
 
 def problem_lines(problem: Problem, context: int = 2) -> list[tuple[int, str]]:
-    """The lines of the file around the place of a problem.
+    """Return the lines of the file around the place of a problem.
 
     Args:
         problem: its `line` is the marked one, its `column` is right in that line: a
@@ -54,12 +54,12 @@ def _shown(line: str) -> str:
 
 @lru_cache(maxsize=4)
 def _lines(file: str, saved: int, size: int) -> list[str]:
-    """The lines of a file, read once for many problems as long as it is not saved."""
+    """Return the lines of a file, read once for many problems until it is saved."""
     return Path(file).read_text("utf-8", "replace").splitlines()
 
 
 def in_words(problem: Problem, color: bool = False) -> str:
-    """A problem as lines of text: the sentence, the excerpt with a mark, the fix.
+    """Write a problem as lines: the sentence, the excerpt with a mark, the fix.
 
     Args:
         problem: what to print.
@@ -120,7 +120,7 @@ def write(
 
 
 def _commands(groups: Iterable[ProblemGroup], model: object) -> str:
-    """The commands that print every problem of some groups."""
+    """Return the commands that print every problem of some groups."""
     files = [group.first.file or "" for group in groups]
     configs = [file for file in files if file.endswith(".rviz")]
     commands = [f"sambot-viz config {shlex.quote(file)}" for file in configs]

@@ -1,4 +1,4 @@
-"""The one gate for every string that comes from a file and goes to a browser.
+"""Clean every string that comes from a file and goes to a browser.
 
 viser checks nothing: one lone surrogate in a label breaks every browser that comes
 later, and direction marks or invisible characters make one name look like another.
@@ -20,7 +20,7 @@ _INVISIBLE = re.compile(
 
 
 def text(value: object, limit: int = 400) -> str:
-    """A string that any browser can show.
+    """Return a string that any browser can show.
 
     Args:
         value: anything; `str()` is taken of what is not a string.

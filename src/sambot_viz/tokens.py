@@ -14,12 +14,12 @@ _ALLOWED = re.compile(r"[A-Za-z0-9._~-]+")
 
 
 def new_token() -> str:
-    """A token that cannot be guessed: 22 characters, 128 bits."""
+    """Return a token that cannot be guessed: 22 characters, 128 bits."""
     return secrets.token_urlsafe(16)
 
 
 def check_token(token: str, flag: str = "--token") -> str:
-    """The token that a user has chosen.
+    """Return the token that a user has chosen.
 
     Args:
         token: what stands behind the flag.

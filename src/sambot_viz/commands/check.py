@@ -29,7 +29,7 @@ def run(words: list[str]) -> int:
 
 
 def parser() -> Parser:
-    """The flags of the command."""
+    """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz check",
         groups=("model",),
@@ -48,7 +48,7 @@ def parser() -> Parser:
 
 
 def _problems(options: Options, found: Found) -> list[Problem]:
-    """The findings about a model, or about all files of a package folder."""
+    """Return the findings about a model, or about all files of a package folder."""
     args, packages = options.xacro_args, options.package_path
     folder = model_path(options)
     if folder is None or not folder.is_dir():

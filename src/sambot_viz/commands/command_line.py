@@ -120,7 +120,7 @@ def parse(
 
 
 def model_path(options: Options) -> Path | None:
-    """The MODEL of a command line; None for the bundled robot."""
+    """Return the MODEL of a command line; None for the bundled robot."""
     return Path(str(options.model)) if options.model is not None else None
 
 
@@ -164,7 +164,7 @@ def _default_in_words(flag: Flag, default: object) -> str:
 
 
 def _as_flag(flag: Flag, value: str) -> list[str]:
-    """An argument of display.launch.py, such as ``gui:=false``, as our own flags."""
+    """Turn an argument of display.launch.py, such as ``gui:=false``, into flags."""
     name = flag.names[-1]
     if not flag.switch:
         return [f"{name}={value}"]

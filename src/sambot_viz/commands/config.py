@@ -29,7 +29,7 @@ def run(words: list[str]) -> int:
 
 
 def parser() -> Parser:
-    """The flags of the command."""
+    """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz config",
         description="Report what of a .rviz file is shown, approximated, or kept "

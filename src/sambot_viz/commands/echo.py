@@ -40,13 +40,13 @@ def run(words: list[str]) -> int:
 
 
 def _no_answer(found: Explanation) -> str:
-    """The text that tf2 shows, then the reason."""
+    """Return the text that tf2 shows, then the reason."""
     tf2_text = found.refused.tf2_text if found.refused else ""
     return f"{tf2_text}\n  {found.reason}"
 
 
 def parser() -> Parser:
-    """The flags of the command."""
+    """Return the flags of the command."""
     made = _AnyOrder(
         prog="sambot-viz echo",
         groups=("model", "pose"),

@@ -24,7 +24,7 @@ def run(words: list[str]) -> int:
 
 
 def parser() -> Parser:
-    """The flags of the command."""
+    """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz expand",
         groups=("model",),

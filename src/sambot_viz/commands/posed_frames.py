@@ -11,7 +11,7 @@ from sambot_viz.robot.model import Robot
 
 
 def start_state(robot: Robot, options: Options) -> JointState:
-    """The joint positions at the start; what is odd about them is written as warnings.
+    """Return the joint positions at the start; doubts are written as warnings.
 
     Raises:
         JointError: a joint that does not exist or cannot be set.
@@ -26,7 +26,7 @@ def start_state(robot: Robot, options: Options) -> JointState:
 
 
 def posed_frames(robot: Robot, options: Options) -> FrameTree:
-    """The frames as ROS would have them, with the static transforms of the options.
+    """Return the frames as ROS has them, with the static transforms of the options.
 
     Raises:
         JointError: a joint that does not exist or cannot be set.

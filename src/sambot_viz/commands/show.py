@@ -94,7 +94,7 @@ def run(words: list[str]) -> int:
 
 
 def parser() -> Parser:
-    """The flags of the command."""
+    """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz",
         groups=("model", "view", "pose", "server"),

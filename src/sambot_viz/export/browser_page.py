@@ -103,7 +103,7 @@ class BrowserPage:
             raise BrowserError(f"{url} did not load in {self._timeout:g} s")
 
     def evaluate(self, expression: str, timeout: float | None = None) -> Any:
-        """The value of a JavaScript expression; a promise is waited for.
+        """Return the value of a JavaScript expression; a promise is waited for.
 
         Args:
             expression: its value must be one that JSON can hold.
@@ -169,7 +169,7 @@ class BrowserPage:
 
 
 def explain_exception(details: Fields) -> str:
-    """The text of a JavaScript exception, with its first lines of stack."""
+    """Return the text of a JavaScript exception, with its first lines of stack."""
     thrown = details.get("exception", {})
     text = thrown.get("description") or thrown.get("value") or details.get("text", "")
     return str(text)

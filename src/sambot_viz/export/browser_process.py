@@ -56,7 +56,7 @@ class BrowserProcess:
         self._output = _Output(self._process.stderr)
 
     def wait_for_address(self, timeout: float) -> str | None:
-        """The debugging address, or None when the browser ended or time is up.
+        """Return the debugging address, or None when the browser ended or time is up.
 
         Args:
             timeout: how long it may take [s].
@@ -64,7 +64,7 @@ class BrowserProcess:
         return self._output.wait_for_address(timeout)
 
     def last_lines(self) -> str:
-        """What the browser wrote last, or "nothing"."""
+        """Return what the browser wrote last, or "nothing"."""
         return self._output.last_lines()
 
     def end(self, patience: float) -> None:
@@ -99,7 +99,7 @@ class BrowserProcess:
 
 
 class _Output:
-    """What the browser writes to its error output, read until all its processes end."""
+    """Read the error output of the browser until all its processes end."""
 
     def __init__(self, pipe: IO[str]) -> None:
         self._pipe = pipe

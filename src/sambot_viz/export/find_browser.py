@@ -35,7 +35,7 @@ _WINDOWS_PLACES = (
 
 
 def how_to_get_a_browser() -> str:
-    """What a user of this system does to get one."""
+    """Say how a user of this system installs one."""
     ways = {
         "linux": "install one (Debian: 'apt-get install chromium')",
         "darwin": "install one ('brew install --cask chromium')",
@@ -46,7 +46,7 @@ def how_to_get_a_browser() -> str:
 
 
 def find_browser(environment: Mapping[str, str] = os.environ) -> Path | None:
-    """The Chromium-like browser of this machine, or None.
+    """Return the Chromium-like browser of this machine, or None.
 
     Args:
         environment: PATH and SAMBOT_VIZ_BROWSER are read from it.
@@ -72,7 +72,7 @@ def find_browser(environment: Mapping[str, str] = os.environ) -> Path | None:
 
 
 def _usual_places(environment: Mapping[str, str]) -> list[Path]:
-    """Where browsers are on systems that do not put them on PATH."""
+    """List where browsers are on systems that do not put them on PATH."""
     if sys.platform == "darwin":
         folders = (Path("/Applications"), Path.home() / "Applications")
         return [folder / place for folder in folders for place in _MAC_PLACES]

@@ -21,13 +21,13 @@ from sambot_viz.views.camera import Camera
 
 Motion = Literal["sweep", "past", "none"]
 Past = tuple[Moved, Sequence[Moved]]
-"""Where everything was at the beginning, and the steps from there."""
+"""The first values of everything, and the steps from there."""
 PERIOD = 1.0 / 30.0
 """Time between two steps of a motion [s]."""
 REST = 0.5
-"""How long the end of what has moved is shown [s]."""
+"""Time for which the end of a motion is shown [s]."""
 USUAL_SIZE = (1280, 720)
-"""What a page is made for when nobody looks at it yet [pixels]."""
+"""Size of a page that no browser shows yet [pixels]."""
 STEP = 90
 """In which it becomes narrower [pixels]."""
 LONGEST_NAME = 200
@@ -75,7 +75,7 @@ class Looking:
 def page_file(
     shown: Shown, looking: Looking, motion: Motion, past: Past | None = None
 ) -> bytes:
-    """The HTML file.
+    """Return the HTML file.
 
     Args:
         shown: what is in it.

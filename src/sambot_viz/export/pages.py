@@ -18,7 +18,7 @@ LARGEST = 100_000_000
 """A page of more bytes is not sent to a browser."""
 
 _ONE = ThreadPoolExecutor(1, "sambot-viz-export")
-"""However many browsers ask, there is the memory of one page."""
+"""One page is made at a time, so that many browsers take the memory of one."""
 
 
 class PageError(SambotVizError):

@@ -60,7 +60,7 @@ class Shown:
             )
 
     def before(self, moved: Moved) -> Shown:
-        """The same, with joints and frames where they were."""
+        """Return the same, with joints and frames where they were."""
         frames = {
             child: replace(frame, transform=Transform.trusted(moved.frames[child]))
             if child in moved.frames

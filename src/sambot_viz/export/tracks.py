@@ -1,4 +1,4 @@
-"""What moves in an exported page: for each node, its values over time.
+"""Motion in an exported page: for each node, its values over time.
 
 A page can go to any time at once: it takes from each track the last value before it.
 """
@@ -20,7 +20,7 @@ _VALUES = {
 }
 """Type of a message → the field with what it sets."""
 _FIRST = {"position": (0.0, 0.0, 0.0), "wxyz": (1.0, 0.0, 0.0, 0.0), "visible": True}
-"""What a node has before anything is set."""
+"""The values of a node before anything is set."""
 _UPDATE, _REMOVE = "SceneNodeUpdateMessage", "RemoveSceneNodeMessage"
 _DIGITS = 6
 """Decimals of a number: micrometres, and as fine a part of a turn."""
@@ -60,7 +60,7 @@ class Tracks:
                 self._add(("", name, ""), _value(message, arrays))
 
     def packed(self) -> str:
-        """All tracks, as base64 of gzipped JSON."""
+        """Return all tracks, as base64 of gzipped JSON."""
         found = [self._track(key, *track) for key, track in self._tracks.items()]
         data = json.dumps(found, separators=(",", ":"), ensure_ascii=True)
         return base64.b64encode(gzip.compress(data.encode(), 9, mtime=0)).decode()
@@ -98,7 +98,7 @@ class Tracks:
 
 
 def _value(value: Any, arrays: Sequence[memoryview]) -> Any:
-    """A value for JSON: short numbers, and arrays as base64."""
+    """Return a value for JSON: short numbers, and arrays as base64."""
     if isinstance(value, float):
         return round(value, _DIGITS)
     if isinstance(value, list | tuple):

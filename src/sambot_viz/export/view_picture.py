@@ -91,6 +91,6 @@ def snapshot(
 
 
 def _place(client: viser.ClientHandle) -> tuple[float, ...]:
-    """Where the page's camera is and looks, as far as is known [m]."""
+    """Return where the page's camera is and looks, as far as is known [m]."""
     camera = client.camera
     return tuple(float(v) for v in (*camera.position, *camera.look_at))

@@ -1,4 +1,4 @@
-"""What a display asks the mesh cache for: a mesh file or a texture."""
+"""Mesh files and textures, as displays ask the mesh cache for them."""
 
 from __future__ import annotations
 

@@ -15,12 +15,12 @@ from sambot_viz.meshes.read_mesh import LARGEST, read_mesh
 from sambot_viz.meshes.textures import LONGEST_SIDE, TextureError, TextureStore
 
 Content = Mesh | Texture | Problem
-"""What is in a file, or why it cannot be drawn."""
+"""The content of a file, or the reason why it cannot be drawn."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    """What was read, and the stamps of the files it was read from."""
+    """The content of an asset, and the stamps of the files it was read from."""
 
     content: Content
     stamps: Mapping[Path, Stamp | None]
@@ -53,12 +53,12 @@ class MeshCache:
         self._guard = threading.Lock()
 
     def known(self, asset: Asset) -> Content | None:
-        """What was read from a file, or None when it has not been read."""
+        """Return what was read from a file, or None when it has not been read."""
         entry = self._entries.get(asset)
         return None if entry is None else entry.content
 
     def read(self, asset: Asset) -> Content:
-        """What is in a file; it is read unless that is known."""
+        """Return what is in a file; it is read unless that is known."""
         # Two threads that want the same file wait for one reading; other files
         # are read at the same time.
         with self._guard:
@@ -70,7 +70,7 @@ class MeshCache:
         return entry.content
 
     def files(self, asset: Asset) -> tuple[Path, ...]:
-        """The file and, as far as it was read, the images and materials it names."""
+        """List the file and, as far as it was read, the images and materials in it."""
         entry = self._entries.get(asset)
         return (asset.path,) if entry is None else tuple(entry.stamps)
 
@@ -121,7 +121,7 @@ class MeshCache:
         return _Entry(content, stamps)
 
     def _texture(self, asset: Asset) -> Texture | Problem:
-        """The image of a URDF <texture>, or why it cannot be used."""
+        """Return the image of a URDF <texture>, or why it cannot be used."""
         try:
             if asset.roots is not None and not is_below(asset.path, asset.roots):
                 raise TextureError("it is outside the model's folder")

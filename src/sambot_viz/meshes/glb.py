@@ -47,7 +47,7 @@ def to_glb(
     rgba: Rgba | None = None,
     alpha: float = 1.0,
 ) -> bytes:
-    """A GLB file that a browser shows as RViz shows the parts.
+    """Return a GLB file that a browser shows as RViz shows the parts.
 
     Materials are not metallic and quite rough, back faces are culled, and flat parts
     have no normals, by which a glTF reader knows them.
@@ -98,7 +98,7 @@ class _Writer:
         return len(self.views) - 1
 
     def accessor(self, data: bytes, kind: int, shape: str, count: int) -> int:
-        """A typed view."""
+        """Return a typed view."""
         target = _INDICES if shape == "SCALAR" else _VERTICES
         self.accessors.append(
             {
@@ -113,7 +113,7 @@ class _Writer:
     def primitive(
         self, part: MeshPart, rgba: Rgba | None, alpha: float
     ) -> dict[str, Any]:
-        """The triangles of a part with their material."""
+        """Return the triangles of a part with their material."""
         count = len(part.vertices)
         position = self.accessor(_floats(part.vertices), _FLOAT, "VEC3", count)
         self.accessors[position]["min"] = [
@@ -145,7 +145,7 @@ class _Writer:
         }
 
     def material(self, part: MeshPart, rgba: Rgba | None, alpha: float) -> int:
-        """The look of a part."""
+        """Return the look of a part."""
         red, green, blue, opacity = rgba or part.rgba or WHITE
         opacity *= alpha
         pbr: dict[str, Any] = {
@@ -167,7 +167,7 @@ class _Writer:
         return len(self.materials) - 1
 
     def texture(self, texture: Texture) -> int:
-        """The number of an image, which is written once however often it is used."""
+        """Return the number of an image; it is written once however often it is used."""
         number = self.known.get(id(texture))
         if number is None:
             number = self.known[id(texture)] = len(self.images)
@@ -177,7 +177,7 @@ class _Writer:
         return number
 
     def file(self, primitives: list[dict[str, Any]]) -> bytes:
-        """The finished file."""
+        """Return the finished file."""
         document: dict[str, Any] = {
             "asset": {"version": "2.0"},
             "scene": 0,
@@ -199,7 +199,7 @@ class _Writer:
 
 
 def glb_file(document: dict[str, Any], body: bytes) -> bytes:
-    """A GLB container.
+    """Return a GLB container.
 
     Args:
         document: the glTF document.
@@ -223,7 +223,7 @@ def glb_file(document: dict[str, Any], body: bytes) -> bytes:
 
 
 def srgb_to_linear(value: float) -> float:
-    """A colour value as it is shown, 0 to 1 → the linear light that glTF stores."""
+    """Convert a colour value as shown, 0 to 1, to the linear light of glTF."""
     return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
 
 

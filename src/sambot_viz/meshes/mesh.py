@@ -21,7 +21,7 @@ FloatArray = npt.NDArray[np.float32]
 IndexArray = npt.NDArray[np.uint32]
 
 GREY: Rgba = (0.6, 0.6, 0.6, 1.0)
-"""What RViz shows where a file says nothing about colour."""
+"""RViz's colour where a file says nothing about it."""
 WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
 
 
@@ -99,7 +99,7 @@ class Mesh:
 
     @property
     def triangles(self) -> int:
-        """How many triangles all parts have together."""
+        """The number of triangles of all parts."""
         return sum(len(part.faces) for part in self.parts)
 
 
@@ -112,7 +112,7 @@ class MeshError(RobotError):
 
 
 def mesh_error(path: Path, code: str, message: str, hint: str = "") -> MeshError:
-    """A `MeshError` about a file."""
+    """Return a `MeshError` about a file."""
     problem = Problem.at(str(path), "error", code, message, hint, cause=message)
     return MeshError(problem)
 
@@ -127,7 +127,7 @@ _scaled: weakref.WeakKeyDictionary[MeshPart, dict[Vector3, MeshPart]] = (
 
 
 def apply_scale(part: MeshPart, scale: Vector3) -> MeshPart:
-    """The part enlarged by a URDF scale: the same object for all who ask.
+    """Return the part enlarged by a URDF scale: the same object for all who ask.
 
     A mirrored part (an odd number of negative factors) is turned inside out by the
     scale, so its triangles are turned back: RViz shows it from outside too.

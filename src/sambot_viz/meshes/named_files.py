@@ -43,7 +43,7 @@ class NamedFiles:
         self._roots = roots
 
     def find(self, name: str) -> Path:
-        """The file that a name in the mesh file means.
+        """Return the file that a name in the mesh file means.
 
         Looked for relative to the mesh, with the letter case as it comes, and by its
         last part beside the mesh, in `textures` and in `../materials/textures`:
@@ -70,7 +70,7 @@ class NamedFiles:
         raise NamedFileError("there is no such file")
 
     def read(self, name: str, largest: int) -> bytes:
-        """The bytes of a file that the mesh names.
+        """Return the bytes of a file that the mesh names.
 
         Args:
             name: as for `find`.
@@ -110,7 +110,7 @@ class NamedFiles:
 
 
 def _any_letter_case(path: Path, roots: Sequence[Path] | None) -> Path | None:
-    """The file, or the one whose name differs only in letter case."""
+    """Return the file, or the one whose name differs only in letter case."""
     try:
         if path.is_file():
             return path

@@ -17,7 +17,7 @@ import numpy.typing as npt
 SIDES = 16
 """Sides of cylinder and cone, meridians of the sphere."""
 CONE_BASE, CONE_TIP = -0.509, 0.491
-"""Where the cone begins and ends on its axis: it is not quite centred."""
+"""Begin and end of the cone on its axis: it is not quite centred."""
 
 _Polygon = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
@@ -43,7 +43,7 @@ class Primitive:
 
 @cache
 def unit_box() -> Primitive:
-    """A cube with edges from −0.5 to 0.5, the full texture upright on each side."""
+    """Make a cube, edges from −0.5 to 0.5, the full texture upright on each side."""
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     x, y, z = np.eye(3)
     # Outward normal = right × up; top and bottom read along x.
@@ -63,7 +63,7 @@ def unit_box() -> Primitive:
 
 @cache
 def unit_cylinder() -> Primitive:
-    """A 16-sided cylinder along z: radius 0.5 at the edges, z from −0.5 to 0.5.
+    """Make a 16-sided cylinder along z: radius 0.5 at the edges, z from −0.5 to 0.5.
 
     The edges are at 0°, 22.5°, … from x, so the sides face 11.25° + k · 22.5°.
     """
@@ -86,7 +86,7 @@ def unit_cylinder() -> Primitive:
 
 @cache
 def unit_cone() -> Primitive:
-    """A 16-sided cone along z: base radius 0.5 at z = −0.509, tip at z = 0.491."""
+    """Make a 16-sided cone along z: base radius 0.5 at z = −0.509, tip at 0.491."""
     base = _ring() + np.array([0.0, 0.0, CONE_BASE])
     tip = np.array([0.0, 0.0, CONE_TIP])
     polygons: list[_Polygon] = []
@@ -100,7 +100,7 @@ def unit_cone() -> Primitive:
 
 @cache
 def unit_sphere() -> Primitive:
-    """A sphere of radius 0.5: 16 meridians, 8 bands, 224 flat triangles, poles on z."""
+    """Make a sphere of radius 0.5: 16 meridians, 8 bands, 224 flat triangles."""
     bands = SIDES // 2
 
     def corner(i: int, k: int) -> list[float]:
@@ -130,7 +130,7 @@ def _ring() -> npt.NDArray[np.float64]:
 
 
 def _disc_uv(ring: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """The image seen from above, cut out round."""
+    """Return the image seen from above, cut out round."""
     return ring[:, :2] + 0.5
 
 

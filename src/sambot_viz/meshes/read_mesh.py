@@ -1,4 +1,4 @@
-"""The one way to read a mesh file, whatever its format."""
+"""Read a mesh file, whatever its format."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def _read_bytes(path: Path, largest: int) -> bytes:
 
 
 def _reader(path: Path) -> _Reader:
-    """The reader for a file; each is imported when the first such file comes."""
+    """Return the reader for a file; each is imported when the first such file comes."""
     suffix = path.suffix.lower()
     reader = _READERS.get(suffix)
     if reader is not None:

@@ -59,7 +59,7 @@ class MeshBudget:
         self._spend("entries without data", count, MOST_WITHOUT_DATA)
 
     def may_cut(self, corners: int) -> bool:
-        """Whether there is time to cut a polygon of so many corners."""
+        """Take the time to cut a polygon of so many corners; False when none is left."""
         self._cutting -= corners * corners + 1000
         self.cut_short = self.cut_short or self._cutting < 0
         return self._cutting >= 0
@@ -114,5 +114,5 @@ class MeshSource:
         message: str,
         hint: str = "export the mesh again, or copy the file again if it was cut off",
     ) -> MeshError:
-        """The error to raise for a file that contradicts itself or is cut off."""
+        """Return the error for a file that contradicts itself or is cut off."""
         return mesh_error(self.path, "mesh-broken", message, hint)

@@ -52,7 +52,7 @@ class TextureStore:
         self._by_file = WeakValueDictionary()
 
     def from_file(self, path: Path) -> Texture:
-        """The image in a file.
+        """Return the image in a file.
 
         Raises:
             TextureError: it cannot be read, or is not an image.
@@ -68,7 +68,7 @@ class TextureStore:
         return known
 
     def from_bytes(self, data: bytes) -> Texture:
-        """The image in these bytes (PNG, JPEG, TGA, BMP, TIFF, WebP, …).
+        """Return the image in these bytes (PNG, JPEG, TGA, BMP, TIFF, WebP, …).
 
         Raises:
             TextureError: not an image, or one that is broken.
@@ -115,7 +115,7 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
 
 
 def _ready(image: Image, data: bytes) -> bool:
-    """Whether a browser shows these bytes as they are; raises when they are broken.
+    """Check if a browser shows these bytes as they are; raise when they are broken.
 
     The check sums of a PNG and the end mark of a JPEG show whether a file was cut off,
     without the time that decoding takes.

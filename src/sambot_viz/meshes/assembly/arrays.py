@@ -42,11 +42,11 @@ def _numpy_reader(text: bytes, dtype: type[_Number]) -> npt.NDArray[_Number]:
 
 
 def triples(count: int) -> npt.NDArray[np.int64]:
-    """The numbers 0 1 2, 3 4 5, … as (count, 3)."""
+    """Return the numbers 0 1 2, 3 4 5, … as (count, 3)."""
     return np.reshape(np.arange(3 * count, dtype=np.int64), (count, 3))
 
 
 def table_of(values: npt.NDArray[_Number], width: int) -> npt.NDArray[_Number]:
-    """The values as (rows, width); an incomplete last row is dropped."""
+    """Return the values as (rows, width); an incomplete last row is dropped."""
     rows = len(values) // width
     return np.reshape(values[: rows * width], (rows, width))

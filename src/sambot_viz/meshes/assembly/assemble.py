@@ -7,13 +7,13 @@ the browser: values that are not finite, indices that point nowhere, empty meshe
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.geometry import Rgba
+from sambot_viz.geometry import Matrix, Rgba
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, mesh_error
 from sambot_viz.meshes.source import MeshSource
 
@@ -42,8 +42,34 @@ class Submesh:
     texture: Texture | None = None
 
 
+def placed(piece: Submesh, T: Matrix) -> Submesh:
+    """Return the piece where a node puts it: node transforms are baked in.
+
+    Args:
+        piece: triangles in the node's coordinates.
+        T: (4, 4), T_mesh_node; may scale unevenly or mirror. The triangles of a
+            mirrored piece are turned back so that they face outwards.
+    """
+    linear = T[:3, :3]
+    normals, faces = piece.normals, piece.faces
+    size = float(linear[0, 0])
+    if size > 0 and np.array_equal(linear, size * np.eye(3)):
+        # Most nodes only apply the unit: nothing turns.
+        return replace(piece, vertices=piece.vertices * size + T[:3, 3])
+    if normals is not None:
+        # The cofactor matrix turns normals rightly and exists for every transform.
+        x, y, z = linear
+        cofactors = np.array([np.cross(y, z), np.cross(z, x), np.cross(x, y)])
+        normals = normals @ np.transpose(cofactors)
+    if np.linalg.det(linear) < 0:
+        faces = faces[:, ::-1]
+        normals = None if normals is None else -normals
+    vertices = piece.vertices @ np.transpose(linear) + T[:3, 3]
+    return replace(piece, vertices=vertices, faces=faces, normals=normals)
+
+
 def assemble(pieces: Iterable[Submesh], source: MeshSource) -> Mesh:
-    """The mesh that the pieces make.
+    """Return the mesh that the pieces make.
 
     Raises:
         MeshError: there is no triangle in it that could be drawn.
@@ -73,7 +99,7 @@ def assemble(pieces: Iterable[Submesh], source: MeshSource) -> Mesh:
 
 
 def _clean(piece: Submesh, source: MeshSource) -> Submesh | None:
-    """The piece without triangles that cannot be drawn; None when none is left."""
+    """Drop triangles that cannot be drawn; None when none is left."""
     vertices = piece.vertices.astype(np.float32, copy=False)
     faces = piece.faces
     if len(faces) and (faces.max() >= len(vertices) or faces.min() < 0):
@@ -174,7 +200,7 @@ def _kinds(piece: Submesh, used: npt.NDArray[np.bool_]) -> tuple[Ints, Ints]:
 
 
 def _unique_rows(rows: npt.NDArray[np.float32]) -> tuple[Ints, Ints]:
-    """The first row of each distinct kind in order of appearance, and each row's kind.
+    """Return the first row of each kind in order of appearance, and each row's kind.
 
     Rows are compared through a 64-bit hash, ten times faster than comparing them
     as they are, and the outcome is verified.

@@ -1,4 +1,4 @@
-"""What surfaces look like, and the images that files name."""
+"""Colours and textures of surfaces, and the images that files name."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class MeshMaterial:
 
 
 def load_texture(name: str, source: MeshSource) -> Texture | None:
-    """The image that a mesh names; None, with a warning, when it cannot be used."""
+    """Read the image that a mesh names; None, with a warning, when that fails."""
     try:
         path = source.files.find(name)
     except NamedFileError as error:

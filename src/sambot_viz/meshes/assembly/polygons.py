@@ -87,7 +87,7 @@ class _Outlines:
         )
 
     def cut(self, polygon: int) -> _Triangles:
-        """The triangles of one polygon, facing as the polygon does."""
+        """Return the triangles of one polygon, facing as the polygon does."""
         start, count = self._starts[polygon], self._counts[polygon]
         flat = self._flat[start : start + count]
         corners = mapbox_earcut.triangulate_float64(

@@ -18,8 +18,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from sambot_viz.geometry import Matrix
-from sambot_viz.meshes.assembly.assemble import Submesh
-from sambot_viz.meshes.assembly.placing import placed
+from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.collada_geometry import Geometry, read_geometry
 from sambot_viz.meshes.formats.collada_material import Materials
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_document
@@ -29,7 +28,7 @@ _DEEPEST = 200
 
 
 def read_collada(source: MeshSource) -> list[Submesh]:
-    """The triangles of a COLLADA file [m].
+    """Return the triangles of a COLLADA file [m].
 
     Raises:
         MeshError: the file is not COLLADA, even when read leniently.
@@ -56,7 +55,7 @@ class _Scene:
         self._geometries: dict[int, Geometry] = {}
 
     def pieces(self) -> Iterator[Submesh]:
-        """What the scene shows."""
+        """Yield what the scene shows."""
         scene = self.document.root.find("scene/instance_visual_scene")
         visual = self.document.target(scene) if scene is not None else None
         if visual is None:
@@ -68,7 +67,7 @@ class _Scene:
                 )
 
     def loose_pieces(self) -> Iterator[Submesh]:
-        """Every geometry of the file, for files whose scene shows none of them."""
+        """Yield every geometry, for files whose scene shows none of them."""
         start = _scaling(self.unit, self.unit, self.unit)
         for geometry in self.document.root.iterfind("library_geometries/geometry"):
             pieces = list(self._geometry(geometry, None, start))
@@ -106,7 +105,7 @@ class _Scene:
                 yield from self._controller(child, T_root_node)
 
     def _controller(self, instance: ET.Element, T: Matrix) -> Iterator[Submesh]:
-        """A skinned mesh is drawn in the pose it was bound in."""
+        """Yield a skinned mesh is drawn in the pose it was bound in."""
         controller = self.document.target(instance)
         skin = controller.find("skin") if controller is not None else None
         if skin is None:
@@ -160,7 +159,7 @@ def _unit(document: ColladaDocument, source: MeshSource) -> float:
 
 
 def _scaling(x: float, y: float, z: float) -> Matrix:
-    """The (4, 4) matrix that enlarges."""
+    """Return the (4, 4) matrix that enlarges."""
     return np.array([[x, 0, 0, 0], [0, y, 0, 0], [0, 0, z, 0], [0, 0, 0, 1]], float)
 
 

@@ -55,7 +55,7 @@ class _Input:
 def read_geometry(
     element: ET.Element, document: ColladaDocument, source: MeshSource
 ) -> Geometry:
-    """All triangles of a <geometry>; lines and points are ignored, as in RViz."""
+    """Read the triangles of a <geometry>; lines and points are ignored as in RViz."""
     mesh = element.find("mesh")
     if mesh is None:
         mesh = element.find("convex_mesh")
@@ -84,7 +84,7 @@ class _MeshReader:
         return self.document.by_id(reference) if own is None else own
 
     def primitives(self, element: ET.Element) -> Primitives | None:
-        """The triangles of one element, None when it has none or is broken."""
+        """Return the triangles of one element, None when it has none or is broken."""
         inputs = self._inputs(element)
         stride = 1 + max((entry.offset for entry in inputs), default=0)
         corners = _CORNERS[element.tag](element, stride)
@@ -116,7 +116,7 @@ class _MeshReader:
         )
 
     def _pick(self, rows: _Int64, values: tuple[Floats, int] | None) -> Floats | None:
-        """The value of each corner; None where an index points nowhere."""
+        """Return the value of each corner; None where an index points nowhere."""
         if values is None:
             return None
         array, offset = values
@@ -126,7 +126,7 @@ class _MeshReader:
         return array[index]
 
     def _inputs(self, element: ET.Element) -> list[_Input]:
-        """The inputs, those of the <vertices> element included."""
+        """Return the inputs, those of the <vertices> element included."""
         inputs: list[_Input] = []
         for entry in element.findall("input"):
             made = _Input(
@@ -252,7 +252,7 @@ def _rows(text: str | None, stride: int) -> _Int64 | None:
 
 
 def _whole(text: str | None, default: int = 0) -> int:
-    """A small whole number, or the default."""
+    """Return a small whole number, or the default."""
     return int(text) if text is not None and text.strip().isdecimal() else default
 
 

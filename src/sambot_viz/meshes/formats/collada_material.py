@@ -30,7 +30,7 @@ class Materials:
         }
 
     def look(self, symbol: str | None, bound: dict[str, str]) -> MeshMaterial:
-        """The look of triangles with a material symbol.
+        """Return the look of triangles with a material symbol.
 
         As in RViz a broken reference falls back to the first material that the node
         binds, then to the first one of the file, then to grey.
@@ -93,7 +93,7 @@ class Materials:
         return MeshMaterial((r, g, b, 1.0))
 
     def _texture(self, effect: ET.Element, reference: str) -> Texture | None:
-        """The image behind a sampler; a texture may also name the image itself."""
+        """Find the image behind a sampler; a texture may also name the image itself."""
         image = self.document.by_id(self._image_id(effect, reference))
         name = "" if image is None else _image_file(image)
         if not name:

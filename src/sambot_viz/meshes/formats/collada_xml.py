@@ -24,11 +24,11 @@ class ColladaDocument:
     ids: dict[str, ET.Element]
 
     def by_id(self, reference: str | None) -> ET.Element | None:
-        """The element that "#name" refers to."""
+        """Return the element that "#name" refers to."""
         return self.ids.get((reference or "").strip().removeprefix("#"))
 
     def target(self, instance: ET.Element) -> ET.Element | None:
-        """The element that an <instance_…> refers to."""
+        """Return the element that an <instance_…> refers to."""
         return self.by_id(instance.get("url"))
 
 
@@ -77,7 +77,7 @@ def _strip_namespaces(root: ET.Element) -> None:
 
 
 def _recover(data: bytes) -> ET.Element | None:
-    """What a lenient parser makes of broken XML, or None."""
+    """Parse broken XML leniently; None when that fails too."""
     # Only broken files need lxml, which has no type information.
     lenient: Any = importlib.import_module("lxml.etree")
     parser = lenient.XMLParser(
@@ -91,7 +91,7 @@ def _recover(data: bytes) -> ET.Element | None:
 
 
 def _copy(events: Iterable[tuple[str, Any]]) -> ET.Element | None:
-    """The lenient parser's elements as those of the strict parser.
+    """Return the lenient parser's elements as those of the strict parser.
 
     Broken files may be nested hundreds of thousands deep, so nothing here recurses.
     """

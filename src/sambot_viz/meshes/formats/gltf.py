@@ -20,8 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.geometry import Matrix
-from sambot_viz.meshes.assembly.assemble import Submesh
-from sambot_viz.meshes.assembly.placing import placed
+from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.gltf_file import GltfFile, Json
 from sambot_viz.meshes.formats.gltf_material import GltfMaterials
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
@@ -31,7 +30,7 @@ from sambot_viz.meshes.source import MeshSource
 
 _LINES, _TRIANGLES, _STRIP, _FAN = 1, 4, 5, 6
 _READ = (0, _LINES, _TRIANGLES, _STRIP)
-"""What trimesh reads; points and lines are not drawn."""
+"""The kinds that trimesh reads; points and lines are not drawn."""
 _COMPRESSED = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",

@@ -55,7 +55,7 @@ class _Lines:
 
 
 def read_obj(source: MeshSource) -> list[Submesh]:
-    """The triangles of an OBJ file."""
+    """Return the triangles of an OBJ file."""
     lines = _sort(source.data)
     looks = _read_libraries(lines.libraries, source)
     tables = (
@@ -115,7 +115,7 @@ def _sort(data: bytes) -> _Lines:
 
 
 def _recounted(group: _Group, lines: _Lines) -> _Group:
-    """The group for a face that counts backwards from the lines so far."""
+    """Return the group for a face that counts backwards from the lines so far."""
     seen = (len(lines.positions), len(lines.uvs), len(lines.normals))
     if group.seen == seen:
         return group
@@ -156,7 +156,7 @@ def _table(lines: list[bytes], width: int, source: MeshSource) -> Floats:
 def _pieces(
     group: _Group, tables: tuple[Floats, Floats, Floats], source: MeshSource
 ) -> list[Submesh]:
-    """The triangles of a group, smooth where all corners have normals, else flat."""
+    """Make the triangles of a group: smooth where all corners have normals."""
     counts = np.array([len(line.split()) for line in group.lines], dtype=np.int64)
     corners = _corners(b" ".join(group.lines), int(counts.sum()))
     if corners is None:
@@ -192,7 +192,7 @@ def _pieces(
 def _fill(
     table: Floats, index: npt.NDArray[np.int64]
 ) -> tuple[Floats, npt.NDArray[np.bool_]]:
-    """The rows at these places, zero where there are none, and where there are."""
+    """Return the rows at these places, zero where there are none, and where there are."""
     there = (index >= 0) & (index < len(table))
     rows = np.zeros((len(index), table.shape[1]), dtype=np.float32)
     rows[there] = table[index[there]]
@@ -251,7 +251,7 @@ class _Material:
 
     @property
     def look(self) -> MeshMaterial:
-        """What is shown: emission adds to the diffuse colour, as in RViz."""
+        """Colour and texture as shown: RViz adds emission to the diffuse colour."""
         red, green, blue = (
             min(1.0, own + light)
             for own, light in zip(self.diffuse, self.emission, strict=True)
@@ -295,7 +295,7 @@ def _set_numbers(material: _Material, keyword: str, rest: str) -> None:
 
 
 def _map_name(rest: str) -> str:
-    """The file name behind options such as "-s 1 1 1 -bm 0.5"."""
+    """Return the file name behind options such as "-s 1 1 1 -bm 0.5"."""
     words = rest.split(" ")
     while len(words) > 1 and words[0].startswith("-"):
         option = words.pop(0)

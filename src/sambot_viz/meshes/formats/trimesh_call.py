@@ -18,7 +18,7 @@ class TrimeshError(ValueError):
 
 
 def call_trimesh(module: str, function: str, *args: Any, **kwargs: Any) -> Any:
-    """What a function of `trimesh.exchange` returns: arrays by name.
+    """Return what a function of `trimesh.exchange` reads: arrays by name.
 
     Args:
         module: the part of `trimesh.exchange`, such as "stl".
@@ -49,5 +49,5 @@ def call_trimesh(module: str, function: str, *args: Any, **kwargs: Any) -> Any:
 
 
 def _is_not_ours(record: logging.LogRecord) -> bool:
-    """Whether trimesh was called by others, whose log it is."""
+    """Keep the log of those who call trimesh themselves."""
     return not _reading.get()
