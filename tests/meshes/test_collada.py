@@ -325,3 +325,13 @@ def test_a_few_lines_that_unfold_to_millions_of_nodes_are_refused(write: Write) 
     node = '<node><instance_node url="#n0"/></node>'
     with pytest.raises(MeshError, match="more than 100000 nodes"):
         read_mesh(write("a.dae", collada(node=node, extra=extra)))
+
+
+def test_a_few_nodes_that_name_an_empty_geometry_a_million_times_are_refused(
+    write: Write,
+) -> None:
+    one = '<node id="all">' + '<instance_geometry url="#g"/>' * 1000 + "</node>"
+    many = "<node>" + '<instance_node url="#all"/>' * 1000 + "</node>"
+    text = collada(primitives="", node=one + many)
+    with pytest.raises(MeshError, match="more than 100000 nodes"):
+        read_mesh(write("a.dae", text))

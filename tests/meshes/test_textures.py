@@ -51,6 +51,18 @@ def test_the_cap_can_be_chosen(png: Png) -> None:
     assert TextureStore(longest_side=16).from_bytes(png(64, 32)).width == 16
 
 
+def test_a_postscript_image_starts_no_interpreter(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    out = io.BytesIO()
+    Image.new("RGB", (8, 8)).save(out, "EPS")
+    started: list[object] = []
+    monkeypatch.setattr("subprocess.Popen", lambda *args, **_: started.append(args))
+    with pytest.raises(TextureError, match="it is not an image that can be read"):
+        encode_texture(out.getvalue())
+    assert started == []
+
+
 @pytest.mark.parametrize("kind", ["BMP", "TIFF", "WEBP", "GIF", "TGA"])
 def test_other_formats_become_png(png: Png, kind: str) -> None:
     texture = encode_texture(png(8, 8, kind))

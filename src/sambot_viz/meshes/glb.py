@@ -167,7 +167,7 @@ class _Writer:
         return len(self.materials) - 1
 
     def texture(self, texture: Texture) -> int:
-        """Return the number of an image; it is written once however often it is used."""
+        """Return the number of an image, which is written once."""
         number = self.known.get(id(texture))
         if number is None:
             number = self.known[id(texture)] = len(self.images)

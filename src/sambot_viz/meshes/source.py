@@ -59,7 +59,7 @@ class MeshBudget:
         self._spend("entries without data", count, MOST_WITHOUT_DATA)
 
     def may_cut(self, corners: int) -> bool:
-        """Take the time to cut a polygon of so many corners; False when none is left."""
+        """Take the time to cut a polygon with that many corners, if any is left."""
         self._cutting -= corners * corners + 1000
         self.cut_short = self.cut_short or self._cutting < 0
         return self._cutting >= 0

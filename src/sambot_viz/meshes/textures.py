@@ -27,6 +27,8 @@ _MIME: dict[str, Literal["image/png", "image/jpeg"]] = {
     "PNG": "image/png",
     "JPEG": "image/jpeg",
 }
+_FORMATS = (*_MIME, "TGA", "BMP", "TIFF", "WEBP", "GIF")
+"""Others are not opened: Pillow starts Ghostscript for an EPS."""
 LARGEST_IMAGE = 64 * 2**20
 """Image files above this size [bytes] are refused."""
 MOST_PIXELS = 8192 * 8192
@@ -98,14 +100,14 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
     from PIL import Image, UnidentifiedImageError
 
     try:
-        image = Image.open(io.BytesIO(data))
+        image = Image.open(io.BytesIO(data), formats=_FORMATS)
         if image.width * image.height > MOST_PIXELS:
             raise TextureError(
                 f"it has {image.width} × {image.height} pixels, too many"
             )
         if max(image.size) <= longest_side and _ready(image, data):
             return Texture(data, _MIME[image.format or ""], *image.size)
-        return _encode(Image.open(io.BytesIO(data)), longest_side)
+        return _encode(Image.open(io.BytesIO(data), formats=_FORMATS), longest_side)
     except UnidentifiedImageError as error:
         raise TextureError("it is not an image that can be read") from error
     except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:

@@ -123,6 +123,8 @@ class _Scene:
         if geometry is None:
             geometry = read_geometry(element, self.document, self.source)
             self._geometries[id(element)] = geometry
+        # A few nodes can name the same geometry a million times, an empty one too.
+        self.source.budget.spend_nodes()
         bound = self.materials.bindings(instance)
         for primitives in geometry:
             self.source.budget.spend_triangles(

@@ -192,7 +192,7 @@ def _pieces(
 def _fill(
     table: Floats, index: npt.NDArray[np.int64]
 ) -> tuple[Floats, npt.NDArray[np.bool_]]:
-    """Return the rows at these places, zero where there are none, and where there are."""
+    """Return the rows at these places, else zeros, and which of them are there."""
     there = (index >= 0) & (index < len(table))
     rows = np.zeros((len(index), table.shape[1]), dtype=np.float32)
     rows[there] = table[index[there]]
