@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from inside import signals_of
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
@@ -71,7 +72,10 @@ def test_a_save_is_reported_once_whichever_way_the_editor_saves(
     tmp_path: Path,
     follow: Callable[..., Changes],
     save: Callable[[Path, str], None],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    # The file comes back after a moment, which may be long on a busy machine.
+    monkeypatch.setattr(watch, "SETTLE", patience(5.0))
     path = tmp_path / "model.urdf"
     path.write_text("old", "utf-8")
     changes = follow(path)

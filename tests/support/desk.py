@@ -146,6 +146,13 @@ class Desk:
                 user.click("button", button, _TOOLS)
             self._wait_for_robot()
 
+    def undo_of_others(self) -> None:
+        """Undo what other pages have done, before they leave: nobody else can."""
+        first, undo = self._browser.client_id, self._session.edits
+        for client in [n for n in self._session.browsers if n != first]:
+            while undo.undo_label(client) is not None:
+                undo.undo(client)
+
     def choose_tool(self, tool: str) -> None:
         """Press the button of a tool, and wait until it is the current one."""
         self.user.click("button", tool, _TOOLS)

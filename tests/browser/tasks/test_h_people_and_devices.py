@@ -32,6 +32,7 @@ def open_more(s: Desk) -> Callable[..., ViewerPage]:
         return opened[-1]
 
     yield more  # type: ignore[misc]
+    s.undo_of_others()
     for viewer in opened:
         viewer.page.close()
     for viewer in opened:
