@@ -27,7 +27,7 @@ from sambot_viz.rviz import (
     TopicProperty,
     VectorProperty,
 )
-from sambot_viz.rviz.config_findings import ConfigFindings
+from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import Map
 
 

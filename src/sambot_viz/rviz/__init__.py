@@ -19,10 +19,9 @@ from sambot_viz.rviz.class_items import (
     ToolConfig,
     ViewConfig,
 )
-from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.declarations import GLOBAL_OPTIONS, Declarations
 from sambot_viz.rviz.declared import Declared, UnknownPropertyError
 from sambot_viz.rviz.entry_item import EntryItem
-from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
 from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.properties.kinds import (
     FILTER_SIZE,

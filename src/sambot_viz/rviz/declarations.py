@@ -7,8 +7,41 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from sambot_viz.rviz.class_name import GROUP
-from sambot_viz.rviz.global_options import GLOBAL_OPTIONS
+from sambot_viz.rviz.properties.kinds import (
+    BoolProperty,
+    ColorProperty,
+    IntProperty,
+    TfFrameProperty,
+)
 from sambot_viz.rviz.properties.property import Property
+
+GLOBAL_OPTIONS: tuple[Property, ...] = (
+    TfFrameProperty(
+        "Fixed Frame",
+        default="base_link",
+        ros1_default="map",
+        help="The frame everything is drawn in; its origin is the origin of the scene.",
+    ),
+    ColorProperty(
+        "Background Color",
+        default=(48, 48, 48),
+        help="The colour behind the scene.",
+    ),
+    IntProperty(
+        "Frame Rate",
+        default=30,
+        minimum=1,
+        unit="Hz",
+        help="How often what moves by itself is drawn, at most 60 times a second.",
+        acts_up_to=60,
+    ),
+    BoolProperty(
+        "Default Light",
+        default=True,
+        ros1_only=True,
+        help="The light at the camera; RViz for ROS 2 always has it.",
+    ),
+)
 
 Classes: TypeAlias = Mapping[str, Sequence[Property]]
 """ROS 2 class id, such as "rviz_default_plugins/Grid", → its properties."""

@@ -7,17 +7,12 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from sambot_viz.rviz.config_findings import ConfigFindings
 from sambot_viz.rviz.declared import Declared, UnknownPropertyError
 from sambot_viz.rviz.item_map import ItemMap
-from sambot_viz.rviz.new_nodes import NewNodes, parts_map
-from sambot_viz.rviz.properties.kinds import (
-    EnumProperty,
-    KeptProperty,
-)
+from sambot_viz.rviz.properties.kinds import EnumProperty, KeptProperty
 from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.undo_log import DocumentPlace, FinishChange, Leaves, Restore, note
-from sambot_viz.rviz.unknown_keys import unknown_keys
+from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import Map, Node
 
 
@@ -27,9 +22,6 @@ class ConfigItem(ItemMap):
     Values are read once, kept typed, and written into the document when they are set.
     Keys that are not declared stay untouched; `raw` and `dynamic` give them as text.
     """
-
-    _own_keys: frozenset[str] = frozenset()
-    """Keys with a meaning of their own, which are not properties."""
 
     def __init__(
         self,
@@ -49,17 +41,13 @@ class ConfigItem(ItemMap):
             ros1: the map is written in ROS 1's names, whose defaults differ.
             attach: puts the map into the document.
         """
-        super().__init__(node)
-        self._attach = attach
+        super().__init__(node, attach)
         self._ros1 = ros1
         self._findings = findings
-        self._values: dict[str, Any] = {}
-        self._declared: dict[str, Declared] = {}
         self._given: set[str] = set()
         self._unreadable: set[str] = set()
-        self._fresh = NewNodes(self._declared, self._values)
-        self._top = tuple(p if ros1 or not p.ros1_only else _kept(p) for p in declared)
-        for prop in self._top:
+        for prop in declared:
+            prop = prop if ros1 or not prop.ros1_only else _kept(prop)
             above, start = self._place(prop)
             self._read(prop, above, start, None)
 
@@ -201,10 +189,6 @@ class ConfigItem(ItemMap):
         before = state()
         return finish
 
-    def rooted(self, keys: Sequence[str]) -> tuple[Map, Sequence[str]]:
-        """Return a map that is in the document, and a place of this item below it."""
-        return self._node, keys
-
     def assume(self, path: str, value: Any) -> None:
         """Use another default for a property that the file does not give.
 
@@ -235,63 +219,6 @@ class ConfigItem(ItemMap):
 
     def _unknown(self, path: str) -> UnknownPropertyError:
         return UnknownPropertyError(self.label, path, list(self._values))
-
-    def _write(self, declared: Declared, value: Any) -> None:
-        above, key = self.map_at(declared.keys[:-1]), declared.keys[-1]
-        prop, old = declared.property, above.get(key)
-        parts = prop.components(value)
-        if parts is not None:
-            self._write_parts(above, key, parts, prop)
-        elif isinstance(old, Map):
-            old.put_text("Value", prop.write(value))
-        elif old is None and prop.children:
-            self._values[declared.path] = value
-            above.put(key, self._fresh.map(declared.path))
-        else:
-            above.put_text(key, prop.write(value))
-
-    def _write_parts(
-        self, above: Map, key: str, parts: dict[str, str], prop: Property
-    ) -> None:
-        old = above.get(key)
-        if not isinstance(old, Map):
-            above.put(key, parts_map(parts))
-            return
-        before = prop.read(old)
-        known = prop.components(before) if before is not None else None
-        for part, text in parts.items():
-            # The file may say "0.1" where RViz writes all digits of it; that stays.
-            if known is None or known[part] != text:
-                old.put_text(part, text)
-
-    def map_at(self, keys: Sequence[str]) -> Map:
-        """The map at some keys, made in the document where it is missing.
-
-        A text in its place becomes its "Value".
-        """
-        if self._attach is not None:
-            self._attach(self._node)
-            self._attach = None
-        node = self._node
-        for depth, key in enumerate(keys, 1):
-            found = node.get(key)
-            if not isinstance(found, Map):
-                found = self._fresh.instead(tuple(keys[:depth]), found)
-                node.put(key, found)
-            node = found
-        return node
-
-    def fill(self) -> None:
-        """Write every property into the map, as RViz saves a new item."""
-        for prop in self._top:
-            if not prop.read_only and self._node.get(prop.name) is None:
-                self._node.put(prop.name, self._fresh.node(prop.name))
-
-    @property
-    def unknown_keys(self) -> tuple[str, ...]:
-        """Paths in the file that nothing declares, in the order of the file."""
-        known = {declared.keys: declared for declared in self._declared.values()}
-        return tuple(unknown_keys(self._node, known, self._own_keys))
 
 
 def _kept(prop: Property) -> KeptProperty:

@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 
 from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import GlobalOptions, ToolConfig
-from sambot_viz.rviz.class_name import kind_of
-from sambot_viz.rviz.config_findings import ConfigFindings
+from sambot_viz.rviz.class_name import kind_of, short_name
 from sambot_viz.rviz.declarations import Declarations
 from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.item import ConfigItem
-from sambot_viz.rviz.panel_list import PanelList
 from sambot_viz.rviz.view_list import ViewList
 from sambot_viz.rviz.visualization_manager import MANAGER
-from sambot_viz.rviz.yaml.document import Document
-from sambot_viz.rviz.yaml.nodes import Collection, Map, Plain, items_of, plain
+from sambot_viz.rviz.yaml.document import ConfigFindings, Document
+from sambot_viz.rviz.yaml.nodes import (
+    Collection,
+    Entry,
+    List,
+    Map,
+    Plain,
+    Scalar,
+    items_of,
+    plain,
+)
+
+_PANELS, _TREE, _EXPANDED = "Panels", "Property Tree Widget", "Expanded"
+_PANEL_CLASS = "Displays"
 
 
-class RvizConfig(DisplayList, ViewList, PanelList):
+class RvizConfig(DisplayList, ViewList):
     """A config: typed values in front, the untouched document behind.
 
     What is not understood is kept and saved: unknown classes, keys, panels, window
@@ -85,7 +96,50 @@ class RvizConfig(DisplayList, ViewList, PanelList):
     @property
     def panels(self) -> Plain:
         """RViz's panels as text; kept, and only `expanded` is used."""
-        return plain(self._document.root.get("Panels"))
+        return plain(self._document.root.get(_PANELS))
+
+    @property
+    def expanded(self) -> tuple[str, ...] | None:
+        """The paths of the unfolded rows, such as "/TF1/Frames1".
+
+        None when the file does not say which.
+        """
+        panel = self._displays_panel()
+        tree = panel.get(_TREE) if panel is not None else None
+        if not isinstance(tree, Map) or tree.entry(_EXPANDED) is None:
+            return None
+        # RViz writes an empty list as a null.
+        listed = plain(tree.get(_EXPANDED))
+        return tuple(map(str, listed)) if isinstance(listed, list) else ()
+
+    @expanded.setter
+    def expanded(self, paths: Iterable[str]) -> None:
+        """Write which rows are unfolded, with the panel that RViz writes it in."""
+        panel = self._displays_panel()
+        if panel is None:
+            panel = Map()
+            panel.put("Class", Scalar(f"{self._panel_package()}/{_PANEL_CLASS}"))
+            panel.put("Name", Scalar(_PANEL_CLASS))
+            panels = self._document.root.get(_PANELS)
+            if not isinstance(panels, List):
+                panels = List()
+                self._document.root.put(_PANELS, panels)
+            panels.entries.append(Entry(None, panel))
+        tree = panel.get(_TREE)
+        if not isinstance(tree, Map):
+            tree = Map()
+            tree.put("Splitter Ratio", Scalar("0.5"))
+            panel.put(_TREE, tree)
+        tree.put(_EXPANDED, List([Entry(None, Scalar(path)) for path in paths]))
+
+    def _displays_panel(self) -> Map | None:
+        for _, panel in items_of(self._document.root.get(_PANELS)):
+            if short_name(panel.text("Class") or "") == _PANEL_CLASS:
+                return panel
+        return None
+
+    def _panel_package(self) -> str:
+        return "rviz" if self.ros1 else "rviz_common"
 
     @property
     def raw(self) -> Plain:

@@ -7,7 +7,12 @@ Qt understands them; in the program always (r, g, b) with integers 0 to 255.
 from __future__ import annotations
 
 import re
-from typing import TypeAlias
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from sambot_viz.rviz.properties.numbers import finite_numbers
+from sambot_viz.rviz.properties.property import Property, PropertyError, Report
+from sambot_viz.rviz.yaml.nodes import Scalar
 
 Rgb: TypeAlias = tuple[int, int, int]
 
@@ -66,3 +71,33 @@ def _parse_hex(text: str) -> Rgb | None:
         for i in range(0, 3 * size, size)
     )
     return (r, g, b)
+
+
+@dataclass(frozen=True)
+class ColorProperty(Property):
+    """A colour, (r, g, b) with integers from 0 to 255."""
+
+    default: Rgb = (0, 0, 0)
+
+    def coerce(self, value: object) -> Rgb:
+        """Take three numbers, or a text such as "1; 2; 3" or "white"."""
+        parsed = parse_color(value) if isinstance(value, str) else None
+        if parsed is not None:
+            return parsed
+        parts = finite_numbers(value, 3)
+        if parts is None:
+            raise PropertyError(self.name, value, self._expected)
+        r, g, b = (min(255, max(0, round(part))) for part in parts)
+        return (r, g, b)
+
+    def write(self, value: Any) -> str:
+        """The text "r; g; b"."""
+        return color_text(value)
+
+    def _parse(self, node: Scalar, report: Report) -> Rgb | None:
+        color = parse_color(node.text)
+        return self._default_stays(node, report) if color is None else color
+
+    @property
+    def _expected(self) -> str:
+        return "a colour such as '160; 160; 164'"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from sambot_viz.rviz.properties.color import ColorProperty
 from sambot_viz.rviz.properties.numbers import (
     BoolProperty,
     FloatProperty,
@@ -25,10 +26,7 @@ from sambot_viz.rviz.properties.texts import (
     TopicProperty,
     checked_text,
 )
-from sambot_viz.rviz.properties.vectors import (
-    ColorProperty,
-    VectorProperty,
-)
+from sambot_viz.rviz.properties.vectors import VectorProperty
 
 __all__ = [
     "FILTER_SIZE",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, SupportsFloat, cast
 
@@ -213,3 +214,12 @@ def finite_number(value: object) -> float | None:
         # Arrays have the methods of numbers, too.
         return None
     return number if math.isfinite(float32(number)) else None
+
+
+def finite_numbers(value: object, count: int) -> tuple[float, ...] | None:
+    """Return the finite numbers of a sequence or array of that length."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__len__"):
+        return None
+    found = [finite_number(part) for part in cast("Sequence[object]", value)]
+    known = tuple(part for part in found if part is not None)
+    return known if len(known) == len(found) == count else None

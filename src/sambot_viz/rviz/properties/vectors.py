@@ -1,52 +1,20 @@
-"""Properties that hold colours and vectors."""
+"""Properties that hold vectors."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
-from sambot_viz.rviz.properties.color import Rgb, color_text, parse_color
 from sambot_viz.rviz.properties.number_text import (
     float32,
     float_text,
     parse_float,
     parse_german,
 )
-from sambot_viz.rviz.properties.numbers import finite_number
+from sambot_viz.rviz.properties.numbers import finite_numbers
 from sambot_viz.rviz.properties.property import Property, PropertyError, Report, silent
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
-
-
-@dataclass(frozen=True)
-class ColorProperty(Property):
-    """A colour, (r, g, b) with integers from 0 to 255."""
-
-    default: Rgb = (0, 0, 0)
-
-    def coerce(self, value: object) -> Rgb:
-        """Take three numbers, or a text such as "1; 2; 3" or "white"."""
-        parsed = parse_color(value) if isinstance(value, str) else None
-        if parsed is not None:
-            return parsed
-        parts = _numbers(value, 3)
-        if parts is None:
-            raise PropertyError(self.name, value, self._expected)
-        r, g, b = (min(255, max(0, round(part))) for part in parts)
-        return (r, g, b)
-
-    def write(self, value: Any) -> str:
-        """The text "r; g; b"."""
-        return color_text(value)
-
-    def _parse(self, node: Scalar, report: Report) -> Rgb | None:
-        color = parse_color(node.text)
-        return self._default_stays(node, report) if color is None else color
-
-    @property
-    def _expected(self) -> str:
-        return "a colour such as '160; 160; 164'"
 
 
 @dataclass(frozen=True)
@@ -77,7 +45,7 @@ class VectorProperty(Property):
         if isinstance(value, str):
             texts = value.split(";")
             value = [parse_float(text) for text in texts]
-        parts = _numbers(value, len(self.keys))
+        parts = finite_numbers(value, len(self.keys))
         if parts is None:
             raise PropertyError(self.name, value, self._expected)
         return parts
@@ -109,12 +77,3 @@ def _vector_part(text: str) -> float | None:
     value = parse_float(text)
     value = parse_german(text) if value is None else value
     return value if value is not None and math.isfinite(float32(value)) else None
-
-
-def _numbers(value: object, count: int) -> tuple[float, ...] | None:
-    """The finite numbers of a sequence or array of that length."""
-    if isinstance(value, (str, bytes)) or not hasattr(value, "__len__"):
-        return None
-    found = [finite_number(part) for part in cast("Sequence[object]", value)]
-    known = tuple(part for part in found if part is not None)
-    return known if len(known) == len(found) == count else None

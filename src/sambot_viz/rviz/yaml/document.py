@@ -7,7 +7,7 @@ from pathlib import Path
 
 import yaml
 
-from sambot_viz.errors import ConfigError, Problem
+from sambot_viz.errors import ConfigError, Findings, Problem
 from sambot_viz.files import read_limited, write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
@@ -18,6 +18,24 @@ LARGEST = 4_000_000
 """A larger file is not read [bytes]: the largest known one is 20 times smaller, and
 reading takes 3 s for 1 MB."""
 _SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")
+
+
+class ConfigFindings(Findings):
+    """Collects the warnings of one file.
+
+    Args:
+        file: its path as the user wrote it.
+    """
+
+    def __init__(self, file: str | None) -> None:
+        super().__init__()
+        self._file = file
+
+    def warn(self, code: str, node: Node, message: str, hint: str = "") -> None:
+        """Add a warning at a node; copies are reported at their originals."""
+        if node.span is not None:
+            line, column = node.span.line, node.span.column
+            self.note(Problem("warning", code, message, hint, self._file, line, column))
 
 
 class Document:

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
-from sambot_viz.rviz.config_findings import ConfigFindings
+from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import copied_map
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
