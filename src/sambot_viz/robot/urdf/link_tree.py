@@ -13,8 +13,7 @@ from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.urdf.rings import find_rings, report_rings
-from sambot_viz.robot.urdf.robot_parts import RobotParts, is_fragment
+from sambot_viz.robot.urdf.robot_parts import RobotParts
 
 DEEPEST = 350
 """Longest chain drawn: Chromium draws 350 joints in a row, but not 500."""
@@ -38,21 +37,21 @@ def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
     Returns:
         The tree, or None when there is none.
     """
-    fragment = is_fragment(parts)
+    fragment = parts.is_fragment
     if fragment:
         parts = _with_missing_links(parts, findings)
     parts = _check_ends(parts, findings)
     _check_self_joints(parts, findings)
     holder = _parent_joints(parts, findings)
-    rings = find_rings(parts, holder)
+    rings = _rings(parts, holder)
     roots = [name for name in parts.links if name not in holder]
     if not roots:
-        report_rings(parts, findings, rings, None)
+        _report_rings(parts, findings, rings, None)
         return None
     if len(roots) > 1:
         _report_roots(parts, findings, roots, fragment)
     root = _largest(parts, roots)
-    report_rings(parts, findings, rings, root)
+    _report_rings(parts, findings, rings, root)
     tree = _reached(parts, holder, root)
     _report_depth(parts, findings, tree)
     return tree
@@ -165,6 +164,51 @@ def _report_roots(
             f"add a joint whose child is {root}",
             parts.link_elements.get(root, parts.robot),
         )
+
+
+def _rings(parts: RobotParts, holder: Mapping[str, Joint]) -> list[list[Joint]]:
+    """The rings of links, each as the joints that lead back to its first link."""
+    rings: list[list[Joint]] = []
+    done: set[str] = set()
+    for start in parts.links:
+        path: list[str] = []
+        link = start
+        while link in holder and link not in done:
+            done.add(link)
+            path.append(link)
+            link = holder[link].parent
+        if link in path:
+            ring = path[path.index(link) :]
+            if len(ring) > 1:
+                rings.append([holder[name] for name in reversed(ring)])
+    return rings
+
+
+def _report_rings(
+    parts: RobotParts,
+    findings: UrdfFindings,
+    rings: Iterable[list[Joint]],
+    root: str | None,
+) -> None:
+    """Report each ring at its last joint; without a root link ROS refuses the model."""
+    order = {name: number for number, name in enumerate(parts.joints)}
+    for ring in rings:
+        last = max(ring, key=lambda joint: order[joint.name])
+        start = ring.index(last) + 1
+        turned = ring[start:] + ring[:start]
+        names = " → ".join([turned[0].parent, *(joint.child for joint in turned)])
+        element = parts.joint_elements[last.name]
+        at = element.find("child") or element
+        message = f"the joints form a ring: {names}; "
+        if root is None:
+            report = findings.reject
+            message += "there is no root link and ROS refuses the model"
+        else:
+            report = findings.error
+            message += f"it is not connected to the root {root}, and ROS drops these "
+            message += "links without a message"
+        hint = f"delete the joint {last.name}, or another joint of the ring"
+        report("joint-ring", message, hint, at)
 
 
 def _largest(parts: RobotParts, roots: list[str]) -> str:

@@ -7,19 +7,16 @@ the end, so that all errors are reported together.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Link
 from sambot_viz.robot.urdf.findings import UrdfFindings, tag_text
-from sambot_viz.robot.urdf.frame_names import check_leading_slash, check_twins
-from sambot_viz.robot.urdf.joints import read_joint
+from sambot_viz.robot.urdf.joints import check_mimics
 from sambot_viz.robot.urdf.link_tree import build_tree
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
 from sambot_viz.robot.urdf.material_table import FindTexture, MaterialTable
-from sambot_viz.robot.urdf.mimic_rules import check_mimics
-from sambot_viz.robot.urdf.robot_parts import RobotParts, is_fragment
+from sambot_viz.robot.urdf.robot_parts import RobotParts, read_parts
 from sambot_viz.robot.xml.element import Element
 
 _OTHER_ROOTS = {
@@ -70,21 +67,8 @@ def read_urdf(
     materials = MaterialTable(findings, find_texture)
     for element in robot.find_all("material"):
         materials.add_global(element)
-    reader = LinkReader(findings, materials, find_mesh)
-    links = _read_links(robot, reader, findings)
-    check_twins(links.elements, findings)
-    joints, joint_elements, excused = _read_joints(robot, links.links, findings)
-    parts = RobotParts(
-        robot,
-        links.links,
-        links.elements,
-        joints,
-        joint_elements,
-        excused,
-        links.nameless,
-        frozenset(links.duplicates),
-    )
-    if not parts.links and not parts.nameless and not is_fragment(parts):
+    parts = read_parts(robot, LinkReader(findings, materials, find_mesh), findings)
+    if not parts.links and not parts.nameless and not parts.is_fragment:
         _report_no_links(robot, findings)
         return None
     name = _robot_name(parts, findings, expanded)
@@ -146,7 +130,7 @@ def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> st
     if name is not None:
         findings.warn("robot-name-empty", "the robot's name is empty", hint, robot)
         return ""
-    if expanded or is_fragment(parts):
+    if expanded or parts.is_fragment:
         findings.warn(
             "robot-without-name",
             "<robot> has no name, so this is probably a file for xacro:include; it "
@@ -162,88 +146,6 @@ def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> st
             robot,
         )
     return "robot"
-
-
-@dataclass(slots=True)
-class _Links:
-    """The <link> elements read so far; see `RobotParts`."""
-
-    links: dict[str, Link] = field(default_factory=dict[str, Link])
-    elements: dict[str, Element] = field(default_factory=dict[str, Element])
-    nameless: int = 0
-    duplicates: set[str] = field(default_factory=set[str])
-
-
-def _read_links(robot: Element, reader: LinkReader, findings: UrdfFindings) -> _Links:
-    read = _Links()
-    for element in robot.find_all("link"):
-        name = element.get("name")
-        if not name:
-            read.nameless += 1
-            _report_nameless(robot, element, findings)
-            continue
-        first = read.elements.get(name)
-        if first is not None:
-            findings.reject(
-                "link-duplicate",
-                f"the link name {name} is used on line {first.place.line} and again "
-                "here; names must be unique and ROS refuses the model",
-                "give one of the two another name",
-                element,
-            )
-            read.duplicates.add(name)
-            continue
-        check_leading_slash(name, element, findings)
-        read.elements[name] = element
-        read.links[name] = reader.read(element, name)
-    return read
-
-
-def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
-    named = {link.get("name") for link in robot.find_all("link")}
-    wanted: list[str] = []
-    for joint in robot.find_all("joint"):
-        for tag in ("parent", "child"):
-            end = joint.find(tag)
-            link = end.get("link") if end is not None else None
-            if link and link not in named:
-                wanted.append(f"joint {joint.get('name')} expects one called {link}")
-    more = f"; {wanted[0]}" if wanted else ""
-    findings.reject(
-        "link-without-name",
-        f"this <link> has no name{more}; ROS refuses the model",
-        'write <link name="…">',
-        element,
-    )
-
-
-def _read_joints(
-    robot: Element, links: Mapping[str, Link], findings: UrdfFindings
-) -> tuple[dict[str, Joint], dict[str, Element], frozenset[str]]:
-    """The joints, their elements, and the links whose joint was rejected."""
-    joints: dict[str, Joint] = {}
-    elements: dict[str, Element] = {}
-    excused: set[str] = set()
-    for element in robot.find_all("joint"):
-        joint = read_joint(element, findings)
-        first = elements.get(element.get("name") or "")
-        if joint is not None and first is not None:
-            findings.reject(
-                "joint-duplicate",
-                f"the joint name {joint.name} is used on line {first.place.line} and "
-                "again here; names must be unique and ROS refuses the model",
-                "give one of the two another name",
-                element,
-            )
-        if joint is None or first is not None:
-            # A link without this joint is not reported as unconnected.
-            child = element.find("child")
-            link = child.get("link") if child is not None else None
-            excused.update([link] if link else links)
-            continue
-        joints[joint.name] = joint
-        elements[joint.name] = element
-    return joints, elements, frozenset(excused)
 
 
 def _report_no_links(robot: Element, findings: UrdfFindings) -> None:

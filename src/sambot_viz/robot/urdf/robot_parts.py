@@ -1,16 +1,18 @@
-"""Links and joints of a <robot> element before they are joined to a tree."""
+"""Read the links and joints of a <robot> element, before they are joined to a tree."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Link
+from sambot_viz.robot.urdf.findings import UrdfFindings
+from sambot_viz.robot.urdf.joints import read_joint
+from sambot_viz.robot.urdf.links import LinkReader
 from sambot_viz.robot.xml.element import Element
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class RobotParts:
     """Links and joints as read, with their elements.
 
@@ -26,27 +28,142 @@ class RobotParts:
     """
 
     robot: Element
-    links: Mapping[str, Link]
-    link_elements: Mapping[str, Element]
-    joints: Mapping[str, Joint]
-    joint_elements: Mapping[str, Element]
-    excused: frozenset[str]
-    nameless: int
-    duplicates: frozenset[str]
+    links: dict[str, Link] = field(default_factory=dict[str, Link])
+    link_elements: dict[str, Element] = field(default_factory=dict[str, Element])
+    joints: dict[str, Joint] = field(default_factory=dict[str, Joint])
+    joint_elements: dict[str, Element] = field(default_factory=dict[str, Element])
+    excused: set[str] = field(default_factory=set[str])
+    nameless: int = 0
+    duplicates: set[str] = field(default_factory=set[str])
+
+    @property
+    def is_fragment(self) -> bool:
+        """True for a part of a robot, written to be included by another file.
+
+        Such a file has one undefined parent link that would make everything one tree,
+        or it has no robot name and joints between links of other files.
+        """
+        children = {joint.child for joint in self.joints.values()}
+        parents = {joint.parent for joint in self.joints.values()}
+        missing = (parents | children) - self.links.keys()
+        if not missing or self.excused or self.nameless:
+            return False
+        if self.robot.get("name") is None:
+            return True
+        unconnected = self.links.keys() - children
+        return len(missing) == 1 and not unconnected and children <= self.links.keys()
 
 
-def is_fragment(parts: RobotParts) -> bool:
-    """Whether this is part of a robot, written to be included by another file.
+def read_parts(
+    robot: Element, reader: LinkReader, findings: UrdfFindings
+) -> RobotParts:
+    """Read the links, then the joints; each name that is used twice counts once.
 
-    Such a file has one undefined parent link that would make everything one tree, or
-    it has no robot name and joints between links of other files.
+    Args:
+        robot: the <robot> element.
+        reader: reads one <link>.
+        findings: where the problems go.
     """
-    children = {joint.child for joint in parts.joints.values()}
-    parents = {joint.parent for joint in parts.joints.values()}
-    missing = (parents | children) - parts.links.keys()
-    if not missing or parts.excused or parts.nameless:
-        return False
-    if parts.robot.get("name") is None:
-        return True
-    unconnected = parts.links.keys() - children
-    return len(missing) == 1 and not unconnected and children <= parts.links.keys()
+    parts = RobotParts(robot)
+    _read_links(parts, reader, findings)
+    _read_joints(parts, findings)
+    return parts
+
+
+def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -> None:
+    for element in parts.robot.find_all("link"):
+        name = element.get("name")
+        if not name:
+            parts.nameless += 1
+            _report_nameless(parts.robot, element, findings)
+            continue
+        first = parts.link_elements.get(name)
+        if first is not None:
+            findings.reject(
+                "link-duplicate",
+                f"the link name {name} is used on line {first.place.line} and again "
+                "here; names must be unique and ROS refuses the model",
+                "give one of the two another name",
+                element,
+            )
+            parts.duplicates.add(name)
+            continue
+        _check_leading_slash(name, element, findings)
+        parts.link_elements[name] = element
+        parts.links[name] = reader.read(element, name)
+    _check_twins(parts.link_elements, findings)
+
+
+def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
+    named = {link.get("name") for link in robot.find_all("link")}
+    wanted: list[str] = []
+    for joint in robot.find_all("joint"):
+        for tag in ("parent", "child"):
+            end = joint.find(tag)
+            link = end.get("link") if end is not None else None
+            if link and link not in named:
+                wanted.append(f"joint {joint.get('name')} expects one called {link}")
+    more = f"; {wanted[0]}" if wanted else ""
+    findings.reject(
+        "link-without-name",
+        f"this <link> has no name{more}; ROS refuses the model",
+        'write <link name="…">',
+        element,
+    )
+
+
+def _check_leading_slash(name: str, element: Element, findings: UrdfFindings) -> None:
+    """Report a link name that tf2 does not accept as the name of a frame."""
+    if name.startswith("//") or name == "/":
+        findings.reject(
+            "link-name-slashes",
+            f"the link name {name} is not a frame for tf2 even without its first "
+            "slash, so nothing can be there",
+            'write a name without slashes, such as name="arm_link"',
+            element,
+        )
+    elif name.startswith("/"):
+        findings.warn(
+            "link-name-slash",
+            f"the link name {name} begins with a slash, which tf2 does not "
+            "allow: the frame can never be looked up",
+            f'write name="{name.lstrip("/")}", here and in the joints',
+            element,
+        )
+
+
+def _check_twins(elements: dict[str, Element], findings: UrdfFindings) -> None:
+    """Reject links that are the same frame for tf2, which strips one slash."""
+    for name, element in elements.items():
+        twin = elements.get(name[1:]) if name.startswith("/") else None
+        if twin is not None:
+            findings.reject(
+                "link-name-twin",
+                f"the links {name} and {name[1:]} (line {twin.place.line}) are the "
+                "same frame for tf2, which strips the slash",
+                "give one of the two another name",
+                element,
+            )
+
+
+def _read_joints(parts: RobotParts, findings: UrdfFindings) -> None:
+    elements = parts.joint_elements
+    for element in parts.robot.find_all("joint"):
+        joint = read_joint(element, findings)
+        first = elements.get(element.get("name") or "")
+        if joint is not None and first is not None:
+            findings.reject(
+                "joint-duplicate",
+                f"the joint name {joint.name} is used on line {first.place.line} and "
+                "again here; names must be unique and ROS refuses the model",
+                "give one of the two another name",
+                element,
+            )
+        if joint is None or first is not None:
+            # A link without this joint is not reported as unconnected.
+            child = element.find("child")
+            link = child.get("link") if child is not None else None
+            parts.excused.update([link] if link else parts.links)
+            continue
+        parts.joints[joint.name] = joint
+        elements[joint.name] = element
