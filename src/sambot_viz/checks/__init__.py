@@ -7,16 +7,57 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz.checks.mesh_files import MeshFiles
-from sambot_viz.checks.registry import RULES
-from sambot_viz.checks.rule import Subject
-from sambot_viz.errors import Problem, RobotError
+from sambot_viz.checks.ground import wheels_off_the_ground
+from sambot_viz.checks.inertia import (
+    impossible_inertia,
+    inertia_on_root,
+    missing_inertia,
+    zero_mass,
+)
+from sambot_viz.checks.launch_text import launch_text_as_yaml
+from sambot_viz.checks.mesh_files import (
+    MeshFiles,
+    meshes_of_wrong_size,
+    unusable_meshes,
+)
+from sambot_viz.checks.names import (
+    names_that_differ_in_case,
+    names_with_spaces,
+    unused_macros,
+)
+from sambot_viz.checks.rule import Rule, Subject
+from sambot_viz.checks.values import (
+    invisible_materials,
+    limits_in_degrees,
+    rpy_in_degrees,
+    sizes_not_positive,
+)
+from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.robot.model import Robot
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
 
-__all__ = ["check", "check_robot", "check_unloadable"]
+__all__ = ["check", "check_folder", "check_robot", "check_unloadable"]
+
+RULES: tuple[Rule, ...] = (
+    limits_in_degrees,
+    rpy_in_degrees,
+    sizes_not_positive,
+    unusable_meshes,
+    meshes_of_wrong_size,
+    wheels_off_the_ground,
+    names_that_differ_in_case,
+    names_with_spaces,
+    unused_macros,
+    launch_text_as_yaml,
+    inertia_on_root,
+    missing_inertia,
+    impossible_inertia,
+    zero_mass,
+    invisible_materials,
+)
+"""All rules, in the order in which they run."""
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
 
@@ -76,6 +117,58 @@ def check_robot(
     subject = Subject(robot, tuple(files), mesh or MeshFiles(robot.file_roots))
     found = [problem for rule in RULES for problem in rule(subject)]
     return _in_order([*robot.problems, *found])
+
+
+def check_folder(
+    folder: Path,
+    model: Path,
+    config: Path | None = None,
+    *,
+    xacro_args: Mapping[str, str] | None = None,
+    package_path: Sequence[Path | str] = (),
+    trusted: bool = True,
+) -> list[Problem]:
+    """Find everything that is wrong with a package: model, config, launch files.
+
+    Args:
+        folder: the package, with its package.xml.
+        model: its model.
+        config: its .rviz file, if it has one.
+        xacro_args: as for `check`.
+        package_path: as for `check`.
+        trusted: as for `check`.
+
+    Returns:
+        The problems of the model as `check` finds them, then those of the config, then
+        those of the launch files and setup.py.
+    """
+    from sambot_viz.checks.launch_files import check_package
+    from sambot_viz.robot import load_robot
+
+    robot: Robot | None = None
+    try:
+        robot = load_robot(
+            model, xacro_args=xacro_args, package_path=package_path, trusted=trusted
+        )
+    except RobotError as error:
+        problems = check_unloadable(error)
+    else:
+        problems = check_robot(robot, model)
+    if config is not None:
+        problems += _check_config(config, robot)
+    return [*problems, *check_package(folder, robot)]
+
+
+def _check_config(path: Path, robot: Robot | None) -> list[Problem]:
+    from sambot_viz.checks.config_against_robot import check_config
+    from sambot_viz.rviz import Declarations, RvizConfig
+
+    try:
+        config = RvizConfig.load(path, Declarations())
+    except ConfigError as error:
+        return list(error.problems)
+    found = list(config.problems)
+    return found if robot is None else found + check_config(robot, config)
 
 
 def _in_order(problems: Sequence[Problem]) -> list[Problem]:

@@ -1,4 +1,4 @@
-"""Mesh files that cannot be drawn, or not as they were meant."""
+"""Mesh files that cannot be drawn, or a thousand times too large or too small."""
 
 from __future__ import annotations
 
@@ -7,15 +7,23 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz.checks.rule import Subject, listed
-from sambot_viz.errors import Problem, Severity
-from sambot_viz.robot.model import Link, MeshFile, Robot, Shape
+import numpy as np
+
+from sambot_viz.checks.rule import Subject, listed, number
+from sambot_viz.errors import Place, Problem, Severity
+from sambot_viz.geometry import Vector3
+from sambot_viz.robot.model import Link, MeshFile, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
 
 _LONGEST = 10.0
 _LARGEST_FILE = 60_000_000
+_WITHOUT_UNIT = (".stl", ".stlb", ".obj", ".ply")
+_TOO_LARGE = 15.0
+_TOO_SMALL = 0.0005
+_FLAT = 0.002
+"""A mesh that is thinner than this share of its size is a floor or a wall."""
 
 
 class MeshFiles:
@@ -63,19 +71,18 @@ def _size(path: Path) -> int:
         return 0
 
 
-def meshes_of(robot: Robot) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
+def _meshes_of(subject: Subject) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
     """The shapes that are meshes and whose file was found, with their links."""
-    for link in robot.links.values():
-        for shape in (*link.visuals, *link.collisions):
-            mesh = shape.geometry
-            if isinstance(mesh, MeshFile) and mesh.path is not None:
-                yield link, shape, mesh, mesh.path
+    for link, shape in subject.shapes():
+        mesh = shape.geometry
+        if isinstance(mesh, MeshFile) and mesh.path is not None:
+            yield link, shape, mesh, mesh.path
 
 
 def unusable_meshes(subject: Subject) -> Iterator[Problem]:
     """Problems of the mesh files, each at the first shape that uses the file."""
     users: dict[Path, tuple[Link, Shape]] = {}
-    for link, shape, _, path in meshes_of(subject.robot):
+    for link, shape, _, path in _meshes_of(subject):
         users.setdefault(path, (link, shape))
     skipped: list[Path] = []
     for path, (link, shape) in users.items():
@@ -115,3 +122,60 @@ def _not_read(paths: Sequence[Path]) -> Problem:
         f"{listed(path.name for path in paths)}",
         "open the robot with sambot-viz; the Problems panel lists what cannot be drawn",
     )
+
+
+def meshes_of_wrong_size(subject: Subject) -> Iterator[Problem]:
+    """Meshes drawn in millimetres, one finding for those with the same scale.
+
+    Only formats without a unit are judged: in the others a wrong unit is written down.
+    """
+    seen: set[tuple[Path, Vector3]] = set()
+    wrong: dict[tuple[str, str], list[tuple[str, str, float]]] = {}
+    places: dict[tuple[str, str], Place | None] = {}
+    for link, shape, mesh, path in _meshes_of(subject):
+        if path.suffix.lower() not in _WITHOUT_UNIT or (path, mesh.scale) in seen:
+            continue
+        seen.add((path, mesh.scale))
+        size = _longest_side(subject, mesh, path)
+        advice = None if size is None else _advice(size, mesh.scale)
+        if size is None or advice is None:
+            continue
+        wrong.setdefault(advice, []).append((link.name, path.name, size))
+        places.setdefault(advice, shape.geometry_place or shape.place)
+    for (cause, hint), found in wrong.items():
+        link_name, name, size = max(found, key=lambda entry: entry[2])
+        one = len(found) == 1
+        yield Problem.at(
+            places[cause, hint],
+            "warning",
+            "mesh-size",
+            f"link {link_name}: the mesh {name} is {size:.3g} m large: it {cause}"
+            if one
+            else f"{len(found)} meshes ({listed(name for _, name, _ in found)}) are up "
+            f"to {size:.3g} m large: each {cause}",
+            hint,
+        )
+
+
+def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
+    """The longest side of the scaled bounding box [m]; None for floors and walls."""
+    found = subject.mesh(path)
+    if found is None or isinstance(found, Problem):
+        return None
+    low, high = found.bounds
+    sides = np.abs((high - low) * mesh.scale)
+    size = float(sides.max())
+    return None if sides.min() < _FLAT * size else size
+
+
+def _advice(size: float, scale: Vector3) -> tuple[str, str] | None:
+    """What is probably wrong, and what to do about it."""
+    if size > _TOO_LARGE:
+        factors = " ".join(number(factor / 1000) for factor in scale)
+        return (
+            "is probably drawn in millimetres",
+            f'write scale="{factors}", or export it in metres',
+        )
+    if 0 < size < _TOO_SMALL and max(abs(factor) for factor in scale) < 0.1:
+        return "is probably in metres already", "delete the scale"
+    return None

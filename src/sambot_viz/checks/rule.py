@@ -1,18 +1,18 @@
 """The input of a rule, and text helpers that several rules use.
 
-A rule is a function, and one line in `registry.py`. It only reads the robot, its mesh
+A rule is a function, and one line in `RULES`. It only reads the robot, its mesh
 files, and the text it came from.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model import Link, Robot, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
@@ -34,13 +34,19 @@ class Subject:
     files: tuple[str, ...]
     mesh: Callable[[Path], Mesh | Problem | None]
 
+    def shapes(self) -> Iterator[tuple[Link, Shape]]:
+        """Give the visuals and collisions of all links, each with its link."""
+        for link in self.robot.links.values():
+            for shape in (*link.visuals, *link.collisions):
+                yield link, shape
+
 
 Rule = Callable[[Subject], Iterable[Problem]]
 """Finds one kind of mistake that ROS accepts and that causes trouble later."""
 
 
 def listed(names: Iterable[str], most: int = 6) -> str:
-    """Names as a person would list them: "a, b and c"."""
+    """List names as a person would: "a, b and c"."""
     known = list(names)
     if len(known) > most:
         return f"{', '.join(known[:most])} and {len(known) - most} more"
@@ -50,5 +56,5 @@ def listed(names: Iterable[str], most: int = 6) -> str:
 
 
 def number(value: float) -> str:
-    """A number without noise: 1.5708, -90, 0.5."""
+    """Write a number without noise: 1.5708, -90, 0.5."""
     return f"{value:.5g}"

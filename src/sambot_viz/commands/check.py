@@ -7,7 +7,7 @@ import sys
 
 from sambot_viz import problem_text
 from sambot_viz.bundled import Found, find
-from sambot_viz.checks import check
+from sambot_viz.checks import check, check_folder
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem
 from sambot_viz.options import Options
@@ -58,8 +58,6 @@ def _problems(options: Options, found: Found) -> list[Problem]:
             package_path=packages,
             trusted=options.trusted,
         )
-    from sambot_viz.checks.folder import check_folder
-
     return check_folder(
         folder,
         found.model,
