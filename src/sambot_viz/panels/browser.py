@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.files import AskPage, Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
-from sambot_viz.panels.link.link import LinkPanel
 from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.people import OwnRolePanel
+from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.selection import SelectionPanel
@@ -69,7 +69,7 @@ class BrowserPanels:
             SelectionPanel(session, browser, self._remake),
             ToolPropertiesPanel(session, browser),
             FramesPanel(session, self.say, self._remake),
-            LinkPanel(session, browser, self._shared_row, self._remake),
+            PermalinkPanel(session, browser, self._shared_row, self._remake),
             FilesPanel(session, browser, files, ask_page, keep, self.say, self._remake),
         ]
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from sambot_viz.frames import LookupRefused
+from sambot_viz.errors import Place
+from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.frames.distance import distance_between
-from sambot_viz.panels.frames.link_facts import Fact, facts_of
-from sambot_viz.panels.numbers_text import shown_numbers
+from sambot_viz.panels.frames.frame_answer import shown_numbers
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row
+from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
@@ -22,6 +25,8 @@ SHORT = 3
 _FRAME = TfFrameProperty(
     "Poses in", default=FIXED_FRAME, help="The frame in which poses are shown."
 )
+Fact = tuple[str, str]
+"""A name and a text."""
 
 
 class SelectionPanel(Panel):
@@ -129,6 +134,100 @@ def _fact_rows(prefix: str, parent: str, facts: Iterable[Fact]) -> Iterator[Row]
     """The rows of some facts; names such as "Visual" may occur twice."""
     for number, (name, value) in enumerate(facts):
         yield Row(f"{prefix}/{number}", parent, "readonly", name, value)
+
+
+def facts_of(session: Session, name: str, frame: str) -> list[Fact]:
+    """What is known about a link or frame.
+
+    Args:
+        session: where it is shown.
+        name: the link or frame.
+        frame: the frame in which its pose is given.
+    """
+    return [
+        *_pose(session.tree, name, frame),
+        *_relations(session.tree, name),
+        *_written(session, name),
+    ]
+
+
+def _pose(tree: FrameTree, name: str, frame: str) -> Iterator[Fact]:
+    try:
+        transform = tree.lookup(frame, name)
+    except LookupRefused as refused:
+        yield "Pose", refused.rviz_text
+        return
+    rpy = transform.rpy
+    yield "Position", f"{shown_numbers(transform.translation.tolist())} m"
+    yield "Orientation", f"{shown_numbers(transform.rotation_xyzw.tolist())} (xyzw)"
+    degrees = shown_numbers([math.degrees(angle) for angle in rpy], 3)
+    yield "RPY", f"{shown_numbers(rpy)} rad ({degrees} °)"
+
+
+def _relations(tree: FrameTree, name: str) -> Iterator[Fact]:
+    parent = tree.parent(name) if name in tree.frames else None
+    if parent is not None:
+        yield "Parent", parent
+    if children := tree.children(name):
+        yield "Children", ", ".join(children)
+
+
+def _written(session: Session, name: str) -> Iterator[Fact]:
+    """What the model file says about a link, and where."""
+    robot = session.robot
+    link = None if robot is None else robot.links.get(name)
+    if robot is None or link is None:
+        return
+    for joint in robot.joints.values():
+        if joint.child == name:
+            yield from _joint(session, joint)
+    below = [joint.name for joint in robot.joints.values() if joint.parent == name]
+    if below:
+        yield "Child joints", ", ".join(below)
+    yield from _link(link)
+
+
+def _link(link: Link) -> Iterator[Fact]:
+    for title, shapes in (("Visual", link.visuals), ("Collision", link.collisions)):
+        for shape in shapes:
+            at = "" if shape.place is None else f", {place_text(shape.place)}"
+            yield title, f"{geometry_text(shape.geometry)}{at}"
+    if link.inertial is not None:
+        yield "Mass", f"{link.inertial.mass:.5g} kg"
+    if link.place is not None:
+        yield "Written at", place_text(link.place)
+
+
+def _joint(session: Session, joint: Joint) -> Iterator[Fact]:
+    at = "" if joint.place is None else f", {place_text(joint.place)}"
+    yield "Joint", f"{joint.name} ({joint.type}){at}"
+    if not joint.movable or session.joints is None:
+        return
+    unit = "m" if joint.type == "prismatic" else "rad"
+    position = session.joints.all_positions().get(joint.name, joint.start)
+    lower, upper = joint.range
+    limits = f"{lower:.5g} … {upper:.5g}"
+    if joint.type == "continuous":
+        limits = "turns without limits"
+    yield "Joint position", f"{position:.5g} {unit}, {limits}"
+    yield "Joint axis", shown_numbers(joint.axis)
+
+
+def geometry_text(geometry: Geometry) -> str:
+    """A shape in a few words, such as "Box 0.42; 0.31; 0.18 m"."""
+    if isinstance(geometry, MeshFile):
+        return f"Mesh {geometry.filename}"
+    if isinstance(geometry, Box):
+        return f"Box {shown_numbers(geometry.size)} m"
+    if isinstance(geometry, Sphere):
+        return f"Sphere of radius {geometry.radius:.5g} m"
+    kind = type(geometry).__name__
+    return f"{kind} of radius {geometry.radius:.5g} m, length {geometry.length:.5g} m"
+
+
+def place_text(place: Place) -> str:
+    """A place as file:line, with the name of the file alone."""
+    return f"{place.file.rpartition('/')[2]}:{place.line}"
 
 
 _NOTHING = (

@@ -55,7 +55,7 @@ const menus = (panels, hideAll) => [
       edit("undo", "Ctrl+Z"),
       edit("redo", "Ctrl+Shift+Z"),
       null,
-      { name: "Copy link to this view", does: copyLink, off: !rows.can("link/copy") },
+      { name: "Copy link to this view", does: copyLink, off: !rows.can("permalink/copy") },
     ],
   },
   {

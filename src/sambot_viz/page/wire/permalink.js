@@ -30,7 +30,7 @@ export function addressOf(parts, { origin, pathname }) {
 
 /** Copy a link to what this browser sees. */
 export function copyLink() {
-  act("link/copy");
+  act("permalink/copy");
 }
 
 /** Open links from now on: that of the page's own address, and those that come later. */
@@ -41,10 +41,10 @@ export function followLinks() {
   const open = () => {
     // A page without a Joints panel has nothing to wait for.
     const early = patient && rows.panels.has("joints") && !hasJoints();
-    if (!waiting || !rows.knows("link/open") || early) return;
+    if (!waiting || !rows.knows("permalink/open") || early) return;
     const parts = partsOf(waiting);
     waiting = "";
-    act("link/open", parts);
+    act("permalink/open", parts);
   };
   const take = () => {
     const hash = window.sambotLink || location.hash;
@@ -61,8 +61,8 @@ export function followLinks() {
     open();
   };
   let made = 0;
-  rows.listen("link/made", () => {
-    const now = rows.data("link/made");
+  rows.listen("permalink/made", () => {
+    const now = rows.data("permalink/made");
     if (!now || now.number === made) return;
     made = now.number;
     void copy(addressOf(now.parts, location), "a link to this view");

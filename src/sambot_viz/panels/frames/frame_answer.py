@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from sambot_viz.frames import Transform
 from sambot_viz.frames.explain import Explanation
-from sambot_viz.panels.numbers_text import plain_numbers, shown_numbers
 from sambot_viz.panels.row import Row
+
+DIGITS = 6
+"""Decimals: a micrometre is more than a hand can use."""
 
 
 def answer_rows(found: Explanation) -> Iterator[Row]:
@@ -100,3 +102,18 @@ def _chain(found: Explanation) -> Iterator[Row]:
             "note",
             value=f"{hop.words}: {pose}",
         )
+
+
+def plain_numbers(values: Iterable[float], digits: int = DIGITS) -> list[str]:
+    """Return numbers without exponents, without zeros at the end, and without −0."""
+    return [_plain(float(value), digits) for value in values]
+
+
+def shown_numbers(values: Iterable[float], digits: int = DIGITS) -> str:
+    """Return several numbers as RViz shows a vector, "1; 0; 0.5"."""
+    return "; ".join(plain_numbers(values, digits))
+
+
+def _plain(value: float, digits: int) -> str:
+    shown = f"{round(value, digits) + 0.0:.{digits}f}"
+    return shown.rstrip("0").rstrip(".") if "." in shown else shown

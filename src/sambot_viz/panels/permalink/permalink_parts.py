@@ -20,7 +20,7 @@ Pair = tuple[str, str]
 
 
 @dataclass
-class LinkParts:
+class PermalinkParts:
     """What a link says, and what of it cannot be shown here.
 
     Attributes:
@@ -52,7 +52,7 @@ class LinkParts:
     refused: list[str] = field(default_factory=list[str])
 
     @classmethod
-    def read(cls, names: list[Any], values: list[Any]) -> LinkParts:
+    def read(cls, names: list[Any], values: list[Any]) -> PermalinkParts:
         """Read the parts of a link.
 
         Raises:

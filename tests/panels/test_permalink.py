@@ -11,7 +11,7 @@ from panel_rows import data_of, edit
 
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.panels.joints.joints import JointsPanel
-from sambot_viz.panels.link.link import LinkPanel
+from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
@@ -31,7 +31,7 @@ class Links:
     def __init__(self, session: Session, browser: Browser, joints: bool = True) -> None:
         self.session, self.browser = session, browser
         panel = JointsPanel(session, lambda panel: None)
-        self.panel = LinkPanel(
+        self.panel = PermalinkPanel(
             session,
             browser,
             lambda row_id: next(
@@ -45,13 +45,13 @@ class Links:
             return edit(self.panel, command_id, list(sent))
 
     def copy(self) -> Pairs:
-        self.act("link/copy")
-        parts: Pairs = data_of(self.panel)["link/made"]["parts"]
+        self.act("permalink/copy")
+        parts: Pairs = data_of(self.panel)["permalink/made"]["parts"]
         return parts
 
     def open(self, parts: Pairs) -> str:
         answer = self.act(
-            "link/open", [name for name, _ in parts], [value for _, value in parts]
+            "permalink/open", [name for name, _ in parts], [value for _, value in parts]
         )
         assert isinstance(answer, Answer)
         return answer.say

@@ -12,18 +12,18 @@ from typing import Any, cast
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import LIST, command
 from sambot_viz.panels.joints.joint_rows import joint_id
-from sambot_viz.panels.link.link_parts import (
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.permalink.permalink_parts import (
     OFF,
     ON,
     VERSION,
-    LinkParts,
     Pair,
+    PermalinkParts,
     number,
     read,
     short,
     written,
 )
-from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
@@ -36,7 +36,7 @@ from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.views.registry import VIEWS
 
 
-class LinkPanel(Panel):
+class PermalinkPanel(Panel):
     """Makes links, and shows what a link says.
 
     Args:
@@ -46,7 +46,7 @@ class LinkPanel(Panel):
         remake: called when a link has been made.
     """
 
-    name = "link"
+    name = "permalink"
 
     def __init__(
         self,
@@ -64,11 +64,11 @@ class LinkPanel(Panel):
 
     def data(self) -> Sequence[Data]:
         """Return the last permalink that was made, as its parts."""
-        return [Data("link/made", self._made)]
+        return [Data("permalink/made", self._made)]
 
     # Making one
 
-    @command("link/copy", client_local=True)
+    @command("permalink/copy", client_local=True)
     def _copy(self) -> None:
         self._count += 1
         parts = [list(pair) for pair in self._parts()]
@@ -109,9 +109,9 @@ class LinkPanel(Panel):
     # Opening one
 
     # Viewers may open one: what others see then stays as it is.
-    @command("link/open", LIST, LIST, name="link", client_local=True)
+    @command("permalink/open", LIST, LIST, name="link", client_local=True)
     def _open(self, names: list[Any], values: list[Any]) -> Answer:
-        link = LinkParts.read(names, values)
+        link = PermalinkParts.read(names, values)
         robot = self._session.robot
         link.elsewhere = robot is not None and link.robot not in (None, robot.name)
         link.watching = not self._session.roles.may_edit(self._browser.client_id)
@@ -123,7 +123,7 @@ class LinkPanel(Panel):
         self._select(link)
         return link.answer()
 
-    def _fix(self, link: LinkParts) -> None:
+    def _fix(self, link: PermalinkParts) -> None:
         session, frame = self._session, link.fixed
         if frame is None or frame == session.context.fixed_frame:
             return
@@ -134,7 +134,7 @@ class LinkPanel(Panel):
         else:
             session.set_global("Fixed Frame", frame)
 
-    def _look(self, link: LinkParts) -> None:
+    def _look(self, link: PermalinkParts) -> None:
         kinds = {kind.rpartition("/")[2]: kind for kind in VIEWS}
         if link.kind not in kinds:
             link.missing["view"] += [link.kind]
@@ -162,7 +162,7 @@ class LinkPanel(Panel):
         look_as(self._session, self._browser, kinds[link.kind], wanted)
         link.missing["property of the view"] += [p for p in link.view if p not in used]
 
-    def _move(self, link: LinkParts) -> None:
+    def _move(self, link: PermalinkParts) -> None:
         session, joints = self._session, self._session.joints
         if joints is None:
             link.missing["joint"] += link.joints
@@ -191,7 +191,7 @@ class LinkPanel(Panel):
         elif changed:
             session.set_joint_positions(changed, "Open a link")
 
-    def _switch(self, link: LinkParts) -> None:
+    def _switch(self, link: PermalinkParts) -> None:
         for name in sorted(link.switches.keys() - switches(self._session).keys()):
             link.missing["display or part of one"] += [name.replace("/=", "/")]
         # A switch for all links turns each of them: those of the links come after it.
@@ -209,7 +209,7 @@ class LinkPanel(Panel):
                     except UsageError as error:
                         link.refuse(str(error))
 
-    def _select(self, link: LinkParts) -> None:
+    def _select(self, link: PermalinkParts) -> None:
         robot, frames = self._session.robot, self._session.tree.frames
         links: Collection[str] = () if robot is None else robot.links
         items: set[Selectable] = set()
