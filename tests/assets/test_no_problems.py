@@ -44,4 +44,4 @@ def test_the_page_starts_without_a_problem_and_without_a_changed_setting(
         assert last_good_note(session) == ""
         assert {display.status.level for display in session.displays} == {"Ok"}
         assert session.drawn.global_status().level == "Ok"
-        assert not session.edits.modified
+        assert not session.history.modified.value

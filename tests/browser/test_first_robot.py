@@ -103,7 +103,7 @@ def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height
     assert 0 < columns.min() < columns.max() < across
     assert 0 < rows.min() < rows.max() < height
     assert np.ptp(rows) > height / 3
-    assert not session.edits.modified
+    assert not session.history.modified.value
 
 
 def test_the_page_shows_robot_and_panels_and_asks_nobody_else(

@@ -123,7 +123,7 @@ def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(
     assert value(session, "Distance") == pytest.approx(2.0)
     mouse.wheel(*SKY, dy=-100.0)
     until(viewer, lambda: abs(value(session, "Distance") - 1.76) < 0.02)
-    assert not session.edits.modified
+    assert not session.history.modified.value
     view_of(session).store()
     assert "Yaw: 1.1" in session.config.to_yaml()
     viewer.page.keyboard.press("z")

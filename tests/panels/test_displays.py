@@ -371,8 +371,8 @@ def test_a_removed_display_comes_back_as_the_same_row(
     displays: Displays, session: Session
 ) -> None:
     before = displays.named("Robot").id
-    with session.edits.acting(1):
+    with session.history.acting(1):
         displays.act("remove", "Robot")
-    session.edits.undo(1)
+    session.history.undo(1)
     assert displays.named("Robot").id == before
     assert displays.order()[0] == "Robot"

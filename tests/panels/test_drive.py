@@ -131,13 +131,13 @@ def test_driving_fixes_a_frame_that_the_robot_moves_in(
 ) -> None:
     assert session.context.fixed_frame == "base_link"
     browser.view.set("Distance", 2.0)
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) == IN_ODOM
     assert session.context.fixed_frame == "odom"
     assert browser.view.values["Distance"] > 2
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) is None
-    session.edits.undo(browser.client_id)
+    session.history.undo(browser.client_id)
     assert session.context.fixed_frame == "base_link"
 
 

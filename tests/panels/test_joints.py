@@ -110,10 +110,10 @@ def test_center_and_randomize_move_all_joints_and_can_be_undone(
     viz.set_joint_positions({LEFT: 0.5})
     for action in ("joints/center", "joints/randomize"):
         before = dict(viz.joint_positions)
-        with session.edits.acting(1):
+        with session.history.acting(1):
             edit(panel, action, [])
         assert viz.joint_positions != before
-        session.edits.undo(1)
+        session.history.undo(1)
         assert viz.joint_positions == before
 
 
@@ -121,11 +121,11 @@ def test_a_drag_is_one_step_to_undo(
     panel: JointsPanel, session: Session, viz: Visualizer
 ) -> None:
     for value in (0.1, 0.2, 0.3):
-        with session.edits.acting(1, gesture=7):
+        with session.history.acting(1, gesture=7):
             edit(panel, f"j/{LEFT}", value)
-    session.edits.undo(1)
+    session.history.undo(1)
     assert viz.joint_positions[LEFT] == 0
-    assert session.edits.undo_label(1) is None
+    assert session.history.state(1).value.undo is None
 
 
 # Wheels that turn
@@ -166,28 +166,28 @@ def test_undo_stops_a_wheel_and_puts_it_where_it_stood_before_it_turned(
     session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
     viz.set_joint_positions({LEFT: 0.25})
     for stops in (True, False):
-        with session.edits.acting(1):
+        with session.history.acting(1):
             edit(panel, "joints/turn", [f"j/{LEFT}"])
         session.motion.advance(0.5)
         if stops:
-            with session.edits.acting(1):
+            with session.history.acting(1):
                 edit(panel, "joints/turn", [f"j/{LEFT}"])
-        assert session.edits.undo(1) == f"Turn {LEFT}"
+        assert session.history.undo(1) == f"Turn {LEFT}"
         assert turning(panel) == []
         assert viz.joint_positions[LEFT] == 0.25
-        session.edits.redo(1)
+        session.history.redo(1)
         assert viz.joint_positions[LEFT] == pytest.approx(0.75)
         assert turning(panel) == []
-        session.edits.undo(1)
+        session.history.undo(1)
 
 
 def test_the_turn_rate_can_be_undone(panel: JointsPanel, session: Session) -> None:
     for rate in (2.0, 3.0):
-        with session.edits.acting(1, gesture=7):
+        with session.history.acting(1, gesture=7):
             edit(panel, "joints/rate", rate)
-    assert session.edits.undo(1) == "Turn rate"
+    assert session.history.undo(1) == "Turn rate"
     assert rows_of(panel)["joints/rate"].value == 1.0
-    assert not session.edits.modified
+    assert not session.history.modified.value
 
 
 def test_nothing_turns_at_a_rate_of_zero(panel: JointsPanel) -> None:

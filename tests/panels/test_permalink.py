@@ -41,7 +41,7 @@ class Links:
         )
 
     def act(self, command_id: str, *sent: Any) -> Any:
-        with self.session.edits.acting(self.browser.client_id):
+        with self.session.history.acting(self.browser.client_id):
             return edit(self.panel, command_id, list(sent))
 
     def copy(self) -> Pairs:
@@ -150,7 +150,7 @@ def test_a_link_brings_its_own_program_back_and_is_one_step_to_undo(
     before = state(links)
     assert links.open(parts) == "Opened the link"
     assert state(links) == wanted
-    session.edits.undo(links.browser.client_id)
+    session.history.undo(links.browser.client_id)
     kept = ("joints", "switches")
     assert {k: state(links)[k] for k in kept} == {k: before[k] for k in kept}
 

@@ -68,10 +68,10 @@ def test_choosing_a_pose_can_be_undone(
     viz.set_joint_positions({LEFT: 1.25})
     send(panel, "poses/save", "half")
     viz.set_joint_positions({LEFT: 0.5})
-    with session.edits.acting(1):
+    with session.history.acting(1):
         assert send(panel, "poses/use", "half") is None
     assert viz.joint_positions[LEFT] == 1.25
-    session.edits.undo(1)
+    session.history.undo(1)
     assert viz.joint_positions[LEFT] == 0.5
 
 
@@ -88,11 +88,11 @@ def test_a_removed_pose_comes_back_by_undo(
     panel: PosesPanel, session: Session, path: Path
 ) -> None:
     send(panel, "poses/save", "half")
-    with session.edits.acting(1):
+    with session.history.acting(1):
         said = send(panel, "poses/remove", "half")
     assert said == Answer("Removed pose 'half'; Undo brings it back")
     assert names(panel) == [] and "half" not in path.read_text()
-    session.edits.undo(1)
+    session.history.undo(1)
     assert names(panel) == ["half"] and "half" in path.read_text()
 
 

@@ -24,7 +24,7 @@ def panel(session: Session) -> JointsPanel:
 def bring_back(
     panel: JointsPanel, session: Session, browser: int, joints: dict[str, Any]
 ) -> object:
-    with session.edits.acting(browser):
+    with session.history.acting(browser):
         return edit(panel, "joints/restore", [[*joints], [*joints.values()]])
 
 
@@ -38,8 +38,8 @@ def test_the_first_page_brings_the_joints_back_in_one_step(
     assert panel.values()["joints/untouched"] is False
     assert bring_back(panel, session, 2, {f"j/{LEFT}": 3.0}) is None
     assert viz.joint_positions[LEFT] == 0.5
-    assert session.edits.undo_label(2) is None
-    assert session.edits.undo(1) == "Joints as before the restart"
+    assert session.history.state(2).value.undo is None
+    assert session.history.undo(1) == "Joints as before the restart"
     assert viz.joint_positions == before
 
 

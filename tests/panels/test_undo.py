@@ -42,7 +42,7 @@ def test_the_display_that_undo_or_redo_touches_is_named(
         lambda: session.remove_display(first),
     )
     for change in changes:
-        with session.edits.acting(browser.client_id):
+        with session.history.acting(browser.client_id):
             change()
         edit(panel, "edit/undo", None)
         assert touched(panel) == displays.id_of(first)
@@ -58,7 +58,7 @@ def test_a_display_that_is_not_there_after_it_is_not_named(
         lambda: session.duplicate_display(session.config.displays[0]),
     )
     for make in makers:
-        with session.edits.acting(browser.client_id):
+        with session.history.acting(browser.client_id):
             made = make()
         edit(panel, "edit/undo", None)
         assert touched(panel) is None
@@ -70,7 +70,7 @@ def test_each_undo_is_told_from_the_one_before(
     panel: UndoPanel, session: Session, browser: Browser
 ) -> None:
     for name in ("One", "Two"):
-        with session.edits.acting(browser.client_id):
+        with session.history.acting(browser.client_id):
             session.rename_display(session.config.displays[0], name)
     edit(panel, "edit/undo", None)
     before = data_of(panel)["edit/touched"]
@@ -82,7 +82,7 @@ def test_each_undo_is_told_from_the_one_before(
 def test_undo_and_redo_say_what_they_did(
     panel: UndoPanel, session: Session, browser: Browser
 ) -> None:
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         session.set_global("Frame Rate", 10)
     for row_id, said in (
         ("edit/undo", "Undone: Global Options: Frame Rate"),
@@ -98,13 +98,13 @@ def test_other_edits_and_other_browsers_name_nothing(
     displays: DisplaysPanel,
     join: Callable[[], Browser],
 ) -> None:
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         session.set_global("Frame Rate", 10)
         session.rename_display(session.config.displays[0], "One")
     other = UndoPanel(session, join(), displays)
     edit(panel, "edit/undo", None)
     assert touched(other) is None
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         session.set_global("Frame Rate", 10)
     edit(panel, "edit/undo", None)
     assert touched(panel) is None

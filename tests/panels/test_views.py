@@ -67,12 +67,12 @@ def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
         "view/X": 0.25,
         "view/Angle": 0.5,
     }
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         edit(panel, "views/restore", [ABOVE, json.dumps(wanted)])
     rows = rows_of(panel)
     assert rows["view/type"].value == ABOVE
     assert {row_id: rows[row_id].value for row_id in wanted} == wanted
-    assert session.edits.undo_label(browser.client_id) is None
+    assert session.history.state(browser.client_id).value.undo is None
 
 
 @pytest.mark.parametrize("values", ["", "[1]", "[" * 1000, '{"view/nothing": 1}'])

@@ -72,7 +72,7 @@ def test_a_fresh_page_gets_the_view_and_a_returning_one_keeps_its_own(
     first, second = views_of(viz)
     assert first.values["Distance"] == 4.0
     assert second.values["Distance"] == pytest.approx(np.linalg.norm((7, 1, 2)))
-    assert not session_of(viz).edits.modified
+    assert not session_of(viz).history.modified.value
 
 
 def test_a_page_that_comes_back_from_above_stays_above(
@@ -110,7 +110,7 @@ def test_the_echo_of_a_camera_is_no_move_but_a_mouse_is(
     client.settle(viser_server(viz))
     assert view.values["Distance"] == pytest.approx(2.0)
     assert view.values["Yaw"] == pytest.approx(1.5707963)
-    assert not session_of(viz).edits.modified
+    assert not session_of(viz).history.modified.value
 
 
 def test_the_yaw_stays_while_a_camera_above_its_target_moves(

@@ -132,7 +132,7 @@ def test_a_broken_model_is_shown_by_its_problem_and_by_its_robot_once_it_is_fixe
         assert last_good_note(shown.session) == ""
         assert dict(shown.viz.joint_positions) == {"j": 0.5}
         assert shown.session.context.fixed_frame == "hull"
-        assert not shown.session.edits.modified
+        assert not shown.session.history.modified.value
 
 
 def test_a_file_included_by_an_included_one_is_followed_before_the_first_robot(

@@ -65,7 +65,7 @@ def everything(viz: Visualizer, session: Session) -> object:
         session.poses.names,
         session.signals.follow.value,
         session.motion.turning,
-        session.edits.modified,
+        session.history.modified.value,
     )
 
 

@@ -152,11 +152,11 @@ def test_a_colour_of_a_tool_is_the_documents_and_can_be_undone(
         return person.client.node("/~measure").fields["props"]["colors"]
 
     before = colors(b)
-    with session.edits.acting(a.browser.client_id):
+    with session.history.acting(a.browser.client_id):
         session.set_tool_property(MEASURE, "Line color", (1, 2, 3))
     b.settle()
     assert colors(b) != before
-    assert session.edits.undo(a.browser.client_id) == "Measure: Line color"
+    assert session.history.undo(a.browser.client_id) == "Measure: Line color"
     b.settle()
     assert colors(b) == before
 
@@ -223,7 +223,7 @@ def test_edits_of_a_view_are_undone_by_their_browser_and_mark_no_file(
     session: Session, two: tuple[Person, Person]
 ) -> None:
     a, b = (person.browser for person in two)
-    acting, undo = session.edits.acting, session.edits.undo
+    acting, undo = session.history.acting, session.history.undo
     start = dict(a.view.values)
     for value in (3.0, 4.0, 5.0):
         with acting(a.client_id, "drag"):
@@ -234,7 +234,7 @@ def test_edits_of_a_view_are_undone_by_their_browser_and_mark_no_file(
         a.view.set_kind(f"{PREFIX}FPS")
     with acting(b.client_id):
         b.view.set("Distance", 7.0)
-    assert not session.edits.modified
+    assert not session.history.modified.value
     assert undo(a.client_id) == "View: FPS"
     assert a.view.view.kind == f"{PREFIX}Orbit"
     assert undo(a.client_id) == "Zero the view"
@@ -243,7 +243,7 @@ def test_edits_of_a_view_are_undone_by_their_browser_and_mark_no_file(
     assert a.view.values == start
     assert a.view.camera.distance == pytest.approx(start["Distance"])
     for _ in range(3):
-        session.edits.redo(a.client_id)
+        session.history.redo(a.client_id)
     assert a.view.view.kind == f"{PREFIX}FPS"
     assert b.view.values["Distance"] == 7.0
 
@@ -252,11 +252,11 @@ def test_an_edit_of_a_view_that_is_not_shown_any_more_is_dropped(
     session: Session, two: tuple[Person, Person]
 ) -> None:
     browser = two[0].browser
-    with session.edits.acting(browser.client_id):
+    with session.history.acting(browser.client_id):
         browser.view.set("Distance", 4.0)
     session.show_view()
     with pytest.raises(UsageError, match="another view was shown since"):
-        session.edits.undo(browser.client_id)
+        session.history.undo(browser.client_id)
 
 
 def test_saved_views_belong_to_the_document_and_are_undone(
@@ -264,22 +264,22 @@ def test_saved_views_belong_to_the_document_and_are_undone(
 ) -> None:
     a, b = (person.browser for person in two)
     text = session.config.to_yaml()
-    with session.edits.acting(a.client_id):
+    with session.history.acting(a.client_id):
         saved = a.view.save()
-    assert session.edits.modified
-    with session.edits.acting(a.client_id):
+    assert session.history.modified.value
+    with session.history.acting(a.client_id):
         a.view.rename(saved, "near")
     a.view.set("Distance", 9.0)
-    with session.edits.acting(b.client_id):
+    with session.history.acting(b.client_id):
         b.view.use(saved)
     assert a.view.values["Distance"] == 9.0, "only the camera of b is moved"
-    with session.edits.acting(b.client_id):
+    with session.history.acting(b.client_id):
         b.view.remove(saved)
     with pytest.raises(UsageError, match="the view 'near' was removed"):
-        session.edits.undo(a.client_id)
-    assert session.edits.undo(b.client_id) == "Remove view near"
+        session.history.undo(a.client_id)
+    assert session.history.undo(b.client_id) == "Remove view near"
     assert session.config.saved_views == (saved,)
-    assert session.edits.undo(a.client_id) == "Save view Orbit"
+    assert session.history.undo(a.client_id) == "Save view Orbit"
     assert session.config.to_yaml() == text
 
 
@@ -307,12 +307,12 @@ def test_what_a_browser_has_left_behind_stays_and_its_history_goes(
     session: Session, two: tuple[Person, Person]
 ) -> None:
     a, b = two
-    with session.edits.acting(a.browser.client_id):
+    with session.history.acting(a.browser.client_id):
         session.set_global("Frame Rate", 12)
     a.browser.tools.choose(SELECT)
     a.click_down(0.0, 0.0)
     leave(session, a, b)
-    assert session.edits.undo(a.browser.client_id) is None
+    assert session.history.undo(a.browser.client_id) is None
     assert session.config.global_options.get("Frame Rate") == 12
     session.set_joint_positions({"drivewhl_l_joint": 0.4})
     assert session.problems.of_saves == {}

@@ -42,7 +42,7 @@ def driver(join: Callable[[], Browser]) -> Browser:
 def seen(session: Session, driver: Browser) -> DriverView:
     """What the driver sees; the driver's first command was just now."""
     seen = DriverView(session)
-    with session.edits.acting(driver.client_id):
+    with session.history.acting(driver.client_id):
         seen.begin()
     return seen
 

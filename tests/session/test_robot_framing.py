@@ -81,7 +81,7 @@ def test_without_a_distance_the_whole_robot_fills_the_picture_and_nothing_is_cha
         assert above == pytest.approx(FILLED_HEIGHT, abs=0.01)
         assert across < FILLED_WIDTH
         assert told(client)[-1] == pytest.approx(view_of(viz).camera.position)
-        assert not session_of(viz).edits.modified
+        assert not session_of(viz).history.modified.value
 
 
 @pytest.mark.parametrize("more", ["Distance: 10", "Distance: 2.5"])

@@ -2,17 +2,30 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Iterator
+from typing import Any, cast
+
 import pytest
 
 from sambot_viz.errors import UsageError
-from sambot_viz.session.roles import LONGEST_NAME, Roles
+from sambot_viz.session.people.roles import LONGEST_NAME, Roles
+from sambot_viz.session.signals import Change
+from sambot_viz.session.worker import Worker
 
 TEACHER, ANN, BEN = 1, 2, 3
 
 
 @pytest.fixture
-def roles() -> Roles:
-    roles = Roles(presented=True)
+def change() -> Iterator[Change]:
+    loop = asyncio.new_event_loop()
+    yield Change(Worker(loop), cast(Any, None))
+    loop.close()
+
+
+@pytest.fixture
+def roles(change: Change) -> Roles:
+    roles = Roles(change, presented=True)
     roles.join(ANN, presenter=False)
     roles.join(TEACHER, presenter=True)
     roles.join(BEN, presenter=False)
@@ -20,15 +33,17 @@ def roles() -> Roles:
 
 
 def drivers(roles: Roles) -> list[str]:
-    return [person.name for person in roles.people.values() if person.drives]
+    return [person.name for person in roles.people.values() if person.has_control]
 
 
-def test_without_a_presenter_everyone_drives_also_before_joining() -> None:
-    roles = Roles()
+def test_without_a_presenter_everyone_drives_also_before_joining(
+    change: Change,
+) -> None:
+    roles = Roles(change)
     assert roles.may_edit(7)
     roles.join(7, presenter=False)
     assert roles.may_edit(7) and drivers(roles) == ["Guest 1"]
-    roles.hand_back(7)
+    roles.release(7)
     assert roles.may_edit(7)
 
 
@@ -40,49 +55,49 @@ def test_only_the_presenter_drives_and_unknown_browsers_watch(roles: Roles) -> N
 
 
 def test_asking_gives_nothing_by_itself(roles: Roles) -> None:
-    roles.ask(ANN, " Ann ")
+    roles.request(ANN, " Ann ")
     assert not roles.may_edit(ANN)
-    assert roles.people[ANN].asks and roles.people[ANN].name == "Ann"
-    roles.ask(BEN)
+    assert roles.people[ANN].requests and roles.people[ANN].name == "Ann"
+    roles.request(BEN)
     assert roles.people[BEN].name == "Guest 2"
 
 
 def test_a_name_that_is_too_long_is_refused(roles: Roles) -> None:
     with pytest.raises(UsageError, match="at most 40 characters"):
-        roles.ask(ANN, "A" * (LONGEST_NAME + 1))
-    assert not roles.people[ANN].asks
+        roles.request(ANN, "A" * (LONGEST_NAME + 1))
+    assert not roles.people[ANN].requests
 
 
 def test_the_wheel_goes_to_one_guest_at_a_time_and_back(roles: Roles) -> None:
-    roles.ask(ANN, "Ann")
+    roles.request(ANN, "Ann")
     roles.give(TEACHER, ANN)
-    assert drivers(roles) == ["Ann", "Presenter"] and not roles.people[ANN].asks
+    assert drivers(roles) == ["Ann", "Presenter"] and not roles.people[ANN].requests
     roles.give(TEACHER, BEN)
     assert drivers(roles) == ["Presenter", "Guest 2"]
-    roles.hand_back(BEN)
+    roles.release(BEN)
     assert drivers(roles) == ["Presenter"]
     roles.give(TEACHER, ANN)
-    roles.take(TEACHER)
+    roles.take_back(TEACHER)
     assert drivers(roles) == ["Presenter"]
 
 
 def test_a_question_can_be_refused_or_taken_back(roles: Roles) -> None:
-    roles.ask(ANN)
+    roles.request(ANN)
     roles.refuse(TEACHER, ANN)
-    assert not roles.people[ANN].asks
-    roles.ask(ANN)
-    roles.hand_back(ANN)
-    assert not roles.people[ANN].asks and not roles.may_edit(ANN)
+    assert not roles.people[ANN].requests
+    roles.request(ANN)
+    roles.release(ANN)
+    assert not roles.people[ANN].requests and not roles.may_edit(ANN)
 
 
 def test_a_guest_cannot_give_take_or_refuse(roles: Roles) -> None:
-    roles.ask(BEN)
+    roles.request(BEN)
     roles.give(TEACHER, ANN)
     for act in (roles.give, roles.refuse):
         with pytest.raises(UsageError, match="only the presenter"):
             act(ANN, BEN)
     with pytest.raises(UsageError, match="only the presenter"):
-        roles.take(BEN)
+        roles.take_back(BEN)
     assert drivers(roles) == ["Guest 1", "Presenter"]
 
 
@@ -101,7 +116,7 @@ def test_who_leaves_with_the_wheel_comes_back_without_it(roles: Roles) -> None:
 
 
 def test_the_presenter_cannot_lose_the_wheel(roles: Roles) -> None:
-    roles.hand_back(TEACHER)
+    roles.release(TEACHER)
     assert roles.may_edit(TEACHER)
     roles.join(4, presenter=True)
     assert drivers(roles) == ["Presenter", "Presenter 2"]

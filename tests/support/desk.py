@@ -120,7 +120,7 @@ class Desk:
         The server knows what is not as it was; a page is slow to ask.
         """
         user, browser = self.user, self._browser
-        tools, edits = browser.tools, self._session.edits
+        tools, history = browser.tools, self._session.history
         self.viewer.set_resolution(COARSE)
         user.keys("Escape", "Escape")
         wait_for_workers()
@@ -134,10 +134,11 @@ class Desk:
         if not things.one("tab", "Joints").state("selected"):
             user.click_on(things.one("tab", "Joints"))
         undo = things.one("button", "Undo")
-        while edits.undo_label(browser.client_id) is not None:
-            times, _ = edits.touched(browser.client_id)
+        state = history.state(browser.client_id)
+        while state.value.undo is not None:
+            times = state.value.times
             user.click_on(undo)
-            user.until(lambda n=times: edits.touched(browser.client_id)[0] > n)
+            user.until(lambda n=times: state.value.times > n)
         # What another page has done cannot be undone on this one.
         if self.viz.joint_positions != self._joints:
             self.viz.set_joint_positions(self._joints)
@@ -148,7 +149,7 @@ class Desk:
 
     def undo_of_others(self) -> None:
         """Undo what other pages have done, before they leave: nobody else can."""
-        first, undo = self._browser.client_id, self._session.edits
+        first, undo = self._browser.client_id, self._session.history
         for client in [n for n in self._session.browsers if n != first]:
             while undo.undo_label(client) is not None:
                 undo.undo(client)

@@ -73,7 +73,7 @@ class FilesPanel(Panel):
     ) -> None:
         signals = session.signals
         self.remade_by = (signals.config, signals.robot)
-        self.moved_by = (signals.edits,)
+        self.moved_by = (session.history.modified,)
         self._session = session
         self._browser = browser
         self._files = files
@@ -113,7 +113,7 @@ class FilesPanel(Panel):
         if files != self._files_of or robot is not self._robot_of:
             self._files_of, self._robot_of = files, robot
             self._facts = self._look_up()
-        return self._facts | {"modified": session.edits.modified}
+        return self._facts | {"modified": session.history.modified.value}
 
     def _look_up(self) -> dict[str, Json]:
         file = self._file

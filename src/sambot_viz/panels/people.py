@@ -14,7 +14,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Level
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.roles import Person
+from sambot_viz.session.people.roles import Participant
 
 
 class PeoplePanel(Panel):
@@ -27,17 +27,16 @@ class PeoplePanel(Panel):
     name = "people"
 
     def __init__(self, session: Session) -> None:
-        signals = session.signals
-        self.remade_by = (signals.people,)
+        self.remade_by = (session.roles.changed,)
         self._session = session
 
     def data(self) -> Sequence[Data]:
         """Return how many there are, and the names of some."""
         roles = self._session.roles
         people = roles.people
-        drive = [person.name for person in people.values() if person.drives]
-        asks = [[id, person.name] for id, person in people.items() if person.asks]
-        given = any(p.drives and not p.presenter for p in people.values())
+        drive = [person.name for person in people.values() if person.has_control]
+        asks = [[id, person.name] for id, person in people.items() if person.requests]
+        given = any(p.has_control and not p.presenter for p in people.values())
         private = isinstance(self._session.audience, viser.ClientHandle)
         state = {
             "browsers": len(people),
@@ -65,12 +64,11 @@ class OwnRolePanel(Panel):
     def __init__(
         self, session: Session, browser: Browser, say: Callable[[str, Level], None]
     ) -> None:
-        signals = session.signals
-        self.remade_by = (signals.people,)
+        self.remade_by = (session.roles.changed,)
         self._session = session
         self._roles, self._id = session.roles, browser.client_id
         self._say = say
-        self._before: Person | None = None
+        self._before: Participant | None = None
         self._helpers: frozenset[str] = frozenset()
         self._acted = False
 
@@ -83,31 +81,31 @@ class OwnRolePanel(Panel):
         me = {
             "name": person.name,
             "presenter": person.presenter,
-            "drives": person.drives,
-            "asks": person.asks,
+            "drives": person.has_control,
+            "asks": person.requests,
         }
         return [Data("role/me", me)]
 
-    def _say_news(self, person: Person) -> None:
+    def _say_news(self, person: Participant) -> None:
         """Say what others have done about the wheel."""
         before, self._before = self._before, replace(person)
         helpers, self._helpers = self._helpers, self._guests_who_drive()
         acted, self._acted = self._acted, False
         if before is None or not self._roles.presented:
             return
-        if person.drives and not before.drives:
+        if person.has_control and not before.has_control:
             self._say("You have the wheel: what you move, everyone sees move", "ok")
-        elif before.drives and not person.drives:
+        elif before.has_control and not person.has_control:
             why = "" if acted else ": the presenter has taken the wheel back"
             self._say(f"You are watching again{why}", "ok" if acted else "warn")
-        elif before.asks and not person.asks and not acted:
+        elif before.requests and not person.requests and not acted:
             self._say("Not now, says the presenter", "warn")
         elif person.presenter and not acted and helpers - self._helpers:
             self._say(f"{', '.join(helpers - self._helpers)} drives no longer", "ok")
 
     def _guests_who_drive(self) -> frozenset[str]:
         people = self._roles.people.values()
-        return frozenset(p.name for p in people if p.drives and not p.presenter)
+        return frozenset(p.name for p in people if p.has_control and not p.presenter)
 
     def offers(self, command_id: str) -> bool:
         """Tell whether the browser has joined."""
@@ -118,8 +116,7 @@ class OwnRolePanel(Panel):
         """This user changes something, and so needs no news of it."""
         self._acted = True
         try:
-            with self._session.change(self._session.signals.people):
-                yield
+            yield
         except UsageError:
             self._acted = False
             raise
@@ -127,13 +124,13 @@ class OwnRolePanel(Panel):
     @command("role/ask", TEXT, client_local=True)
     def _ask(self, name: str) -> Answer:
         with self._acting():
-            self._roles.ask(self._id, name)
+            self._roles.request(self._id, name)
         return Answer("Asked for the wheel; the presenter sees it")
 
     @command("role/back", client_local=True)
     def _hand_back(self) -> None:
         with self._acting():
-            self._roles.hand_back(self._id)
+            self._roles.release(self._id)
 
     @command("role/give", INTEGER, client_local=True)
     def _give(self, client_id: int) -> Answer:
@@ -149,5 +146,5 @@ class OwnRolePanel(Panel):
     @command("role/take", client_local=True)
     def _take(self) -> Answer:
         with self._acting():
-            self._roles.take(self._id)
+            self._roles.take_back(self._id)
         return Answer("You have the wheel alone")

@@ -27,36 +27,33 @@ class UndoPanel(Panel):
     def __init__(
         self, session: Session, browser: Browser, displays: DisplaysPanel
     ) -> None:
-        signals = session.signals
-        self.remade_by = (signals.edits,)
-        self._edits, self._id = session.edits, browser.client_id
+        self._history, self._id = session.history, browser.client_id
+        self.remade_by = (session.history.state(self._id),)
         self._session, self._displays = session, displays
 
     def data(self) -> Sequence[Data]:
         """Return what would be undone and done again, and what was touched last."""
-        labels = {
-            "undo": self._edits.undo_label(self._id) or "",
-            "redo": self._edits.redo_label(self._id) or "",
-        }
+        state = self._history.state(self._id).value
+        labels = {"undo": state.undo or "", "redo": state.redo or ""}
         return [Data("edit/labels", labels), Data("edit/touched", self._touched())]
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there is something to undo, or to do again."""
-        undoes = command_id == "edit/undo"
-        find = self._edits.undo_label if undoes else self._edits.redo_label
-        return find(self._id) is not None
+        state = self._history.state(self._id).value
+        return (state.undo if command_id == "edit/undo" else state.redo) is not None
 
     @command("edit/undo", name="Undo")
     def _undo(self) -> Answer | None:
-        return _said("Undone", self._edits.undo(self._id))
+        return _said("Undone", self._history.undo(self._id))
 
     @command("edit/redo", name="Redo")
     def _redo(self) -> Answer | None:
-        return _said("Done again", self._edits.redo(self._id))
+        return _said("Done again", self._history.redo(self._id))
 
     def _touched(self) -> Json:
         """The row that the page goes to; two of one row have different numbers."""
-        number, item = self._edits.touched(self._id)
+        state = self._history.state(self._id).value
+        number, item = state.times, state.touched
         if isinstance(item, DisplayConfig) and self._session.config.holds(item):
             return {"number": number, "row": self._displays.id_of(item)}
         return None

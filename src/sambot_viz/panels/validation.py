@@ -19,7 +19,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.geometry import finite
 from sambot_viz.panels.command import LARGEST, Argument, Command
 from sambot_viz.panels.row import Data, Json, Row
-from sambot_viz.session.roles import WATCHING
+from sambot_viz.session.people.roles import WATCHING
 from sambot_viz.text import text
 
 LONGEST_TEXT = 1000

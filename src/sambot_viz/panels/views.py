@@ -174,7 +174,7 @@ def look_as(
         UsageError: a value that it cannot have.
     """
     view = browser.view
-    with session.edits.unrecorded():
+    with session.history.unrecorded():
         if kind is not None and kind != view.view.kind:
             view.set_kind(kind)
         rows = property_rows(view.view.config, CURRENT, view.set)

@@ -228,7 +228,7 @@ class Reloader:
             if session.config.to_yaml() == text or self._documents.file != path:
                 # The page itself saved the file, or opened another one meanwhile.
                 return True
-            if session.edits.modified:
+            if session.history.modified.value:
                 return False
             session.set_config(self._documents(), self._documents.trusted)
             if self._documents.view != before:

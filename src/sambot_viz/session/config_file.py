@@ -177,7 +177,7 @@ class ConfigFile:
                     f"{error.problems[0].message}. Nothing is lost: save it under "
                     "another name, or download it"
                 ) from error
-            self._session.edits.saved()
+            self._session.history.saved()
         return target
 
 

@@ -25,10 +25,10 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.browser.pick_rays import PickRays
 from sambot_viz.session.document.document_view import target_of, view_of
+from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.problem_list import ProblemList
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_edits import RobotEdits
-from sambot_viz.session.roles import Roles
 from sambot_viz.session.signals import Audience
 from sambot_viz.session.worker import Worker
 from sambot_viz.views.camera import Camera
@@ -79,7 +79,8 @@ class Session(RobotEdits):
         self.browser_listeners: list[Callable[[Browser, bool], None]] = []
         self._open = threading.Semaphore()
         private = isinstance(audience, viser.ClientHandle)
-        self.roles = Roles(self.options.presenter is not None and not private)
+        presented = self.options.presenter is not None and not private
+        self.roles = Roles(self.change, presented)
         for added in self.options.transforms:
             self.add_frame(added.parent, added.child, added.transform)
 
@@ -99,7 +100,6 @@ class Session(RobotEdits):
             browser = self._browsers[client.client_id] = Browser(self, client)
             for listener in tuple(self.browser_listeners):
                 listener(browser, True)
-            self.signals.people.touch()
             return browser
 
     def leave_browser(self, client_id: int) -> None:
@@ -108,11 +108,10 @@ class Session(RobotEdits):
             browser = self._browsers.pop(client_id, None)
             if browser is not None:
                 browser.close()
-                self.edits.leave(client_id)
+                self.history.leave(client_id)
                 self.roles.leave(client_id)
                 for listener in tuple(self.browser_listeners):
                     listener(browser, False)
-                self.signals.people.touch()
 
     @property
     def camera(self) -> Camera:

@@ -20,10 +20,8 @@ class Signals:
         motion: how fast the robot drives, and what keeps turning.
         status: what displays report, and what has been read for them.
         problems: what is wrong.
-        edits: what can be undone, and whether the document is saved.
         follow: whether all browsers show what the browser shows whose camera moved
             last, of those that may change the session.
-        people: who is there, and who has control.
     """
 
     def __init__(self, change: Change) -> None:
@@ -34,9 +32,7 @@ class Signals:
         self.motion = Signal(change, None)
         self.status = Signal(change, None)
         self.problems = Signal(change, None)
-        self.edits = Signal(change, None)
         self.follow = Signal(change, False)
-        self.people = Signal(change, None)
 
 
 class SharedState:

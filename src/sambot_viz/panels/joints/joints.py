@@ -179,7 +179,7 @@ class JointsPanel(Panel):
     def _set_rate(self, rate: float) -> None:
         before = self._rate
         self._take_rate(rate)
-        self._session.edits.record(
+        self._session.history.record(
             "Turn rate",
             partial(self._take_rate, before),
             partial(self._take_rate, rate),
@@ -216,7 +216,7 @@ class JointsPanel(Panel):
             session.motion.turn(name, 0.0)
             session.move({name: before}, {})
 
-        session.edits.record(
+        session.history.record(
             f"Turn {name}",
             put_back,
             lambda: session.move({name: reached}, {}),
@@ -299,7 +299,7 @@ class PosesPanel(Panel):
         remove = partial(change, partial(poses.remove, name))
         remove()
         label = f"Remove pose {name}"
-        self._session.edits.record(label, save, remove, of_document=False)
+        self._session.history.record(label, save, remove, of_document=False)
         return Answer(f"Removed pose '{name}'; Undo brings it back")
 
 

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.row import Answer, Json, Row
-from sambot_viz.session.roles import WATCHING
+from sambot_viz.session.people.roles import WATCHING
 from sambot_viz.text import text
 
 VERSION = "1"

@@ -35,7 +35,7 @@ class DriverView:
 
     def begin(self) -> None:
         """The browser that acts at the moment drives from now on."""
-        self._driver = self._session.edits.actor
+        self._driver = self._session.history.actor
 
     def make_room(self) -> None:
         """Show the floor round the robot, as RViz's user would do by the wheel."""

@@ -36,7 +36,7 @@ class SavedViews:
         with self._session.change(self._session.signals.config):
             saved = self._session.config.save_view(view)
         undo, redo = self._removal(saved)
-        self._session.edits.record(f"Save view {saved.name}", undo, redo)
+        self._session.history.record(f"Save view {saved.name}", undo, redo)
         return saved
 
     def rename(self, saved: ViewConfig, name: str) -> None:
@@ -55,7 +55,7 @@ class SavedViews:
 
         if name and name != before:
             rename(name)
-            self._session.edits.record(
+            self._session.history.record(
                 f"Rename view {before} to {name}",
                 partial(rename, before),
                 partial(rename, name),
@@ -69,7 +69,7 @@ class SavedViews:
         """
         remove, put_back = self._removal(saved)
         remove()
-        self._session.edits.record(f"Remove view {saved.name}", put_back, remove)
+        self._session.history.record(f"Remove view {saved.name}", put_back, remove)
 
     def _removal(self, saved: ViewConfig) -> tuple[Restore, Restore]:
         """Functions that take a saved view out, and put the same one back."""

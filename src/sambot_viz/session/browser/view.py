@@ -236,7 +236,7 @@ class BrowserView(SavedViews):
             before = {p: v for p, v in before.items() if after[p] != v}
             after = {path: after[path] for path in before}
         if before or after:
-            self._session.edits.record(
+            self._session.history.record(
                 label,
                 partial(self._restore, self._config, config, before),
                 partial(self._restore, config, self._config, after),

@@ -1,6 +1,6 @@
 """What users change in the document: properties, displays, their order.
 
-Every method is recorded: a browser can undo what it has changed (see `history`).
+Every method is recorded: a browser can undo what it has changed (see `undo`).
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class DisplayEdits(ShownDocument):
             UsageError: an unknown option, or a value that it cannot have.
         """
         label = f"Global Options: {name}"
-        with self.edits.setting(label, self._apply_options, merge=("option", name)):
+        with self.history.setting(label, self._apply_options, merge=("option", name)):
             self._apply_options(lambda: self.config.global_options.set(name, value))
 
     def _apply_options(self, action: Callable[[], object]) -> None:
@@ -114,7 +114,7 @@ class DisplayEdits(ShownDocument):
                 if display is not None:
                     display.values_put_back()
 
-        return self.edits.setting(
+        return self.history.setting(
             f"{config.name}: {what}", apply, merge=(id(config), merge)
         )
 
@@ -131,7 +131,7 @@ class DisplayEdits(ShownDocument):
 
         apply(enabled)
         if enabled != before:
-            self.edits.record(
+            self.history.record(
                 f"{config.name}: {'on' if enabled else 'off'}",
                 lambda: apply(before),
                 lambda: apply(enabled),
@@ -149,7 +149,7 @@ class DisplayEdits(ShownDocument):
         if config is None:
             raise UsageError(f"the config has no tool '{kind}'")
         label = f"{short_name(kind)}: {path}"
-        with self.edits.setting(label, self._apply, merge=("tool", kind, path)):
+        with self.history.setting(label, self._apply, merge=("tool", kind, path)):
             self._apply(lambda: config.set(path, value))
 
     # The tree of displays
@@ -199,13 +199,13 @@ class DisplayEdits(ShownDocument):
     def _added(self, label: str, config: DisplayConfig) -> None:
         self.show_config()
         undo, redo = self._removal(config)
-        self.edits.record(label, undo, redo, touched=config)
+        self.history.record(label, undo, redo, touched=config)
 
     def remove_display(self, config: DisplayConfig) -> None:
         """Take a display out of the document; a group with all its members."""
         remove, put_back = self._removal(config)
         remove()
-        self.edits.record(f"Remove {config.name}", put_back, remove, touched=config)
+        self.history.record(f"Remove {config.name}", put_back, remove, touched=config)
 
     def _removal(self, config: DisplayConfig) -> tuple[Restore, Restore]:
         """Functions that take a display out, and put the same one back."""
@@ -252,7 +252,7 @@ class DisplayEdits(ShownDocument):
         move(index, group)
         after = (self._index_of(config), config.parent)
         if after != before:
-            self.edits.record(
+            self.history.record(
                 f"Move {config.name}",
                 lambda: move(*before),
                 lambda: move(*after),
@@ -271,7 +271,7 @@ class DisplayEdits(ShownDocument):
 
         if name and name != before:
             rename(name)
-            self.edits.record(
+            self.history.record(
                 f"Rename {before} to {name}",
                 lambda: rename(before),
                 lambda: rename(name),

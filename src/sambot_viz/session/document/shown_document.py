@@ -14,9 +14,9 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.document.drawn_scene import DrawnScene
 from sambot_viz.session.document.switches import first_switches
-from sambot_viz.session.history import EditHistory
 from sambot_viz.session.shared_state import SharedState
 from sambot_viz.session.signals import Audience
+from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
 
 
@@ -35,7 +35,7 @@ class ShownDocument(SharedState):
         tree: the frames.
         context: what displays draw with.
         drawn: the displays and the background.
-        edits: what browsers can undo, and whether the document is saved.
+        history: what clients can undo, and whether the document is saved.
         first_switches: how the switches of the document were before any edit.
         first_fixed_frame: which one the document named.
     """
@@ -61,7 +61,7 @@ class ShownDocument(SharedState):
             apply=self._apply,
         )
         self.drawn = DrawnScene(self.context, config)
-        self.edits = EditHistory(self)
+        self.history = History(self.change)
         self._note_start(config)
 
     @property
@@ -95,7 +95,7 @@ class ShownDocument(SharedState):
                 that it names are then read as those that a browser names.
         """
         with self.change():
-            self.edits.clear()
+            self.history.clear()
             self.drawn.take_config(config, trusted)
             self._note_start(config)
             self._period_changed()

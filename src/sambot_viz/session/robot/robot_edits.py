@@ -1,6 +1,6 @@
 """The joints and frames of a session's robot, as users and programs move them.
 
-What a user does is recorded (see `history`). A program that moves joints sixty times a
+What a user does is recorded (see `undo`). A program that moves joints sixty times a
 second pays nothing for that.
 """
 
@@ -139,7 +139,7 @@ class RobotEdits(DisplayEdits):
         self, label: str, move: Callable[[], None], merge: tuple[str, ...] | None = None
     ) -> None:
         """Move joints; where they were is noted only for a browser that may undo it."""
-        recording, joints = self.edits.recording, self.joints
+        recording, joints = self.history.recording, self.joints
         before = dict(joints.positions) if recording and joints is not None else {}
         with self.lock:
             move()
@@ -148,7 +148,7 @@ class RobotEdits(DisplayEdits):
             after = {n: q for n, q in joints.positions.items() if before.get(n) != q}
             before = {name: before[name] for name in after}
             if after:
-                self.edits.record(
+                self.history.record(
                     label,
                     partial(self.move, before, {}),
                     partial(self.move, after, {}),
@@ -189,7 +189,7 @@ class RobotEdits(DisplayEdits):
 
     def _record_frame(self, label: str, child: str, before: UserFrame | None) -> None:
         after = self.added.all.get(plain_name(child))
-        self.edits.record(
+        self.history.record(
             label,
             lambda: self._set_frame(child, before),
             lambda: self._set_frame(child, after),

@@ -17,9 +17,9 @@ from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
 from sambot_viz.session.browser.saved_views import SavedViews
 from sambot_viz.session.document.drawn_scene import walk
-from sambot_viz.session.history import LIMIT
 from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
 from sambot_viz.session.signals import connect
+from sambot_viz.session.undo import LIMIT
 
 A, B = 1, 2
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -61,7 +61,7 @@ def act(
     session: Session, browser: int | None, *actions: Callable[[], Any], by: Any = None
 ) -> None:
     """One action of a browser."""
-    with session.edits.acting(browser, by):
+    with session.history.acting(browser, by):
         for action in actions:
             action()
 
@@ -83,25 +83,25 @@ def test_ten_changes_undone_give_the_first_value_and_the_file_is_not_modified(
     before, text = alpha(session), session.config.to_yaml()
     for step in range(10):
         act(session, A, set_alpha(session, 0.05 * (step + 1)))
-    assert session.edits.modified
-    assert session.edits.undo_label(A) == "RobotModel: Alpha"
+    assert session.history.modified.value
+    assert session.history.state(A).value.undo == "RobotModel: Alpha"
     for _ in range(10):
-        assert session.edits.undo(A) == "RobotModel: Alpha"
-    assert session.edits.undo(A) is None
+        assert session.history.undo(A) == "RobotModel: Alpha"
+    assert session.history.undo(A) is None
     assert (alpha(session), session.config.to_yaml()) == (before, text)
-    assert not session.edits.modified
-    assert session.edits.redo(A) == "RobotModel: Alpha"
+    assert not session.history.modified.value
+    assert session.history.redo(A) == "RobotModel: Alpha"
     assert alpha(session) == 0.05
-    assert session.edits.modified
+    assert session.history.modified.value
 
 
 def test_a_new_edit_ends_what_could_be_done_again(session: Session) -> None:
     act(session, A, set_alpha(session, 0.5))
-    session.edits.undo(A)
-    assert session.edits.redo_label(A) == "RobotModel: Alpha"
+    session.history.undo(A)
+    assert session.history.state(A).value.redo == "RobotModel: Alpha"
     act(session, A, lambda: session.set_global("Frame Rate", 12))
-    assert session.edits.redo_label(A) is None
-    assert session.edits.redo(A) is None
+    assert session.history.state(A).value.redo is None
+    assert session.history.redo(A) is None
 
 
 def test_there_is_room_for_a_hundred_displays_and_views(session: Session) -> None:
@@ -129,23 +129,23 @@ def test_a_drag_is_one_edit_and_the_next_drag_another(session: Session) -> None:
         for step in (0.2, 0.4, 0.6):
             value = step if drag == "first" else step + 0.1
             act(session, A, set_alpha(session, value), by=drag)
-    session.edits.undo(A)
+    session.history.undo(A)
     assert alpha(session) == pytest.approx(0.6)
-    session.edits.redo(A)
+    session.history.redo(A)
     assert alpha(session) == pytest.approx(0.7)
-    session.edits.undo(A)
-    session.edits.undo(A)
+    session.history.undo(A)
+    session.history.undo(A)
     assert alpha(session) == before
-    assert session.edits.undo_label(A) is None
+    assert session.history.state(A).value.undo is None
 
 
 def test_a_gesture_over_two_values_is_two_edits(session: Session) -> None:
     grid = display(session, "Grid")
     for path, value in (("Alpha", 0.1), ("Cell Size", 2.0), ("Alpha", 0.2)):
         act(session, A, partial(session.set_property, grid, path, value), by="one")
-    session.edits.undo(A)
+    session.history.undo(A)
     assert grid.config.get("Alpha") == pytest.approx(0.1)
-    session.edits.undo(A)
+    session.history.undo(A)
     assert grid.config.get("Cell Size") == 1.0
 
 
@@ -158,11 +158,11 @@ def test_what_one_action_changes_is_undone_together(session: Session) -> None:
         lambda: session.set_global("Frame Rate", 7),
         set_alpha(session, 0.25),
     )
-    session.edits.undo(A)
+    session.history.undo(A)
     assert alpha(session) == before
     assert session.config.global_options.get("Frame Rate") == rate
-    assert session.edits.undo_label(A) is None
-    session.edits.redo(A)
+    assert session.history.state(A).value.undo is None
+    session.history.redo(A)
     assert alpha(session) == 0.25
 
 
@@ -170,11 +170,11 @@ def test_the_oldest_edits_are_forgotten(session: Session) -> None:
     for step in range(LIMIT + 5):
         act(session, A, set_alpha(session, 0.001 * (step + 1)))
     count = 0
-    while session.edits.undo(A) is not None:
+    while session.history.undo(A) is not None:
         count += 1
     assert count == LIMIT
     assert alpha(session) == pytest.approx(0.005)
-    assert session.edits.modified
+    assert session.history.modified.value
 
 
 # Several browsers, and programs
@@ -184,12 +184,12 @@ def test_each_browser_undoes_its_own_edits_only(session: Session) -> None:
     grid = display(session, "Grid")
     act(session, A, set_alpha(session, 0.5))
     act(session, B, lambda: session.set_property(grid, "Cell Size", 2.0))
-    session.edits.undo(A)
+    session.history.undo(A)
     assert (alpha(session), grid.config.get("Cell Size")) == (0.6, 2.0)
-    assert session.edits.undo(A) is None
-    session.edits.undo(B)
+    assert session.history.undo(A) is None
+    session.history.undo(B)
     assert grid.config.get("Cell Size") == 1.0
-    assert not session.edits.modified
+    assert not session.history.modified.value
 
 
 def test_an_edit_whose_display_is_gone_is_dropped_with_a_sentence(
@@ -209,11 +209,11 @@ def test_an_edit_whose_display_is_gone_is_dropped_with_a_sentence(
         UsageError,
         match="'RobotModel: Alpha' cannot be undone: the display 'RobotModel' was ",
     ):
-        session.edits.undo(A)
+        session.history.undo(A)
     assert session.config.global_options.get("Frame Rate") == 12, "all or nothing"
-    assert session.edits.undo(A) == "Global Options: Frame Rate"
+    assert session.history.undo(A) == "Global Options: Frame Rate"
     assert session.config.global_options.get("Frame Rate") == rate
-    session.edits.undo(B)
+    session.history.undo(B)
     assert alpha(session) == 0.5
 
 
@@ -221,20 +221,20 @@ def test_a_browser_that_leaves_loses_its_history_but_not_its_edits(
     session: Session,
 ) -> None:
     act(session, A, set_alpha(session, 0.5))
-    session.edits.leave(A)
-    assert session.edits.undo(A) is None
+    session.history.leave(A)
+    assert session.history.undo(A) is None
     assert alpha(session) == 0.5
-    assert session.edits.modified
+    assert session.history.modified.value
 
 
 def test_edits_of_a_program_count_but_cannot_be_undone(session: Session) -> None:
     act(session, None, set_alpha(session, 0.5))
-    assert session.edits.modified
-    session.edits.saved()
-    assert not session.edits.modified
+    assert session.history.modified.value
+    session.history.saved()
+    assert not session.history.modified.value
     set_alpha(session, 0.6)()
-    assert session.edits.modified
-    assert session.edits.undo(A) is None
+    assert session.history.modified.value
+    assert session.history.undo(A) is None
 
 
 # Saved or not
@@ -242,19 +242,19 @@ def test_edits_of_a_program_count_but_cannot_be_undone(session: Session) -> None
 
 def test_modified_is_about_what_was_saved_last(session: Session) -> None:
     act(session, A, set_alpha(session, 0.5))
-    session.edits.saved()
-    assert not session.edits.modified
-    session.edits.undo(A)
-    assert session.edits.modified
-    session.edits.redo(A)
-    assert not session.edits.modified
+    session.history.saved()
+    assert not session.history.modified.value
+    session.history.undo(A)
+    assert session.history.modified.value
+    session.history.redo(A)
+    assert not session.history.modified.value
 
 
 def test_a_drag_that_goes_on_after_a_save_is_not_saved(session: Session) -> None:
     act(session, A, set_alpha(session, 0.5), by="drag")
-    session.edits.saved()
+    session.history.saved()
     act(session, A, set_alpha(session, 0.6), by="drag")
-    assert session.edits.modified
+    assert session.history.modified.value
 
 
 def test_joints_frames_and_values_that_stay_are_no_edits_of_the_document(
@@ -264,7 +264,7 @@ def test_joints_frames_and_values_that_stay_are_no_edits_of_the_document(
     act(session, A, session.center_joints, set_alpha(session, alpha(session)))
     T = Transform.from_xyz_rpy((0.1, 0, 0))
     act(session, A, lambda: session.add_frame("base_link", "laser", T))
-    assert not session.edits.modified
+    assert not session.history.modified.value
 
 
 def test_another_document_starts_with_an_empty_history(
@@ -272,8 +272,8 @@ def test_another_document_starts_with_an_empty_history(
 ) -> None:
     act(session, A, set_alpha(session, 0.5))
     session.set_config(load_config(config))
-    assert not session.edits.modified
-    assert session.edits.undo(A) is None
+    assert not session.history.modified.value
+    assert session.history.undo(A) is None
 
 
 # What can be undone
@@ -302,13 +302,13 @@ def test_one_box_that_switches_all_links_is_undone_with_all_of_them(
             partial(session.set_property, robot, "Links/All Links Enabled", on),
         )
     assert box("base_link")
-    session.edits.undo(A)
-    session.edits.undo(A)
+    session.history.undo(A)
+    session.history.undo(A)
     assert session.config.to_yaml() == text
     assert (box("base_link"), box("drivewhl_l_link")) == (False, True)
-    assert session.edits.undo(A) == "RobotModel: base_link/Value"
+    assert session.history.undo(A) == "RobotModel: base_link/Value"
     assert box("base_link")
-    session.edits.redo(A)
+    session.history.redo(A)
     assert not box("base_link")
 
 
@@ -323,7 +323,7 @@ def test_the_box_of_a_frame_is_undone(session: Session) -> None:
         session, A, lambda: session.set_entry(tf, "Frames", "base_link", "Value", False)
     )
     assert not on()
-    session.edits.undo(A)
+    session.history.undo(A)
     assert on()
     assert "base_link" not in tf.config.dynamic("Frames")
 
@@ -341,8 +341,8 @@ def test_the_fixed_frame_and_the_background_are_undone(session: Session) -> None
     act(session, A, lambda: session.set_global("Fixed Frame", "drivewhl_l_link"))
     act(session, A, lambda: session.set_global("Background Color", (1, 2, 3)))
     assert session.context.background == (1, 2, 3)
-    session.edits.undo(A)
-    session.edits.undo(A)
+    session.history.undo(A)
+    session.history.undo(A)
     assert (session.context.fixed_frame, session.context.background) == (frame, color)
 
 
@@ -369,11 +369,11 @@ def test_displays_are_added_copied_named_moved_removed_and_all_that_is_undone(
         "Duplicate Grid",
         "Add Axes",
     ):
-        assert session.edits.undo(A) == label
+        assert session.history.undo(A) == label
     assert names(session) == before
     assert session.config.to_yaml() == text
     assert named(session, "Grid") is grid, "the same display is put back"
-    while session.edits.redo(A) is not None:
+    while session.history.redo(A) is not None:
         pass
     assert {"Axes", "Grid (2)", "Grid (3)"} <= set(names(session))
     assert not {"Floor", "Grid", "Both"} & set(names(session))
@@ -390,7 +390,7 @@ def test_an_unsupported_display_is_moved_named_switched_and_removed(
     assert not odd.enabled
     act(session, A, lambda: session.remove_display(odd))
     for _ in range(4):
-        session.edits.undo(A)
+        session.history.undo(A)
     assert odd.enabled
     assert session.config.to_yaml() == text
 
@@ -413,8 +413,8 @@ def test_what_goes_nowhere_is_no_edit(session: Session) -> None:
                 named(session, "Both"), 0, named(session, "Both")
             ),
         )
-    assert session.edits.undo_label(A) is None
-    assert not session.edits.modified
+    assert session.history.state(A).value.undo is None
+    assert not session.history.modified.value
 
 
 def test_a_display_that_was_removed_takes_no_edits(session: Session) -> None:
@@ -439,11 +439,11 @@ def test_joints_go_back_to_where_they_were(viz: Visualizer, session: Session) ->
     act(session, A, session.randomize_joints)
     act(session, A, session.center_joints)
     session.poses.save("turned", {LEFT: 2.0, "gone": 1.0})
-    with session.edits.acting(A):
+    with session.history.acting(A):
         assert session.use_pose("turned") == ("gone",)
     viz.set_joint_positions({RIGHT: -1.0})
     assert viz.joint_positions == {LEFT: 2.0, RIGHT: -1.0}
-    labels = [session.edits.undo(A) for _ in range(4)]
+    labels = [session.history.undo(A) for _ in range(4)]
     assert labels == [
         "Pose turned",
         "Center the joints",
@@ -451,7 +451,7 @@ def test_joints_go_back_to_where_they_were(viz: Visualizer, session: Session) ->
         f"Move {LEFT}",
     ]
     assert viz.joint_positions[LEFT] == 0.0
-    session.edits.redo(A)
+    session.history.redo(A)
     assert viz.joint_positions[LEFT] == 0.3
 
 
@@ -465,24 +465,26 @@ def test_frames_are_added_changed_and_removed_and_all_that_is_undone(
         T = Transform.from_xyz_rpy((at, 0, 0))
         act(session, A, partial(session.add_frame, "base_link", "laser", T))
     act(session, A, lambda: session.remove_frame("laser"))
-    assert session.edits.undo(A) == "Remove frame laser"
+    assert session.history.undo(A) == "Remove frame laser"
     assert x() == 2.0
-    session.edits.undo(A)
+    session.history.undo(A)
     assert x() == 1.0
-    session.edits.undo(A)
+    session.history.undo(A)
     assert "laser" not in viz.frames
-    session.edits.redo(A)
+    session.history.redo(A)
     assert x() == 1.0
 
 
 def test_listeners_hear_of_edits(session: Session) -> None:
     heard: list[int] = []
-    connect([session.signals.edits], lambda: heard.append(1))
+    connect(
+        [session.history.state(A), session.history.modified], lambda: heard.append(1)
+    )
     for action in (
         lambda: act(session, A, set_alpha(session, 0.5)),
-        lambda: session.edits.undo(A),
-        lambda: session.edits.redo(A),
-        session.edits.saved,
+        lambda: session.history.undo(A),
+        lambda: session.history.redo(A),
+        session.history.saved,
         set_alpha(session, 0.7),
     ):
         heard.clear()

@@ -1,22 +1,22 @@
-"""Undo and redo: what each browser has changed, and whether the document is saved.
+"""Undo and redo: what each client has changed, and whether the document is saved.
 
-A browser undoes its own edits only. Whatever others have changed since stays, so an
+A client undoes its own edits only. Whatever others have changed since stays, so an
 edit puts back the values that it has set, never the whole document.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.rviz.undo_log import Restore, record_changes
-from sambot_viz.session.shared_state import SharedState
+from sambot_viz.session.signals import Change, Signal
 
 LIMIT = 200
-"""So many edits of a browser can be undone."""
+"""Number of edits of a client that can be undone."""
 
 Apply = Callable[[Restore], None]
 """Puts something back in the document, and draws it."""
@@ -41,7 +41,7 @@ class Edit:
 
 @dataclass(frozen=True, slots=True)
 class _Step:
-    """All that one action of a browser has changed.
+    """All that one action of a client has changed.
 
     Attributes:
         edits: in the order in which they were made.
@@ -64,38 +64,68 @@ class _Step:
 
 @dataclass
 class _Action:
-    """What a browser does at the moment."""
+    """What a client does at the moment."""
 
-    browser: int
+    client_id: int
     gesture: object
     edits: list[Edit] = field(default_factory=list[Edit])
     merge_keys: list[object] = field(default_factory=list[object])
     of_document: bool = False
 
 
-@dataclass
-class _History:
-    done: deque[_Step] = field(default_factory=lambda: deque[_Step](maxlen=LIMIT))
-    undone: list[_Step] = field(default_factory=list[_Step])
-    touched: object = None
-    times: int = 0
+@dataclass(frozen=True, slots=True)
+class UndoState:
+    """What one client can undo.
 
-    def went(self, step: _Step) -> str:
-        """A step was undone or done again; its label."""
-        self.touched, self.times = step.edits[0].touched, self.times + 1
-        return step.edits[0].label
-
-
-class EditHistory:
-    """The edits of a session, for each of its browsers.
-
-    Args:
-        session: whose edits these are.
+    Attributes:
+        undo: the label of what `undo` would undo; None for nothing.
+        redo: the label of what `redo` would do again; None for nothing.
+        times: how often the client has undone or redone.
+        touched: what the last of these touched.
     """
 
-    def __init__(self, session: SharedState) -> None:
-        self._session = session
-        self._histories: dict[int, _History] = {}
+    undo: str | None = None
+    redo: str | None = None
+    times: int = 0
+    touched: object = None
+
+
+class _Steps:
+    """The steps of one client."""
+
+    def __init__(self, change: Change) -> None:
+        self.done: deque[_Step] = deque(maxlen=LIMIT)
+        self.undone: list[_Step] = []
+        self.state = Signal(change, UndoState())
+
+    def tell(self, step: _Step | None = None) -> None:
+        """Tell what can be undone now, after a step was undone or done again."""
+        times, touched = self.state.value.times, self.state.value.touched
+        if step is not None:
+            times, touched = times + 1, step.edits[0].touched
+        self.state.set(
+            UndoState(_label(self.done), _label(self.undone), times, touched)
+        )
+
+
+def _label(steps: Sequence[_Step]) -> str | None:
+    return steps[-1].edits[0].label if steps else None
+
+
+class History:
+    """The edits of a session, for each of its clients.
+
+    Args:
+        change: undoes and redoes, and tells.
+
+    Attributes:
+        modified: whether the document has edits that are not saved.
+    """
+
+    def __init__(self, change: Change) -> None:
+        self.modified = Signal(change, False)
+        self._change = change
+        self._steps: dict[int, _Steps] = {}
         self._action: _Action | None = None
         self._undoing = False
         self._count = 0
@@ -106,19 +136,19 @@ class EditHistory:
     # Recording
 
     @contextmanager
-    def acting(self, browser_id: int | None, gesture: object = None) -> Generator[None]:
-        """Record what is changed inside as one edit of a browser.
+    def acting(self, client_id: int | None, gesture: object = None) -> Generator[None]:
+        """Record what is changed inside as one edit of a client.
 
         Args:
-            browser_id: the browser; None for a program, whose edits cannot be undone.
+            client_id: the client; None for a program, whose edits cannot be undone.
             gesture: what all movements of one drag have in common; None for a single
                 action.
         """
-        with self._session.lock:
-            if browser_id is None or self._action is not None:
+        with self._change.lock:
+            if client_id is None or self._action is not None:
                 yield
                 return
-            action = self._action = _Action(browser_id, gesture)
+            action = self._action = _Action(client_id, gesture)
             try:
                 yield
             finally:
@@ -128,12 +158,12 @@ class EditHistory:
 
     @property
     def actor(self) -> int | None:
-        """The browser whose action runs now; None for a program's."""
-        return None if self._action is None else self._action.browser
+        """The client whose action runs now; None for a program's."""
+        return None if self._action is None else self._action.client_id
 
     @property
     def recording(self) -> bool:
-        """Whether there is a browser that could undo what is changed now."""
+        """Whether there is a client that could undo what is changed now."""
         return self._action is not None and not self._undoing
 
     def record(
@@ -157,7 +187,7 @@ class EditHistory:
             touched: see `Edit`.
             of_document: whether it is lost unless the document is saved.
         """
-        with self._session.lock:
+        with self._change.lock:
             if self._undoing:
                 return
             action = self._action
@@ -167,12 +197,12 @@ class EditHistory:
                 action.of_document |= of_document
             elif of_document:
                 self._by_program += 1
-                self._session.signals.edits.touch()
+                self._tell_modified()
 
     @contextmanager
     def unrecorded(self) -> Generator[None]:
         """Keep nothing of what is changed inside: no user has asked for it."""
-        with self._session.lock:
+        with self._change.lock:
             before, self._undoing = self._undoing, True
             try:
                 yield
@@ -199,7 +229,7 @@ class EditHistory:
             )
 
     def _keep(self, action: _Action) -> None:
-        history = self._histories.setdefault(action.browser, _History())
+        history = self._steps_of(action.client_id)
         number = self._next_number() if action.of_document else None
         step = _Step(
             tuple(action.edits), tuple(action.merge_keys), action.gesture, number
@@ -215,7 +245,8 @@ class EditHistory:
         history.done.append(step)
         if number is not None:
             self._applied.add(number)
-        self._session.signals.edits.touch()
+        history.tell()
+        self._tell_modified()
 
     def _next_number(self) -> int:
         self._count += 1
@@ -223,8 +254,8 @@ class EditHistory:
 
     # Undoing
 
-    def undo(self, browser_id: int) -> str | None:
-        """Undo the last edit of a browser.
+    def undo(self, client_id: int) -> str | None:
+        """Undo the last edit of a client.
 
         Returns:
             What was undone; None when there is nothing to undo.
@@ -233,21 +264,21 @@ class EditHistory:
             UsageError: it cannot be undone any more, because of what was done since;
                 it is forgotten.
         """
-        with self._session.lock:
-            history = self._histories.get(browser_id)
-            if history is None or not history.done:
+        with self._change.lock:
+            history = self._steps_of(client_id)
+            if not history.done:
                 return None
             step = history.done.pop()
             edits = step.edits[::-1]
-            self._run("undone", step, [(e.undo, e.redo) for e in edits])
+            self._run("undone", history, step, [(e.undo, e.redo) for e in edits])
             history.undone.append(step)
             self._applied.discard(step.number or 0)
-            label = history.went(step)
-            self._session.signals.edits.touch()
-            return label
+            history.tell(step)
+            self._tell_modified()
+            return step.edits[0].label
 
-    def redo(self, browser_id: int) -> str | None:
-        """Do again what a browser has undone last.
+    def redo(self, client_id: int) -> str | None:
+        """Do again what a client has undone last.
 
         Returns:
             What was done again; None when there is nothing.
@@ -255,22 +286,24 @@ class EditHistory:
         Raises:
             UsageError: it cannot be done again; it is forgotten.
         """
-        with self._session.lock:
-            history = self._histories.get(browser_id)
-            if history is None or not history.undone:
+        with self._change.lock:
+            history = self._steps_of(client_id)
+            if not history.undone:
                 return None
             step = history.undone.pop()
-            self._run("done again", step, [(e.redo, e.undo) for e in step.edits])
+            actions = [(e.redo, e.undo) for e in step.edits]
+            self._run("done again", history, step, actions)
             history.done.append(step)
             if step.number is not None:
                 self._applied.add(step.number)
-            label = history.went(step)
-            self._session.signals.edits.touch()
-            return label
+            history.tell(step)
+            self._tell_modified()
+            return step.edits[0].label
 
     def _run(
         self,
         what: str,
+        history: _Steps,
         step: _Step,
         actions: list[tuple[Callable[[], None], Callable[[], None]]],
     ) -> None:
@@ -278,54 +311,49 @@ class EditHistory:
         reached: list[Callable[[], None]] = []
         self._undoing = True
         try:
-            with self._session.change():
+            with self._change():
                 for act, reverse in actions:
                     act()
                     reached.append(reverse)
         except SambotVizError as error:
             for reverse in reversed(reached):
                 reverse()
-            self._session.signals.edits.touch()
+            history.tell()
             label = step.edits[0].label
             raise UsageError(f"'{label}' cannot be {what}: {error}") from error
         finally:
             self._undoing = False
 
-    def undo_label(self, browser_id: int) -> str | None:
-        """What `undo` would undo; None for nothing."""
-        history = self._histories.get(browser_id)
-        return history.done[-1].edits[0].label if history and history.done else None
+    def state(self, client_id: int) -> Signal[UndoState]:
+        """What a client can undo and redo."""
+        return self._steps_of(client_id).state
 
-    def redo_label(self, browser_id: int) -> str | None:
-        """What `redo` would do again; None for nothing."""
-        history = self._histories.get(browser_id)
-        return history.undone[-1].edits[0].label if history and history.undone else None
+    def leave(self, client_id: int) -> None:
+        """Forget the edits of a client that has closed the page."""
+        self._steps.pop(client_id, None)
 
-    def touched(self, browser_id: int) -> tuple[int, object]:
-        """How often a browser has undone or redone, and what the last one touched."""
-        history = self._histories.get(browser_id, _History())
-        return history.times, history.touched
-
-    def leave(self, browser_id: int) -> None:
-        """Forget the history of a browser that has closed the page."""
-        self._histories.pop(browser_id, None)
+    def _steps_of(self, client_id: int) -> _Steps:
+        if client_id not in self._steps:
+            self._steps[client_id] = _Steps(self._change)
+        return self._steps[client_id]
 
     # Saving
 
-    @property
-    def modified(self) -> bool:
-        """Whether the document has edits that are not saved."""
-        return self._saved != (self._applied, self._by_program)
-
     def saved(self) -> None:
-        """The document has been saved as it is now."""
-        with self._session.lock:
+        """Take the document as saved as it is now."""
+        with self._change.lock:
             self._saved = (frozenset(self._applied), self._by_program)
-            self._session.signals.edits.touch()
+            self._tell_modified()
+
+    def _tell_modified(self) -> None:
+        self.modified.set(self._saved != (self._applied, self._by_program))
 
     def clear(self) -> None:
         """Forget all edits: another document is shown, as it is in its file."""
-        with self._session.lock:
-            self._histories.clear()
+        with self._change.lock:
+            for steps in self._steps.values():
+                steps.done.clear()
+                steps.undone.clear()
+                steps.state.set(UndoState())
             self._applied.clear()
             self.saved()

@@ -1,0 +1,1 @@
+"""The people of a session: who may change it, and who only views it."""
