@@ -38,4 +38,4 @@ def signals_of(session: Session) -> list[Signal[Any]]:
 
 def files_of(viz: Visualizer) -> Files:
     """The disk, as the shared session's browsers use it."""
-    return viz._documents  # pyright: ignore[reportPrivateUsage]
+    return viz._configs  # pyright: ignore[reportPrivateUsage]
