@@ -16,11 +16,10 @@ import viser
 
 from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.model_reader import ModelReader
+from sambot_viz.displays.robot_display import ModelReader, RobotDisplay
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.status import StatusList
-from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
@@ -127,23 +126,10 @@ class Display:
         """Take everything out of the scene."""
         raise NotImplementedError
 
-    def refusal(self, path: str, value: object) -> str | None:
-        """Why a browser may not set a property to a value; None when it may."""
-        del path, value
-        return None
-
     @property
-    def own_robot(self) -> Robot | None:
-        """The robot that the display has read from a file of its own."""
+    def robot_display(self) -> RobotDisplay | None:
+        """This display as one that shows a robot; None for all others."""
         return None
-
-    @property
-    def files(self) -> tuple[Path, ...]:
-        """The files that its own robot comes from, meshes left out."""
-        return ()
-
-    def read_again(self) -> None:
-        """One of its files has been saved."""
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
@@ -156,10 +142,6 @@ class Display:
         if self.shown:
             self.draw()
 
-    def publish(self) -> bool:
-        """Set transforms that come with the display; whether there were any new."""
-        return False
-
     def drawn_shapes(self) -> Iterator[DrawnShape]:
         """What it has drawn; only called while it is shown."""
         yield from ()
@@ -168,18 +150,14 @@ class Display:
         """The links, joints or frames that have rows of their own."""
         return ()
 
-    def notes(self) -> Mapping[str, str]:
-        """Path of a property → what is worth knowing about the value it has."""
-        return {}
-
-    @property
-    def problems(self) -> tuple[Problem, ...]:
-        """What was found in the files that the display is drawn from."""
-        return ()
-
-    def assets_read(self) -> None:
-        """Some mesh files or textures have been read in the background."""
-
     def frames_moved(self, frames: Iterable[str]) -> None:
         """Some frames have a new pose in their parents; the nodes are moved already."""
         del frames
+
+
+def robot_displays(displays: Iterable[Display]) -> Iterator[RobotDisplay]:
+    """Yield those of some displays that show a robot."""
+    for display in displays:
+        found = display.robot_display
+        if found is not None:
+            yield found

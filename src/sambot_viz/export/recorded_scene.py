@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
-from sambot_viz.displays.model_reader import ModelReader, ModelResult
+from sambot_viz.displays.robot_display import ModelReader, ModelResult
 from sambot_viz.displays.scene.path_line import PathLine
 from sambot_viz.export.tracks import Tracks
 from sambot_viz.frames import Transform

@@ -54,7 +54,8 @@ def status_rows(
         level = LEVELS[status.level]
         fixed = f"{row_id}/:fixed"
         yield Row(fixed, row_id, "status", "Fixed Frame", missing, level=level)
-    if session.robot is None and display.own_robot is None and status.level != "Ok":
+    own_robot = display.robot_display and display.robot_display.own_robot
+    if session.robot is None and own_robot is None and status.level != "Ok":
         yield from _why_no_robot(session, row_id)
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from sambot_viz.displays.model_reader import ModelResult
+from sambot_viz.displays.robot_display import ModelResult
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
 

@@ -12,7 +12,8 @@ import os.path
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from sambot_viz.displays.display import Display
+from sambot_viz.displays.display import robot_displays
+from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
 from sambot_viz.robot.shape_files import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
@@ -90,9 +91,9 @@ class Reloader:
             f for robot in robots for asset in assets_of(robot) for f in files(asset)
         }
 
-    def _displays(self) -> Iterator[Display]:
+    def _displays(self) -> Iterator[RobotDisplay]:
         for session in self._server.sessions():
-            yield from session.displays
+            yield from robot_displays(session.displays)
 
     def _files(self) -> set[Path]:
         file = self._documents.file

@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 import viser
 
-from sambot_viz.displays.model_reader import ModelReader
+from sambot_viz.displays.robot_display import ModelReader
 from sambot_viz.displays.scene.session_assets import Reader
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints.presets import Presets

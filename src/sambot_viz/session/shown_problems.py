@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sambot_viz.displays.display import robot_displays
 from sambot_viz.errors import Problem
 from sambot_viz.problem_groups import in_order
 
@@ -21,7 +22,7 @@ def problems_of(session: Session) -> list[Problem]:
     both have is listed once, where it is in the saved file.
     """
     saved = session.problems.of_saves
-    shapes = (p for display in session.displays for p in display.problems)
+    shapes = (p for d in robot_displays(session.displays) for p in d.problems)
     model = _also(saved.get("model", ()), (*session.problems.of_model, *shapes))
     config = _also(saved.get("config", ()), session.config.problems)
     others = (*saved.get("fault", ()), *saved.get("watch", ()))

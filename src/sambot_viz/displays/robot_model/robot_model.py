@@ -9,6 +9,7 @@ from typing import Literal
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
 from sambot_viz.displays.robot_model.link_rows import collision_note, robot_lists
 from sambot_viz.displays.robot_model.properties import (
@@ -133,6 +134,11 @@ class RobotModelDisplay(Display):
         if self.shown and self._source.robot is not None:
             self.draw()
 
+    @property
+    def robot_display(self) -> RobotDisplay:
+        """This display: it shows a robot."""
+        return self
+
     def refusal(self, path: str, value: object) -> str | None:
         """A model file must lie below the folders that were opened."""
         if path != FILE or not isinstance(value, str) or not value:
@@ -201,7 +207,7 @@ class RobotModelDisplay(Display):
 
     def assets_read(self) -> None:
         """Draw what has been read."""
-        if self._source.robot is not None:
+        if self.shown and self._source.robot is not None:
             for _, node in self._shapes.values():
                 node.draw_again()
             self._report(self._source.robot)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.model_reader import ModelResult
+from sambot_viz.displays.robot_display import ModelResult
 from sambot_viz.displays.robot_model.description_file import (
     find_below,
     find_description,

@@ -151,7 +151,8 @@ class DisplaysPanel(Panel):
         item = display.config
         change = partial(self._session.set_property, display)
         entries = {found.title: found for found in display.entries()}
-        notes = display.notes()
+        robot_display = display.robot_display
+        notes = robot_display.notes() if robot_display else dict[str, str]()
         of_list: dict[str, list[Row]] = {}
         for path, declared in item.declared.items():
             if not is_listed(item, declared):

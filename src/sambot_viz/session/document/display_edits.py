@@ -66,7 +66,8 @@ class DisplayEdits(ShownDocument):
         """
         config = display.config
         with self.change(self.signals.status):
-            refusal = display.refusal(path, value)
+            robot_display = display.robot_display
+            refusal = robot_display and robot_display.refusal(path, value)
             if refusal is None:
                 with self._setting(config, path, path):
                     config.set(path, value)

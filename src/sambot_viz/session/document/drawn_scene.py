@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from pathlib import Path
 
 import numpy as np
 
-from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.display import Display, DisplayContext, robot_displays
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.scene.frame_nodes import short_id
 from sambot_viz.displays.status import Status
@@ -94,7 +94,9 @@ class DrawnScene:
 
     def redraw(self) -> None:
         """Draw all displays that are shown; what is the same is not sent again."""
-        self._each_shown(lambda display: display.draw())
+        for display in self.displays:
+            if display.shown:
+                display.draw()
 
     def place(self, frames: Set[str]) -> None:
         """Send the poses of frames that moved."""
@@ -104,17 +106,18 @@ class DrawnScene:
 
     def assets_read(self) -> None:
         """Draw mesh files and textures that have been read in the background."""
-        self._each_shown(lambda display: display.assets_read())
+        for display in robot_displays(self.displays):
+            display.assets_read()
 
     def publish(self) -> None:
         """Let the displays set their own frames in a tree that was cleared."""
-        for display in self.displays:
+        for display in robot_displays(self.displays):
             display.publish()
 
     def read_again(self, files: Iterable[Path]) -> None:
         """Read again the robots that displays have from some of these files."""
         saved = frozenset(files)
-        for display in self.displays:
+        for display in robot_displays(self.displays):
             if not saved.isdisjoint(display.files):
                 display.read_again()
 
@@ -138,11 +141,6 @@ class DrawnScene:
             self._background = self.context.background = background
             pixel = np.array([[background]], dtype=np.uint8)
             self.context.scene.set_background_image(pixel, format="png")
-
-    def _each_shown(self, action: Callable[[Display], None]) -> None:
-        for display in self.displays:
-            if display.shown:
-                action(display)
 
     def _next_key(self) -> str:
         """A name that begins no other display's node names."""

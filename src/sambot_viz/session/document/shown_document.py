@@ -6,7 +6,7 @@ from collections.abc import Callable, Set
 from pathlib import Path
 
 from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.model_reader import ModelReader
+from sambot_viz.displays.robot_display import ModelReader
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.frames import FrameTree

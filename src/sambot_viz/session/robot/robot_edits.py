@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
-from sambot_viz.displays.model_reader import ModelReader
+from sambot_viz.displays.robot_display import ModelReader
 from sambot_viz.displays.scene.session_assets import Reader
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
