@@ -14,7 +14,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     ├── FrameError                  a transform that cannot be looked up or set
     │   ├── LookupRefused           no transform between two frames (.tf2_text)
     │   ├── TransformRefused        a transform that tf2 would not take
-    │   └── CycleRefused            a transform that would form a ring
+    │   └── FrameCycleError         a transform that would form a ring
     ├── JointError                  an unknown joint, or a value that is not finite
     ├── ServerError                 a port that is taken, a server that cannot go on
     │   └── BrowserError            a browser that is missing, ends or does not answer

@@ -10,7 +10,7 @@ from close import is_close
 
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import (
-    CycleRefused,
+    FrameCycleError,
     FrameTree,
     LookupRefused,
     Transform,
@@ -137,7 +137,7 @@ def test_separate_trees_have_tf2s_and_rvizs_texts(tree: FrameTree) -> None:
 
 def test_a_ring_is_refused_with_the_ring(tree: FrameTree) -> None:
     before = tree.frames
-    with pytest.raises(CycleRefused) as caught:
+    with pytest.raises(FrameCycleError) as caught:
         tree.set("base_laser", "odom", at())
     assert caught.value.ring == ("base_laser", "odom", "base_link", "base_laser")
     assert str(caught.value) == (

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sambot_viz.frames.errors import LookupRefused
 from sambot_viz.frames.frame_tree import FrameTree, Hop
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.frames.refusals import LookupRefused
 from sambot_viz.frames.transform import Transform
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Robot

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from sambot_viz.frames.compose import compose
+from sambot_viz.frames.errors import LookupRefused, TransformRefused
 from sambot_viz.frames.hierarchy import Edge, FrameHierarchy
-from sambot_viz.frames.refusals import LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
 from sambot_viz.geometry import Matrix
 
@@ -86,7 +86,7 @@ class FrameTree(FrameHierarchy):
 
         Raises:
             TransformRefused: an empty name, or parent and child are the same.
-            CycleRefused: the parent is a descendant of the child.
+            FrameCycleError: the parent is a descendant of the child.
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, True, 0.0
@@ -105,7 +105,7 @@ class FrameTree(FrameHierarchy):
 
         Raises:
             TransformRefused: an empty name, or parent and child are the same.
-            CycleRefused: the parent is a descendant of the child.
+            FrameCycleError: the parent is a descendant of the child.
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, False, stamp

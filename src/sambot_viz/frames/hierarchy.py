@@ -8,7 +8,7 @@ when it would be made.
 from __future__ import annotations
 
 from sambot_viz.errors import FrameError
-from sambot_viz.frames.refusals import CycleRefused, LookupRefused, TransformRefused
+from sambot_viz.frames.errors import FrameCycleError, LookupRefused, TransformRefused
 from sambot_viz.frames.transform import Transform
 
 
@@ -125,7 +125,7 @@ class FrameHierarchy:
         while (edge := self._edges.get(ring[-1])) is not None:
             ring.append(edge.parent)
             if edge.parent == child:
-                raise CycleRefused((parent, *reversed(ring)))
+                raise FrameCycleError((parent, *reversed(ring)))
 
     def _edge_of(self, child: str) -> Edge:
         child = plain_name(child)

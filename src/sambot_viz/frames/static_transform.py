@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
+from sambot_viz.frames.errors import TransformRefused
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.frames.refusals import TransformRefused
 from sambot_viz.frames.transform import Transform
 
 FORM = "X Y Z YAW PITCH ROLL PARENT CHILD"

@@ -52,7 +52,7 @@ class UserFrames:
 
         Raises:
             TransformRefused: an empty name, or parent and child are the same.
-            CycleRefused: the parent is a descendant of the child.
+            FrameCycleError: the parent is a descendant of the child.
         """
         set_it = self._tree.set_static if static else self._tree.set
         set_it(parent, child, transform)

@@ -34,7 +34,7 @@ class TransformRefused(FrameError):
         super().__init__(f"{tf2_name}: {message}")
 
 
-class CycleRefused(FrameError):
+class FrameCycleError(FrameError):
     """A parent that is below its own child.
 
     tf2 takes such a transform and fails at every later look-up.
