@@ -10,7 +10,8 @@ import pytest
 from command_line_page import PAGE, page, parser_of
 
 from sambot_viz.cli import COMMANDS
-from sambot_viz.options import declared, flag_of
+from sambot_viz.flags import declared, flag_of
+from sambot_viz.options import Options
 from sambot_viz.visualizer import Visualizer
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -43,7 +44,7 @@ def test_a_command_line_of_the_readme_is_accepted(line: str) -> None:
 
 def test_every_option_is_documented_for_python_users() -> None:
     doc = Visualizer.__doc__ or ""
-    for option in declared():
+    for option in declared(Options):
         assert f"    {option.name}: " in doc
         assert flag_of(option).help
 

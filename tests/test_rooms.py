@@ -119,14 +119,12 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent signal subprocess threading",
     ),
     "commands": Row(
-        "_version bundled checks export frames inputs joints open_config options "
+        "_version bundled checks export flags frames inputs joints open_config options "
         "problem_text robot rviz server session visualizer",
         "PIL segno",
         "signal webbrowser",
     ),
-    "jupyter": Row(
-        "bundled cli options tokens", "", "http signal socket ssl threading"
-    ),
+    "jupyter": Row("bundled cli flags options", "", "http signal socket ssl threading"),
     # The hall.
     "__init__": Row("_version checks frames open_config robot rviz visualizer"),
     "__main__": Row("cli"),
@@ -142,13 +140,13 @@ ROOMS: Mapping[str, Row] = {
         "concurrent threading",
     ),
     "open_config": Row("displays rviz tools views"),
-    "options": Row("frames joints robot rviz tokens", "yourdfpy"),
+    "flags": Row("frames joints"),
+    "options": Row("flags frames joints robot rviz", "yourdfpy"),
     "problem_groups": Row(),
     "problem_text": Row("problem_groups"),
     "text": Row(),
-    "tokens": Row(),
     "visualizer": Row(
-        "displays export frames inputs joints jupyter options robot rviz server "
+        "displays export flags frames inputs joints jupyter options robot rviz server "
         "session",
         "viser",
     ),

@@ -17,12 +17,13 @@ from sambot_viz.export.page_file import Looking, page_file
 from sambot_viz.export.pages import ask_page
 from sambot_viz.export.recorded_scene import Shown
 from sambot_viz.files import write_atomically
+from sambot_viz.flags import keyword_help
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Vector3
 from sambot_viz.inputs import Inputs
 from sambot_viz.jupyter.notebook import notebook as here
 from sambot_viz.jupyter.notebook import remember, stop_former
-from sambot_viz.options import Options, keyword_help
+from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.config_store import ConfigStore, Sources
@@ -327,4 +328,6 @@ def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:
         document.global_options.set("Fixed Frame", fixed_frame)
 
 
-Visualizer.__doc__ = f"{inspect.cleandoc(Visualizer.__doc__ or '')}\n\n{keyword_help()}"
+Visualizer.__doc__ = (
+    f"{inspect.cleandoc(Visualizer.__doc__ or '')}\n\n{keyword_help(Options)}"
+)

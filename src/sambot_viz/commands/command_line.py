@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from sambot_viz.errors import UsageError
-from sambot_viz.options import Flag, Group, Options, declared, flag_of
+from sambot_viz.flags import Flag, Group, declared, flag_of
+from sambot_viz.options import Options
 
 _ARGUMENT = re.compile(r"\s*([A-Za-z_][\w.-]*)\s*:=(.*)", re.DOTALL)
 _YES, _NO = ("true", "1"), ("false", "0")
@@ -39,7 +40,7 @@ class Parser(argparse.ArgumentParser):
         if groups:
             rest.setdefault("epilog", _ABOUT_MODELS)
         super().__init__(prog=prog, **rest)
-        self.options = [o for o in declared() if _is_taken(flag_of(o), groups)]
+        self.options = [o for o in declared(Options) if _is_taken(flag_of(o), groups)]
         if groups:
             add = self.add_argument
             add(

@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from sambot_viz.tokens import new_token
+from sambot_viz.flags import new_token
 
 STARTS_WITHIN = 60.0
 """A viewer that does not answer for so long is ended [s]; 5 s are not enough where the

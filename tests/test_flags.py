@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.errors import UsageError
+from sambot_viz.flags import check_token, new_token
 from sambot_viz.options import Options
-from sambot_viz.tokens import check_token, new_token
 
 
 def test_a_token_without_a_value_is_made_and_never_the_same() -> None:

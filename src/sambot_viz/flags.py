@@ -1,0 +1,188 @@
+"""Declare options: fields of a dataclass that are flags of the command line too.
+
+`options.py` has the list; the command line, the documents and the checks of values
+follow from what is declared with each field.
+"""
+
+from __future__ import annotations
+
+import os.path
+import re
+import secrets
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import MISSING, Field, dataclass, field, fields
+from typing import TYPE_CHECKING, Any, Literal
+
+from sambot_viz.errors import UsageError
+
+# A command line is read before anything heavy is imported.
+if TYPE_CHECKING:
+    from sambot_viz.frames.static_transform import StaticTransform
+
+Group = Literal["model", "pose", "view", "server"]
+"""Options that the same commands take: all with a MODEL, those that pose the robot,
+those that draw it, and the one that serves a page."""
+AGAIN = "; may be given several times"
+
+SHORTEST_TOKEN = 8
+"""A token that a user has chosen has at least so many characters."""
+
+_KEY = "option"
+_TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """The name of an option on the command line, and its meaning.
+
+    Attributes:
+        help: what the option does, without its default; also its documentation as a
+            keyword argument.
+        names: its flags, such as ``("-d", "--display-config")``; none for an option
+            of the Python interface only.
+        group: which commands take it.
+        word: its name as an argument of display.launch.py, for ``NAME:=VALUE``.
+        metavar: the placeholder for its value in the help.
+        default: the command line's default where it is not the keyword argument's.
+        choices: the only values there are.
+        type: makes the value from one word; None keeps the text.
+        read: makes the value from all words of an option that may be repeated, and
+            the flag's name.
+        optional_value: how a value may follow a flag that may stand without one, and
+            is "" then: as the next word, or after "=" only.
+        variable: of the environment, with the value for a command line without the
+            flag; for what other users must not read in the list of processes.
+        switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
+            one that makes it False.
+    """
+
+    help: str
+    names: tuple[str, ...] = ()
+    group: Group = "server"
+    word: str = ""
+    metavar: str | None = None
+    default: object = None
+    choices: tuple[str, ...] = ()
+    type: Callable[[str], object] | None = None
+    read: Callable[[Sequence[str], str], object] | None = None
+    optional_value: Literal["", "word", "="] = ""
+    variable: str = ""
+    switch: Literal["", "yes-no", "off"] = ""
+
+
+def option(
+    default: Any,
+    help: str,
+    *names: str,
+    factory: Callable[[], Any] | None = None,
+    flag_default: object = None,
+    **rest: Any,
+) -> Any:
+    """Make the field of an option.
+
+    Args:
+        default: of the keyword argument.
+        help: what the option does, without its default.
+        names: its flags.
+        factory: makes the default, for one that can be changed.
+        flag_default: of the command line, where it differs.
+        rest: further attributes of `Flag`.
+    """
+    flag = Flag(help, names, default=flag_default, **rest)
+    if factory is not None:
+        return field(default_factory=factory, metadata={_KEY: flag})
+    return field(default=default, metadata={_KEY: flag})
+
+
+def words_of(words: Sequence[str], flag: str) -> tuple[str, ...]:
+    """Return the values of a flag that may be repeated."""
+    del flag
+    return tuple(words)
+
+
+def assignments(words: Sequence[str], flag: str) -> dict[str, float]:
+    """Read NAME=VALUE words."""
+    from sambot_viz.joints.values import parse_assignments
+
+    return parse_assignments(words, flag)
+
+
+def static_transforms(words: Sequence[str], flag: str) -> list[StaticTransform]:
+    """Read the arguments of static_transform_publisher."""
+    from sambot_viz.frames.static_transform import (
+        StaticTransformError,
+        parse_static_transform,
+    )
+
+    parsed: list[StaticTransform] = []
+    for text in words:
+        try:
+            parsed.append(parse_static_transform(text))
+        except StaticTransformError as error:
+            quotes = "" if len(text.split()) > 1 else "; all values belong in one quote"
+            raise UsageError(f"{flag} '{text}': {error}{quotes}") from error
+    return parsed
+
+
+def declared(kind: type) -> Iterator[Field[Any]]:
+    """Yield the options of a dataclass, in the order of the help."""
+    return (each for each in fields(kind) if _KEY in each.metadata)
+
+
+def flag_of(option: Field[Any]) -> Flag:
+    """Return how an option is written on the command line."""
+    flag: Flag = option.metadata[_KEY]
+    return flag
+
+
+def keyword_help(kind: type) -> str:
+    """Return the options of a dataclass as the "Args" of a docstring."""
+    lines = ["Args:"]
+    for each in declared(kind):
+        flag = flag_of(each)
+        given = each.default not in (MISSING, None, ())
+        default = f" (default: {each.default!r})" if given else ""
+        lines.append(f"    {each.name}: {flag.help.removesuffix(AGAIN)}{default}.")
+    return "\n".join(lines)
+
+
+def check_choice(option: Field[Any], value: object) -> None:
+    """Raise UsageError for a value that is none of the option's choices."""
+    choices = flag_of(option).choices
+    if choices and value not in choices:
+        listed = " or ".join(f"'{choice}'" for choice in choices)
+        raise UsageError(f"{option.name}={value!r}: it must be {listed}")
+
+
+def new_token() -> str:
+    """Return a token that cannot be guessed: 22 characters, 128 bits."""
+    return secrets.token_urlsafe(16)
+
+
+def check_token(token: str, flag: str = "--token") -> str:
+    """Return the token that a user has chosen.
+
+    Args:
+        token: what stands behind the flag.
+        flag: for messages.
+
+    Raises:
+        UsageError: it is too short, would not survive in an address, or is a file:
+            the model that was to follow.
+    """
+    if os.path.exists(token):
+        raise UsageError(
+            f"{flag} has taken '{token}', which is a file, for its value; write the "
+            f"model before {flag}"
+        )
+    if not _TOKEN.fullmatch(token):
+        raise UsageError(
+            f"{flag} '{token}': letters, digits and . _ ~ - may be in it; leave the "
+            "value out, and one is made"
+        )
+    if len(token) < SHORTEST_TOKEN:
+        raise UsageError(
+            f"{flag} '{token}' is too easy to guess; give at least {SHORTEST_TOKEN} "
+            "characters, or leave the value out, and one is made"
+        )
+    return token
