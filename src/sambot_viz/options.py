@@ -127,7 +127,7 @@ class Options:
     )
     static_transforms: Sequence[StaticTransform | str] = option(
         (),
-        "another frame: the arguments of static_transform_publisher, with or without "
+        "add a frame: the arguments of static_transform_publisher, with or without "
         f"its flags such as --x, all in one pair of quotes{AGAIN}",
         "--static-transform",
         group="pose",
@@ -152,13 +152,13 @@ class Options:
     unix_socket: PathLike | None = option(
         None,
         "listen on a socket in the file system instead of a port, for a proxy of the "
-        "same user: nobody else can open it",
+        "same user: no other user can open it",
         "--unix-socket",
         metavar="PATH",
     )
     allowed_origins: Sequence[str] = option(
         (),
-        "another name of this machine, or another web page that may use the server, "
+        "another name of this machine, or an origin that may use the server, "
         f"such as https://lab.example.org for one behind a proxy{AGAIN}",
         "--allow-origin",
         metavar="ORIGIN",
@@ -166,14 +166,14 @@ class Options:
     )
     base_path: str = option(
         "/",
-        "where a proxy shows the page, such as /robot for https://lab.example.org/robot/",
+        "path under which a proxy shows the page, such as /robot for https://lab.example.org/robot/",
         "--base-path",
         metavar="PATH",
     )
     token: str | None = option(
         None,
-        "a secret without which nobody sees the page, in the link that is printed; "
-        "made when no VALUE is given; by default that of the variable SAMBOT_VIZ_TOKEN",
+        "require this token to open the page (generated when no VALUE is given); by "
+        "default the value of the variable SAMBOT_VIZ_TOKEN",
         "--token",
         metavar="VALUE",
         optional_value="word",
@@ -181,10 +181,10 @@ class Options:
     )
     presenter: str | None = option(
         None,
-        "only who opens a second, secret link moves the robot and the displays; the "
-        "others watch, may ask for the wheel, and may work on a copy of their own; "
-        "VALUE is the secret, by default that of the variable SAMBOT_VIZ_PRESENTER, or "
-        "made",
+        "presenter mode: print a second, secret link; only its holder can change the "
+        "robot. Others watch, can request control, or open a private copy (the secret "
+        "is generated when no VALUE is given); by default the value of the variable "
+        "SAMBOT_VIZ_PRESENTER",
         "--presenter",
         metavar="=VALUE",
         optional_value="=",
@@ -192,13 +192,13 @@ class Options:
     )
     session: SessionMode = option(
         "shared",
-        "one robot for all browsers, or one for each",
+        "one robot for all pages that are open, or one for each",
         "--session",
         choices=("shared", "private"),
     )
     watch: bool = option(
         False,
-        "show the model, its meshes and the config again when they are saved",
+        "reload the model, its meshes and the config when they are saved",
         "--watch",
         switch="yes-no",
         flag_default=True,
@@ -241,8 +241,8 @@ class Options:
     )
     on_reload: Callable[[Sequence[Problem]], None] | None = option(
         None,
-        "called with what is wrong with the model and the config whenever a reload "
-        "changes that",
+        "called with the problems of the model and the config whenever a reload "
+        "changes them",
     )
     recorded: Mapping[str, float] = field(init=False, repr=False, compare=False)
     transforms: tuple[StaticTransform, ...] = field(

@@ -121,7 +121,7 @@ def test_a_presenter_gets_a_second_link_and_the_model_stays_the_model(
         "--presenter", "arm.urdf", "--port", "0", "--no-watch", cwd=tmp_path
     ) as process:
         link, secret = address(process), address(process)
-        assert "whoever opens the second one drives" in read_until(process, "drives")
+        assert "second link: presenter" in read_until(process, "presenter")
         page, _, query = secret.partition("/?token=")
         assert page == link and len(query) == 22
         port = int(link.rsplit(":", 1)[1])

@@ -43,12 +43,12 @@ def parser() -> Parser:
         "Exit status: 0 written, 1 errors found, 2 usage.",
     )
     add = made.add_argument
-    add("-o", "--output", required=True, metavar="FILE.html", help="where to write it")
+    add("-o", "--output", required=True, metavar="FILE.html", help="file to write")
     add(
         "--motion",
         default="sweep",
         choices=("sweep", "none"),
-        help="what moves: sweep moves each joint to its limits and back, none nothing "
+        help="motion: sweep moves each joint to its limits and back, none nothing "
         "(default: %(default)s)",
     )
     return made

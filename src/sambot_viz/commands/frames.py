@@ -54,7 +54,7 @@ def parser() -> Parser:
         "-o",
         "--output",
         metavar="FILE",
-        help="where to write it: .svg, .dot or .json (default: DOT on standard output)",
+        help="file to write: .svg, .dot or .json (default: DOT on standard output)",
     )
     return made
 

@@ -36,16 +36,16 @@ the line; model:=, rvizconfig:= and gui:= mean the same as for display.launch.py
 
 _OPEN_TO_ALL = """\
 sambot-viz: warning: anyone who can reach port {} of this machine can see the robot and
-move its joints; --token asks for a link that you give to those who may
+move its joints; --token restricts access to those who have the link
 """
 
 
 _PRESENTED = """\
-sambot-viz: the first link is for those who watch; whoever opens the second one drives
+sambot-viz: first link: viewers; second link: presenter
 """
 
 _WAITING = """\
-sambot-viz: note: the page is open; it shows the file as soon as it is saved right
+sambot-viz: note: the page is open and will load the file once its errors are fixed
 """
 
 

@@ -65,7 +65,7 @@ def parser() -> Parser:
         "of this machine. Exit status: 0 written, 1 errors found, 2 usage.",
     )
     add = made.add_argument
-    add("-o", "--output", required=True, metavar="FILE.png", help="where to write it")
+    add("-o", "--output", required=True, metavar="FILE.png", help="file to write")
     add(
         "--size",
         default="800x600",
