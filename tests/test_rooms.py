@@ -95,7 +95,7 @@ ROOMS: Mapping[str, Row] = {
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
     "session": Row(
-        "bundled checks displays drive frames joints meshes options problem_groups "
+        "bundled checks displays drive frames joints meshes options problems "
         "robot rviz tools views viser_private",
         "PIL numpy viser",
         "asyncio concurrent",
@@ -103,8 +103,8 @@ ROOMS: Mapping[str, Row] = {
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "_version displays drive frames joints options page problem_groups "
-        "problem_text robot rviz session tools views viser_private",
+        "_version displays drive frames joints options page problems "
+        "robot rviz session tools views viser_private",
         "numpy viser",
     ),
     "server": Row(
@@ -120,7 +120,7 @@ ROOMS: Mapping[str, Row] = {
     ),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints open_config options "
-        "problem_text robot rviz server session visualizer",
+        "problems robot rviz server session visualizer",
         "PIL segno",
         "signal webbrowser",
     ),
@@ -130,7 +130,7 @@ ROOMS: Mapping[str, Row] = {
     "__main__": Row("cli"),
     "_version": Row(),
     "bundled": Row("robot"),
-    "cli": Row("problem_text"),
+    "cli": Row("problems"),
     "errors": Row(),
     "files": Row(),
     "geometry": Row("", "numpy"),
@@ -142,8 +142,7 @@ ROOMS: Mapping[str, Row] = {
     "open_config": Row("displays rviz tools views"),
     "flags": Row("frames joints"),
     "options": Row("flags frames joints robot rviz", "yourdfpy"),
-    "problem_groups": Row(),
-    "problem_text": Row("problem_groups"),
+    "problems": Row(),
     "text": Row(),
     "visualizer": Row(
         "displays export flags frames inputs joints jupyter options robot rviz server "

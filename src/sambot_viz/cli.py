@@ -15,8 +15,8 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, TextIO, cast
 
-from sambot_viz import problem_text
 from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageError
+from sambot_viz.problems import write_problems
 
 OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
 
@@ -44,7 +44,7 @@ def _run(words: list[str]) -> int:
         command = importlib.import_module(f"sambot_viz.commands.{name}")
         return int(command.run(words))
     except (RobotError, ConfigError) as error:
-        problem_text.write(error.problems)
+        write_problems(error.problems)
         return ERRORS
     except UsageError as error:
         return _complain(error, USAGE)

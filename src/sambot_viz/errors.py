@@ -67,7 +67,7 @@ class Problem:
         line: line in that file, counted from 1, or None.
         column: column in that line, counted from 1, or None.
         cause: what several problems of one code may have in common, such as "package
-            arm"; `problem_groups` joins them. No part of the JSON output.
+            arm"; `problems` joins them. No part of the JSON output.
     """
 
     severity: Severity

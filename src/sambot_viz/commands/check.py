@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import sys
 
-from sambot_viz import problem_text
 from sambot_viz.bundled import Found, find
 from sambot_viz.checks import check, check_folder
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem
 from sambot_viz.options import Options
+from sambot_viz.problems import write_problems
 
 
 def run(words: list[str]) -> int:
@@ -22,7 +22,7 @@ def run(words: list[str]) -> int:
         listed = [problem.as_json() for problem in problems]
         print(json.dumps({"model": str(model), "problems": listed}, indent=2))
     elif problems:
-        problem_text.write(problems, sys.stdout, most=None)
+        write_problems(problems, sys.stdout, most=None)
     else:
         print(f"{model}: no problems found")
     return int(any(problem.severity == "error" for problem in problems))

@@ -6,9 +6,9 @@ import json
 import sys
 from pathlib import Path
 
-from sambot_viz import problem_text
 from sambot_viz.commands.command_line import Parser
 from sambot_viz.errors import UsageError
+from sambot_viz.problems import write_problems
 
 
 def run(words: list[str]) -> int:
@@ -24,7 +24,7 @@ def run(words: list[str]) -> int:
         print(json.dumps(found.as_json(), indent=2))
     else:
         sys.stdout.write(found.as_text())
-        problem_text.write(found.problems, most=None)
+        write_problems(found.problems, most=None)
     return 0
 
 

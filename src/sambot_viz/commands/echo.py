@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 
-from sambot_viz import problem_text
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.commands.posed_frames import posed_frames
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.export.echo_text import echo_json, format_echo
 from sambot_viz.inputs import Inputs
+from sambot_viz.problems import write_problems
 
 
 class _AnyOrder(Parser):
@@ -25,7 +25,7 @@ def run(words: list[str]) -> int:
     given, options = parse(parser(), words)
     robot = Inputs(options).robot()
     found = [p for p in robot.problems if p.severity != "info"]
-    problem_text.write(found, model=options.model)
+    write_problems(found, model=options.model)
     tree = posed_frames(robot, options)
     # What tf2_echo calls the source is the target of tf2's look-up.
     found = explain(tree, given.source, given.target, robot)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from sambot_viz import problem_text
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.commands.posed_frames import start_state
 from sambot_viz.errors import UsageError
 from sambot_viz.inputs import Inputs
+from sambot_viz.problems import write_problems
 
 ENDINGS = (".html", ".htm")
 
@@ -19,13 +19,13 @@ def run(words: list[str]) -> int:
     given, options = parse(parser(), words, panels=False, watch=False)
     output = _output(given.output)
     inputs = Inputs(options)
-    problem_text.write(inputs.robot().problems, model=options.model)
+    write_problems(inputs.robot().problems, model=options.model)
     start_state(inputs.robot(), options)
 
     from sambot_viz.visualizer import Visualizer
 
     with Visualizer.of_inputs(inputs) as viz:
-        problem_text.write(viz.server.sessions()[0].config.problems)
+        write_problems(viz.server.sessions()[0].config.problems)
         try:
             viz.export(output, sweep=given.motion == "sweep")
         except OSError as error:

@@ -6,7 +6,6 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz import problem_text
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.commands.posed_frames import posed_frames
 from sambot_viz.errors import UsageError
@@ -14,6 +13,7 @@ from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
 from sambot_viz.frames.frame_tree import FrameTree
 from sambot_viz.inputs import Inputs
+from sambot_viz.problems import write_problems
 from sambot_viz.robot.model import Robot
 
 Draw = Callable[[FrameTree, "Robot | None"], str]
@@ -32,7 +32,7 @@ def run(words: list[str]) -> int:
     draw = tree_dot if output is None else _format(output)
     robot = Inputs(options).robot()
     found = [p for p in robot.problems if p.severity != "info"]
-    problem_text.write(found, model=options.model)
+    write_problems(found, model=options.model)
     drawing = draw(posed_frames(robot, options), robot)
     if output is None:
         sys.stdout.write(drawing)

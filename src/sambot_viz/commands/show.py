@@ -9,12 +9,12 @@ import sys
 import threading
 from collections.abc import Sequence
 
-from sambot_viz import problem_text
 from sambot_viz._version import __version__
 from sambot_viz.commands import large_blocks
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
+from sambot_viz.problems import write_problems
 
 EPILOG = """\
 commands:
@@ -135,7 +135,7 @@ def _report_start(inputs: Inputs) -> None:
     from sambot_viz.commands.posed_frames import start_state
 
     options = inputs.options
-    problem_text.write(inputs.problems(), model=options.model)
+    write_problems(inputs.problems(), model=options.model)
     if inputs.refusal() is None:
         start_state(inputs.robot(), options)
     if inputs.refusal() is not None or inputs.broken_config is not None:
@@ -153,7 +153,7 @@ class _Reports:
 
     def __call__(self, problems: Sequence[Problem]) -> None:
         if problems:
-            problem_text.write(problems, model=self.model)
+            write_problems(problems, model=self.model)
         else:
             sys.stderr.write("sambot-viz: all problems are fixed\n")
 

@@ -13,12 +13,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz import problem_text
 from sambot_viz.commands.command_line import Parser, parse, warn
 from sambot_viz.commands.posed_frames import start_state
 from sambot_viz.errors import UsageError
 from sambot_viz.files import write_atomically
 from sambot_viz.inputs import Inputs
+from sambot_viz.problems import write_problems
 
 if TYPE_CHECKING:
     from sambot_viz.export.view_picture import Picture
@@ -34,7 +34,7 @@ def run(words: list[str]) -> int:
     width, height = _size(given.size)
     output = _output(given.output)
     inputs = Inputs(options)
-    problem_text.write(inputs.robot().problems, model=options.model)
+    write_problems(inputs.robot().problems, model=options.model)
     start_state(inputs.robot(), options)
 
     from sambot_viz.export.chromium import Chromium
@@ -43,7 +43,7 @@ def run(words: list[str]) -> int:
 
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions()[0]
-        problem_text.write(session.config.problems)
+        write_problems(session.config.problems)
         _report_fixed_frame(session)
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:

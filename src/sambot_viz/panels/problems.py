@@ -13,8 +13,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Level, Row
 from sambot_viz.panels.status_rows import place_of
 from sambot_viz.panels.unfolded import LazyRows
-from sambot_viz.problem_groups import SEVERITIES, ProblemGroup, group_problems
-from sambot_viz.problem_text import problem_lines
+from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
 from sambot_viz.session import Session
 from sambot_viz.session.shown_problems import last_good_note, problems_of
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.displays.display import robot_displays
 from sambot_viz.errors import Problem
-from sambot_viz.problem_groups import in_order
+from sambot_viz.problems import in_order
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session
