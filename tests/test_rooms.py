@@ -108,7 +108,7 @@ ROOMS: Mapping[str, Row] = {
         "numpy viser",
     ),
     "server": Row(
-        "displays joints meshes open_config options page panels robot rviz session "
+        "displays inputs joints meshes options page panels robot rviz session "
         "viser_private",
         "msgspec numpy viser watchfiles websockets",
         "asyncio concurrent http socket threading",
@@ -119,14 +119,14 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent signal subprocess threading",
     ),
     "commands": Row(
-        "_version bundled checks export flags frames inputs joints open_config options "
+        "_version bundled checks export flags frames inputs joints options "
         "problems robot rviz server session visualizer",
         "PIL segno",
         "signal webbrowser",
     ),
     "jupyter": Row("bundled cli flags options", "", "http signal socket ssl threading"),
     # The hall.
-    "__init__": Row("_version checks frames open_config robot rviz visualizer"),
+    "__init__": Row("_version checks frames inputs robot rviz visualizer"),
     "__main__": Row("cli"),
     "_version": Row(),
     "bundled": Row("robot"),
@@ -135,11 +135,10 @@ ROOMS: Mapping[str, Row] = {
     "files": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
-        "bundled joints open_config options robot rviz",
+        "bundled displays joints options robot rviz tools views",
         "yourdfpy",
         "concurrent threading",
     ),
-    "open_config": Row("displays rviz tools views"),
     "flags": Row("frames joints"),
     "options": Row("flags frames joints robot rviz", "yourdfpy"),
     "problems": Row(),
@@ -462,6 +461,10 @@ def test_the_public_names_are_those_that_users_know() -> None:
 
     assert sambot_viz.__all__ == PUBLIC_NAMES
     assert dir(sambot_viz) == PUBLIC_NAMES
+    source = ast.parse(Path(sambot_viz.__file__ or "").read_text("utf-8"))
+    imports = [node for node in ast.walk(source) if isinstance(node, ast.ImportFrom)]
+    seen = {name.asname for node in imports for name in node.names if name.asname}
+    assert seen == set(PUBLIC_NAMES)
     for name in PUBLIC_NAMES:
         assert getattr(sambot_viz, name) is not None
     with pytest.raises(AttributeError, match="no attribute 'Robto'"):

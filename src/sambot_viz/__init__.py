@@ -9,68 +9,45 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from sambot_viz._version import __version__
+from sambot_viz._version import __version__ as __version__
 
+# Type checkers need the names as imports, the program as a table; a test compares them.
 if TYPE_CHECKING:
-    from sambot_viz.checks import check
-    from sambot_viz.errors import (
-        ConfigError,
-        FrameError,
-        JointError,
-        Problem,
-        RobotError,
-        SambotVizError,
-        ServerError,
-        UsageError,
-    )
-    from sambot_viz.frames import Transform
-    from sambot_viz.open_config import load_config
-    from sambot_viz.robot import load_robot
-    from sambot_viz.robot.joint import Joint
-    from sambot_viz.robot.model import Link, Robot
-    from sambot_viz.rviz import RvizConfig
-    from sambot_viz.visualizer import Visualizer
+    from sambot_viz.checks import check as check
+    from sambot_viz.errors import ConfigError as ConfigError
+    from sambot_viz.errors import FrameError as FrameError
+    from sambot_viz.errors import JointError as JointError
+    from sambot_viz.errors import Problem as Problem
+    from sambot_viz.errors import RobotError as RobotError
+    from sambot_viz.errors import SambotVizError as SambotVizError
+    from sambot_viz.errors import ServerError as ServerError
+    from sambot_viz.errors import UsageError as UsageError
+    from sambot_viz.frames import Transform as Transform
+    from sambot_viz.inputs import load_config as load_config
+    from sambot_viz.robot import load_robot as load_robot
+    from sambot_viz.robot.joint import Joint as Joint
+    from sambot_viz.robot.model import Link as Link
+    from sambot_viz.robot.model import Robot as Robot
+    from sambot_viz.rviz import RvizConfig as RvizConfig
+    from sambot_viz.visualizer import Visualizer as Visualizer
 
-_HOMES = {
-    "ConfigError": "errors",
-    "FrameError": "errors",
-    "Joint": "robot.joint",
-    "JointError": "errors",
-    "Link": "robot.model",
-    "Problem": "errors",
-    "Robot": "robot.model",
-    "RobotError": "errors",
-    "RvizConfig": "rviz",
-    "SambotVizError": "errors",
-    "ServerError": "errors",
-    "Transform": "frames",
-    "UsageError": "errors",
-    "Visualizer": "visualizer",
-    "check": "checks",
-    "load_config": "open_config",
-    "load_robot": "robot",
+_MODULES = {
+    "checks": "check",
+    "errors": "ConfigError FrameError JointError Problem RobotError SambotVizError "
+    "ServerError UsageError",
+    "frames": "Transform",
+    "inputs": "load_config",
+    "robot": "load_robot",
+    "robot.joint": "Joint",
+    "robot.model": "Link Robot",
+    "rviz": "RvizConfig",
+    "visualizer": "Visualizer",
 }
+_HOMES = {name: home for home, names in _MODULES.items() for name in names.split()}
 
-__all__ = [
-    "ConfigError",
-    "FrameError",
-    "Joint",
-    "JointError",
-    "Link",
-    "Problem",
-    "Robot",
-    "RobotError",
-    "RvizConfig",
-    "SambotVizError",
-    "ServerError",
-    "Transform",
-    "UsageError",
-    "Visualizer",
-    "__version__",
-    "check",
-    "load_config",
-    "load_robot",
-]
+_NAMES = sorted([*_HOMES, "__version__"])
+
+__all__ = [*_NAMES]  # noqa: PLE0604  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 def __getattr__(name: str) -> Any:
@@ -81,4 +58,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return list(__all__)
+    return _NAMES

@@ -7,6 +7,7 @@ import os.path
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, InvalidStateError, wait
+from functools import cache
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -22,8 +23,42 @@ if TYPE_CHECKING:
 
     from sambot_viz.joints.presets import Presets
     from sambot_viz.robot.model import Robot
-    from sambot_viz.rviz import RvizConfig
+    from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.document import Document
+
+
+@cache
+def declarations() -> Declarations:
+    """Return the properties that displays, views and tools declare."""
+    # Displays import viser.
+    from sambot_viz.displays.registry import DISPLAYS
+    from sambot_viz.rviz import Declarations
+    from sambot_viz.tools.registry import TOOLS
+    from sambot_viz.views.registry import VIEWS
+
+    return Declarations(
+        displays={kind: display.properties for kind, display in DISPLAYS.items()},
+        views={kind: view.properties for kind, view in VIEWS.items()},
+        tools={kind: tool.properties for kind, tool in TOOLS.items()},
+    )
+
+
+def load_config(path: Path | str) -> RvizConfig:
+    """Read a .rviz file, of ROS 2 or ROS 1.
+
+    Args:
+        path: the file.
+
+    Returns:
+        The document; what is doubtful in it is in `.problems`, what we do not show
+        is kept for saving.
+
+    Raises:
+        ConfigError: the file cannot be read, or is not a .rviz document.
+    """
+    from sambot_viz.rviz import RvizConfig
+
+    return RvizConfig.load(Path(path), declarations())
 
 
 class Inputs:
@@ -177,8 +212,6 @@ class Inputs:
         Raises:
             ConfigError: the bundled config cannot be read.
         """
-        # The displays that declare the properties import viser.
-        from sambot_viz.open_config import declarations, load_config
         from sambot_viz.rviz import RvizConfig
 
         given = self._options.config

@@ -7,7 +7,7 @@ import pytest
 from sambot_viz import Visualizer, bundled
 from sambot_viz.checks import check
 from sambot_viz.checks.config_against_robot import check_config
-from sambot_viz.open_config import load_config
+from sambot_viz.inputs import load_config
 from sambot_viz.robot import load_robot
 from sambot_viz.session.shown_problems import last_good_note, problems_of
 

@@ -9,7 +9,7 @@ import pytest
 import viser
 
 from sambot_viz import load_robot
-from sambot_viz.open_config import declarations
+from sambot_viz.inputs import declarations
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig

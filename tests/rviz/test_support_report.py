@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.open_config import declarations as load_declarations
+from sambot_viz.inputs import declarations as load_declarations
 from sambot_viz.rviz import Declarations, RvizConfig
 from sambot_viz.rviz.support_report import config_report
 

@@ -16,7 +16,7 @@ def run(words: list[str]) -> int:
     options = parser().parse_args(words)
     if not Path(options.file).is_file():
         raise UsageError(f"no config '{options.file}': there is no such file")
-    from sambot_viz.open_config import load_config
+    from sambot_viz.inputs import load_config
     from sambot_viz.rviz.support_report import config_report
 
     found = config_report(load_config(options.file))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import ConfigError
-from sambot_viz.open_config import load_config
+from sambot_viz.inputs import load_config
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain

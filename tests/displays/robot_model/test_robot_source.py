@@ -11,7 +11,7 @@ import pytest
 from sambot_viz import Visualizer
 from sambot_viz.displays.robot_model.robot_source import OUTSIDE
 from sambot_viz.errors import RobotError, UsageError
-from sambot_viz.open_config import declarations
+from sambot_viz.inputs import declarations
 from sambot_viz.options import Options
 from sambot_viz.robot.load import load_robot
 from sambot_viz.robot.model import Robot
