@@ -15,11 +15,12 @@ from sambot_viz.options import Options
 from sambot_viz.visualizer import Visualizer
 
 ROOT = Path(__file__).resolve().parents[1]
+PAGES = ("README.md", "docs/guide.md")
 
 
 def written_commands() -> list[str]:
-    """Every line in the README that calls the program, as a user types it."""
-    text = (ROOT / "README.md").read_text("utf-8")
+    """Every line in README and guide that calls the program, as a user types it."""
+    text = "".join((ROOT / name).read_text("utf-8") for name in PAGES)
     blocks = re.findall(r"```(?:sh|console|text)\n(.*?)```", text, re.DOTALL)
     lines = [line.removeprefix("$ ") for block in blocks for line in block.split("\n")]
     return [line for line in lines if line.startswith("sambot-viz ")]
@@ -31,12 +32,12 @@ def test_the_page_of_the_command_line_is_that_of_the_parsers() -> None:
     )
 
 
-def test_the_readme_calls_every_command_that_it_names() -> None:
+def test_the_readme_calls_the_program() -> None:
     assert len(written_commands()) >= 6
 
 
 @pytest.mark.parametrize("line", written_commands())
-def test_a_command_line_of_the_readme_is_accepted(line: str) -> None:
+def test_a_command_line_of_the_documents_is_accepted(line: str) -> None:
     words = shlex.split(line)[1:]
     command = words.pop(0) if words[0] in COMMANDS else "show"
     parser_of(command).parse_args([word for word in words if ":=" not in word])
@@ -50,7 +51,12 @@ def test_every_option_is_documented_for_python_users() -> None:
 
 
 def test_links_of_the_documents_lead_to_files() -> None:
-    for name in ("README.md", ".github/CONTRIBUTING.md", "CHANGELOG.md"):
+    for name in (
+        *PAGES,
+        "docs/deploy.md",
+        ".github/CONTRIBUTING.md",
+        "CHANGELOG.md",
+    ):
         document = ROOT / name
         for link in re.findall(r"\]\(([^)#]+)", document.read_text("utf-8")):
             if not link.startswith("http"):
