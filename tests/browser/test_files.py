@@ -136,7 +136,7 @@ def test_a_file_is_replaced_after_a_question_and_a_bad_name_is_kept(
     user.keys("Control+a")
     user.type("other")
     user.keys("Enter")
-    user.reads("other.rviz exists already. Replace it?")
+    user.reads("other.rviz already exists. Replace it?")
     assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 30
     assert user.find("button", "Cancel", ("dialog", "Save Config As")).state("focused")
     user.click("button", "Replace")
@@ -165,7 +165,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     user.enter(user.row("Views", "Current View", "Distance").one("textbox"), "3")
     choose(user, "File", "Open Config")
     user.find("dialog", "Unsaved changes")
-    user.click("button", "Save them")
+    user.click("button", "Save", ("dialog", "Unsaved changes"))
     user.find("dialog", "Open Config")
     user.click("option", "other.rviz")
     user.click("button", "Open")

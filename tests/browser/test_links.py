@@ -21,7 +21,7 @@ Open = Callable[..., ViewerPage]
 
 def copied(viewer: ViewerPage) -> str:
     viewer.page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
-    viewer.user.menu("Edit", "Copy link to this view")
+    viewer.user.menu("Edit", "Copy permalink")
     viewer.user.reads("Copied: a link to this view")
     return viewer.user.clipboard
 

@@ -298,7 +298,7 @@ def test_tools_work_with_a_finger(
     until(viewer, lambda: len(tools.selection) > 1)
     assert view_of(session).camera == before
     # The page has drawn what the rectangle has selected before the next tap.
-    viewer.user.reads(f"Selected: {len(tools.selection)} things")
+    viewer.user.reads(f"{len(tools.selection)} items selected")
     viewer.wait_for_frames()
     viewer.user.click("button", "Measure", tools_bar)
     chosen(session, viewer, "Measure")

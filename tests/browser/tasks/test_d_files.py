@@ -68,7 +68,7 @@ def test_task_32_save_the_config_under_a_new_name(desk: Desk) -> None:
     other.write_text(file.read_text("utf-8"), "utf-8")
     cell_size(desk, "0.75")
     save_as(desk, "of another")
-    desk.user.reads("exists already. Replace it?")
+    desk.user.reads("already exists. Replace it?")
     assert size_in(other) == 0.5
     desk.user.click("button", "Replace", DIALOG)
     desk.user.gone(*DIALOG)

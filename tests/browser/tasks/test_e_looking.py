@@ -116,7 +116,7 @@ def test_task_42_keep_a_view_and_return_to_it(s: Desk) -> None:
     set_number(s, "Yaw", "0.3")
     s.user.until(lambda: is_near(s, "Yaw", 0.3))
     s.user.click_on(row(s, saved).all("gridcell")[0])
-    s.user.click("button", "Use", ("region", "Views"))
+    s.user.click("button", "Go to", ("region", "Views"))
     s.user.until(lambda: is_near(s, "Yaw", 2.2) and is_near(s, "Distance", 1.7))
     s.user.click("button", "Remove", ("region", "Views"))
     s.user.until(lambda: saved not in s.user.rows("Views"))

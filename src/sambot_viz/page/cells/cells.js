@@ -57,7 +57,7 @@ function VectorCell({ row, tab }) {
         return "value" in read ? read.value : NaN;
       });
     if (values.length !== row.value.length || values.some(Number.isNaN)) {
-      return `type ${row.value.length} numbers, such as ${row.value.map(() => "0").join("; ")}`;
+      return `Enter ${row.value.length} numbers, e.g. ${row.value.map(() => "0").join("; ")}`;
     }
     send(row.id, values);
   };

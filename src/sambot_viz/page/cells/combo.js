@@ -144,7 +144,7 @@ function Choices({ id, label, of, offered, at, value, choose }) {
         e.preventDefault();
         choose(name);
       }}
-      >${isNew ? html`${name} <span class="none">there is none yet</span>` : name}</li>`,
+      >${isNew ? html`${name} <span class="none">not known yet</span>` : name}</li>`,
     )}
     ${!offered.length && html`<li class="none">no names yet</li>`}
   </ul>`;

@@ -27,7 +27,10 @@ export function outside(row, value) {
   // A limit typed as it is shown, without all its digits, means the limit.
   const near = (0.6 * 10 ** -limitDigits(unit)) / factor;
   if (value >= low - near && value <= high + near) return "";
-  return `${writtenNumber(value * factor, limitDigits(unit))} ${unit} is outside ${limits(row)}`;
+  const written = (/** @type {number} */ end) => writtenNumber(end * factor, limitDigits(unit));
+  if (!Number.isFinite(high)) return `Must be at least ${written(low)} ${unit}`.trim();
+  if (!Number.isFinite(low)) return `Must be at most ${written(high)} ${unit}`.trim();
+  return `${written(value)} ${unit} is outside ${limits(row)}`;
 }
 
 /** @param {string} unit */

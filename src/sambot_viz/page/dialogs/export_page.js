@@ -9,9 +9,9 @@ import { Dialog } from "./dialog.js";
 
 /** @type {[string, string, string][]} */
 const MOTIONS = [
-  ["past", "The last minute", "how the joints and the robot have moved"],
+  ["past", "The last minute", "the recorded motion of joints and robot"],
   ["sweep", "All joints", "each to its limits and back, one after the other"],
-  ["none", "Nothing", "a view to turn and zoom"],
+  ["none", "Nothing", "a view to rotate and zoom"],
 ];
 /** The last choice. */
 const last = new Cell("past", "motion");
@@ -29,8 +29,8 @@ export function ExportPage({ close }) {
     close();
   };
   return html`<${Dialog} title="Export Page" close=${close} submit=${save}>
-    <p>The view as one HTML file for your computer. It opens without this program and without a network.</p>
-    <fieldset><legend>What moves in it</legend>
+    <p>Save the view as one HTML file. It opens without this program and without a network.</p>
+    <fieldset><legend>Motion</legend>
       ${MOTIONS.map(
         ([id, name, what]) => html`<label class="line choice" key=${id}>
         <input type="radio" name="motion" value=${id} checked=${motion === id} data-first=${motion === id ? "" : undefined}

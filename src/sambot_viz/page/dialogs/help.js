@@ -14,35 +14,35 @@ const KEYS = [
       ["Left button", "turn"],
       ["Middle button, or Shift and left", "move"],
       ["Right button, or wheel", "zoom"],
-      ["F", "look at what is selected, or else at the robot"],
-      ["Z", "bring the view to where its type begins"],
-      ["R", "draw everything again"],
-      ["H", "hide all panels, show them again"],
-      ["Esc", "leave the tool"],
+      ["F", "look at the selection, or at the robot"],
+      ["Z", "reset the view to its default"],
+      ["R", "reload meshes and redraw"],
+      ["H", "hide or show all panels"],
+      ["Esc", "back to the first tool"],
       ["8 2 4 6, 5", "drive, stop"],
     ],
   ],
   [
     "Rows",
     [
-      ["↑ ↓ Home End", "go to another row"],
-      ["→ ←", "unfold, fold"],
-      ["Space", "tick"],
+      ["↑ ↓ Home End", "select another row"],
+      ["→ ←", "expand, collapse"],
+      ["Space", "toggle"],
       ["Enter", "edit the value; accept it"],
-      ["Esc", "put the old value back"],
+      ["Esc", "cancel the edit"],
       ["↑ ↓ in a number", "one step; with Shift ten, with Alt a tenth"],
       ["F2, Delete", "rename, remove a display or a saved view"],
       ["Alt+↑, Alt+↓", "move a display"],
       ["Ctrl+C", "copy the row"],
-      ["Shift+F10", "more that can be done with the row"],
+      ["Shift+F10", "context menu"],
     ],
   ],
   [
     "Numbers",
     [
-      ["1.5, 1e-3, (1+2)/4", "a number, or a sum"],
-      ["90deg, 15 mm", "in this unit, whatever unit is shown"],
-      ["pi/2, tau", "in radians: pi is half a turn, also where degrees are shown"],
+      ["1.5, 1e-3, (1+2)/4", "a number or a sum"],
+      ["90deg, 15 mm", "in this unit, whichever unit is shown"],
+      ["pi/2, tau", "in radians, even where degrees are shown"],
     ],
   ],
   [
@@ -50,7 +50,7 @@ const KEYS = [
     [
       ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
       ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],
-      ["Tab", "to the next field, button or panel"],
+      ["Tab", "next field, button or panel"],
     ],
   ],
 ];
@@ -71,7 +71,7 @@ export function Keys({ close }) {
         ${list.map(([keys, does]) => html`<tr key=${keys}><th scope="row"><kbd>${keys}</kbd></th><td>${does}</td></tr>`)}
       </table></section>`,
     )}</div>
-    <p class="soft">The letters act while no text is being typed.</p>
+    <p class="soft">Letter keys work while you are not typing.</p>
     <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
   </${Dialog}>`;
 }
@@ -83,7 +83,7 @@ export function About({ close }) {
     <p>Shows URDF and xacro robots in the browser, as RViz does, without ROS.</p>
     <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with Preact (MIT) and htm (Apache-2.0).${" "}
       <a href="./sambot/licenses.txt" target="_blank" rel="noopener">The licences of Preact and htm</a></p>
-    <p class="soft">What is shown of RViz's displays is in docs/displays.md of the program, how to start it in docs/command-line.md.</p>
+    <p class="soft">docs/displays.md lists the supported displays, docs/command-line.md the options.</p>
     <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
   </${Dialog}>`;
 }

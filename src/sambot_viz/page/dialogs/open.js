@@ -23,11 +23,11 @@ export function OpenConfig({ close }) {
       show(({ close: shut }) => html`<${SaveAs} close=${shut} then=${() => show(OpenConfig)} />`);
   };
   return html`<${Dialog} title="Unsaved changes" close=${close} submit=${save}>
-    <p>${`${state.name || "This config"} has changes that are not saved. Another config takes its place.`}</p>
+    <p>${`${state.name || "This config"} has unsaved changes. Save them before opening another config?`}</p>
     <${SaveRefused} saving=${saving} />
     <div class="buttons end">
-      <button type="submit" class="main" data-first>${state.own ? "Save them" : "Save them as…"}</button>
-      <button type="button" onClick=${() => setDiscard(true)}>Discard them</button>
+      <button type="submit" class="main" data-first>${state.own ? "Save" : "Save as…"}</button>
+      <button type="button" onClick=${() => setDiscard(true)}>Don’t save</button>
       <button type="button" onClick=${close}>Cancel</button>
     </div>
   </${Dialog}>`;
@@ -75,7 +75,7 @@ function Choose({ close, folder, name }) {
         }}>
         ${names.map((/** @type {string} */ one) => html`<option key=${one} value=${one}>${one}</option>`)}
       </select>`
-        : html`<p class="empty">${asked && names ? "There are no .rviz files." : "Reading the folder…"}</p>`
+        : html`<p class="empty">${asked && names ? "This folder has no .rviz files." : "Reading the folder…"}</p>`
     }
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     <div class="buttons end">

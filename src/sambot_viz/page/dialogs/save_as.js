@@ -42,7 +42,7 @@ export function SaveAs({ close, then }) {
       }} />
       <span class="ending">.rviz</span></label>
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
-    ${exists && wanted && html`<p class="question" role="alert">${`${exists} exists already. Replace it?`}</p>`}
+    ${exists && wanted && html`<p class="question" role="alert">${`${exists} already exists. Replace it?`}</p>`}
     <div class="buttons end">
       ${
         exists && wanted

@@ -24,7 +24,7 @@ export function SaveImage({ close }) {
     <input type="number" aria-label=${name} ref=${ref} min="16" max=${LONGEST} step="1" required value=${value}
       data-first=${name === "Width" ? "" : undefined} onFocus=${(/** @type {any} */ e) => e.target.select()} /> <span class="unit">pixels</span></label>`;
   return html`<${Dialog} title="Save Image" close=${close} submit=${save}>
-    <p>The view with its background, without the panels, as a PNG file for your computer.</p>
+    <p>Save the view with its background, without the panels, as a PNG file.</p>
     ${side(width, "Width", size.value[0])}
     ${side(height, "Height", size.value[1])}
     <div class="buttons end">

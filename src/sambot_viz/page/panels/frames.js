@@ -34,7 +34,7 @@ export function FramesPanel() {
   return html`<div class="frames">
     <${Tree} panel="frames" label="Frames" onKey=${key} />
     <${Add}>
-      <button disabled=${!of} title="Remove the chosen static transform (Delete)" onClick=${remove}>Remove</button>
+      <button disabled=${!of} title="Remove the selected static transform (Delete)" onClick=${remove}>Remove</button>
     </${Add}>
   </div>`;
 }

@@ -70,8 +70,8 @@ export function JointsPanel() {
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
-      <button class="drives" onClick=${() => act("joints/center")} title="All joints to their start values">Center</button>
-      <button class="drives" onClick=${() => act("joints/randomize")} title="All joints to random values of their ranges">Randomize</button>
+      <button class="drives" onClick=${() => act("joints/center")} title="Move all joints to their start positions">Center</button>
+      <button class="drives" onClick=${() => act("joints/randomize")} title="Move all joints to random positions within their limits">Randomize</button>
       <${Copy} />
       <${Poses} />
     </div>

@@ -53,7 +53,7 @@ function Form({ close }) {
       <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`} onClick=${() => remove(name)}><${Icon} name="trash" /></button>
     </div>`,
     )}
-    ${!names.length && html`<p class="empty">No pose is saved yet</p>`}
+    ${!names.length && html`<p class="empty">No poses saved yet</p>`}
     <form onSubmit=${save}>
       <input class="search" ref=${field} aria-label="Name of the pose" placeholder="Name of this pose" maxlength="60"
         autocomplete="off" spellcheck=${false} onInput=${(/** @type {any} */ e) => setTyped(e.target.value)} />

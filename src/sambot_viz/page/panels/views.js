@@ -42,14 +42,14 @@ export function ViewsPanel() {
     <header class="title">Views</header>
     <div class="above">
       <span aria-hidden="true">Type:</span> ${type && html`<${ValueCell} row=${type} tab=${0} />`}
-      <button title="Zero (Z): bring the view to where its type begins" onClick=${() => act("tools/zero")}>Zero</button>
+      <button title="Zero (Z): reset the view to its default" onClick=${() => act("tools/zero")}>Zero</button>
     </div>
     <${Tree} panel="views" label="Views" onKey=${key} onDouble=${double} renaming=${renaming} rename=${rename} />
     <div class="buttons">
       <${Save} />
-      <button disabled=${!saved} title="Look as the chosen saved view does (Enter)" onClick=${() => saved && use(saved)}>Use</button>
-      <button class="drives" disabled=${!saved} title="Remove the chosen saved view (Delete)" onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
-      <button class="drives" disabled=${!saved} title="Give the chosen saved view another name (F2)" onClick=${() => saved && rename(saved.id, null)}>Rename</button>
+      <button disabled=${!saved} title="Go to the selected view (Enter)" onClick=${() => saved && use(saved)}>Go to</button>
+      <button class="drives" disabled=${!saved} title="Remove the selected view (Delete)" onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
+      <button class="drives" disabled=${!saved} title="Rename the selected view (F2)" onClick=${() => saved && rename(saved.id, null)}>Rename</button>
     </div>
   </section>`;
 }
@@ -65,7 +65,7 @@ function Save() {
     before.current = null;
     reveal("views", made, false);
   });
-  return html`<button class="drives" title="Keep this view in the list below" onClick=${() => {
+  return html`<button class="drives" title="Save the current view to the list" onClick=${() => {
     before.current = new Set(saved);
     act("views/save");
   }}>Save</button>`;

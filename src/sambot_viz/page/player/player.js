@@ -134,7 +134,7 @@ function bar(player) {
     })
   );
   const time = element("span", { class: "time", "aria-hidden": "true" });
-  const loop = element("button", { title: "Begin again at the end" }, "Loop");
+  const loop = element("button", { title: "Repeat at the end" }, "Loop");
   player.changed = () => {
     play.textContent = player.playing ? "Pause" : "Play";
     loop.setAttribute("aria-pressed", String(player.loop));

@@ -38,7 +38,7 @@ function offer(text) {
   dialog.setAttribute("aria-label", "Text to copy");
   dialog.className = "copy";
   dialog.append(
-    "This browser does not let the page copy. Press Ctrl+C (\u2318C on a Mac):",
+    "This browser does not allow the page to copy. Press Ctrl+C (\u2318C on a Mac):",
     area,
     close,
   );

@@ -28,7 +28,7 @@ function takeTyped() {
 }
 
 const sayNoDisk = () =>
-  tell("This config is yours alone: File > Download Config saves it on your computer", "info");
+  tell("This config is private: File > Download Config saves it on your computer", "info");
 
 export function save() {
   if (!hasDisk()) return sayNoDisk();
@@ -73,9 +73,9 @@ export function FileName() {
   const where = own
     ? ""
     : name
-      ? "This config comes with the program; saving asks for a name."
+      ? "This config comes with the program; saving asks for a new name."
       : "";
-  const title = `${name || "no file yet"}: ${modified ? "with changes that are not saved." : "without changes."} ${where}`;
+  const title = `${name || "no file yet"}: ${modified ? "unsaved changes." : "no changes."} ${where}`;
   return html`<span class="file-name" title=${title}><bdi>${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
 }
 

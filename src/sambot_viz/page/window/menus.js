@@ -55,7 +55,7 @@ const menus = (panels, hideAll) => [
       edit("undo", "Ctrl+Z"),
       edit("redo", "Ctrl+Shift+Z"),
       null,
-      { name: "Copy link to this view", does: copyLink, off: !rows.can("permalink/copy") },
+      { name: "Copy permalink", does: copyLink, off: !rows.can("permalink/copy") },
     ],
   },
   {

@@ -55,9 +55,7 @@ rows.listen(EDITED, () => {
 
 rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
 
-rows.listen(WATCHING, () =>
-  tell("You are watching: ask for the wheel, or work on a copy of your own", "warn"),
-);
+rows.listen(WATCHING, () => tell("View only: request control, or open your own copy", "warn"));
 
 rows.listen("notice", () => {
   const said = rows.data("notice");

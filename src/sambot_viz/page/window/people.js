@@ -1,6 +1,6 @@
 // @ts-check
-/* Who drives and who watches: what the status bar says, how a user asks for the wheel,
- * how a presenter gives it, and how a user goes on with a copy of their own. */
+/* The presenter and the viewers: what the status bar says, how a viewer requests control,
+ * how a presenter gives it, and how a user opens a private copy. */
 
 import { html, useRef } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
@@ -13,7 +13,7 @@ import { Cell, useData } from "../state.js";
  * @typedef {{name: string, presenter: boolean, drives: boolean, asks: boolean}} Me
  */
 
-/** What the presenter reads when this user asks. @type {Cell<string>} */
+/** The name under which this user requests control. @type {Cell<string>} */
 const ownName = new Cell("", "name");
 
 /** Rows that this user may not set look and act like those that cannot be set. */
@@ -35,7 +35,7 @@ function usePeople() {
   return state && me ? { state, me } : null;
 }
 
-/** In the status bar: who drives, and what can be done about it. */
+/** In the status bar: who is in control, and what can be done about it. */
 export function People() {
   const now = usePeople();
   if (!now) return null;
@@ -46,51 +46,54 @@ export function People() {
   ) =>
     html`<div class="people">
       <p>${inWords(state, me)}</p>
-      ${state.presented && html`<${Wheel} state=${state} me=${me} close=${close} />`}
+      ${state.presented && html`<${Control} state=${state} me=${me} close=${close} />`}
       ${
         state.copy
           ? html`<button onClick=${() => location.assign("../")}>Back to the shared robot</button>`
           : !me.presenter &&
             html`<button onClick=${() => location.assign("copy/")}
-            title="What you do there, only you see; you can come back at any time">Work on a copy of my own</button>`
+            title="Only you see what you change there. You can return at any time.">Make my own copy</button>`
       }
     </div>`}<//>`;
 }
 
+/** @param {number} number @param {string} noun */
+const count = (number, noun) => `${number || "no"} ${noun}${number === 1 ? "" : "s"}`;
+
 /** @param {State} state @param {Me} me */
 function short(state, me) {
-  if (state.copy) return "My copy";
+  if (state.copy) return "Private copy";
   if (!state.presented) return `${state.browsers} browsers`;
-  const asking = me.presenter && state.asks.length ? `, ${state.asks.length} asking` : "";
-  return `${whoDrives(state, me)}, ${state.watching} watching${asking}`;
+  const requests =
+    me.presenter && state.asks.length ? `, ${count(state.asks.length, "request")}` : "";
+  return `${inControl(state, me)}, ${count(state.watching, "viewer")}${requests}`;
 }
 
 /** @param {State} state @param {Me} me */
-function whoDrives(state, me) {
+function inControl(state, me) {
   const others = me.drives ? state.drive.filter((name) => name !== me.name) : state.drive;
   const who = me.drives ? ["You", ...others] : others;
-  return `${who.length ? who.join(" and ") : "Nobody"} ${me.drives || who.length > 1 ? "drive" : "drives"}`;
+  return `${who.length ? who.join(" and ") : "Nobody"} ${me.drives || who.length > 1 ? "are" : "is"} in control`;
 }
 
 /** @param {State} state @param {Me} me */
 function inWords(state, me) {
-  if (state.copy) return "This is a copy of your own: only you see what you do with it.";
-  if (!state.presented) return `${state.browsers} pages show this robot, and each can move it.`;
-  return `${whoDrives(state, me)}; ${state.watching || "nobody"} ${state.watching > 1 ? "watch" : "watches"}.`;
+  if (state.copy) return "This is a private copy. Only you see what you change.";
+  if (!state.presented) return `${state.browsers} pages show this robot, and each can control it.`;
+  return `${inControl(state, me)}. ${count(state.watching, "viewer")}.`;
 }
 
 /** @param {{state: State, me: Me, close: () => void}} props */
-function Wheel({ state, me, close }) {
+function Control({ state, me, close }) {
   const name = useRef(/** @type {any} */ (null));
   if (me.presenter) {
     return html`<${AskList} asks=${state.asks} />
-      ${state.given && html`<button onClick=${() => act("role/take")}>Take the wheel back</button>`}`;
+      ${state.given && html`<button onClick=${() => act("role/take")}>Take back control</button>`}`;
   }
-  if (me.drives)
-    return html`<button onClick=${() => act("role/back")}>Give the wheel back</button>`;
+  if (me.drives) return html`<button onClick=${() => act("role/back")}>Release control</button>`;
   if (me.asks) {
-    return html`<p>You have asked for the wheel.</p>
-      <button onClick=${() => act("role/back")}>Do not ask any more</button>`;
+    return html`<p>You have requested control.</p>
+      <button onClick=${() => act("role/back")}>Cancel the request</button>`;
   }
   const ask = () => {
     ownName.set(name.current.value.trim());
@@ -102,20 +105,20 @@ function Wheel({ state, me, close }) {
     ask();
   }}>
     <label>Your name <input class="field" maxlength="40" placeholder=${me.name} ref=${name} defaultValue=${ownName.value} /></label>
-    <button type="submit">Ask for the wheel</button>
+    <button type="submit">Request control</button>
   </form>`;
 }
 
 /** @param {{asks: [number, string][]}} props */
 function AskList({ asks }) {
   return html`${asks.map(
-    ([id, name]) => html`<p class="ask" key=${id}>${`${name} asks for the wheel.`}
-    <button onClick=${() => act("role/give", [id])} aria-label=${`Give the wheel to ${name}`}>Give</button>
+    ([id, name]) => html`<p class="ask" key=${id}>${`${name} requests control.`}
+    <button onClick=${() => act("role/give", [id])} aria-label=${`Give control to ${name}`}>Give control</button>
     <button onClick=${() => act("role/refuse", [id])} aria-label=${`Not now, ${name}`}>Not now</button></p>`,
   )}`;
 }
 
-/** Over the view of a presenter: who asks. */
+/** Over the view of a presenter: the requests for control. */
 export function Asking() {
   const now = usePeople();
   const asks = now?.me.presenter ? now.state.asks : [];

@@ -19,7 +19,7 @@ export function StatusBar({ problems }) {
   const tool = useData("tools/hint");
   const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.text) || "";
   return html`<footer class="statusbar" aria-label="Status bar">
-    <button class="drives" title="Reset (R): draw everything again, with meshes as they are in their files"
+    <button class="drives" title="Reset (R): reload meshes and redraw"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <${ProblemCount} ...${problems} />
     <${Selected} />
@@ -36,7 +36,7 @@ export function StatusBar({ problems }) {
 function Selected() {
   const names = useData("tools/selected") || [];
   if (!names.length) return null;
-  const words = `Selected: ${names.length === 1 ? names[0] : `${names.length} things`}`;
+  const words = names.length === 1 ? `Selected: ${names[0]}` : `${names.length} items selected`;
   return html`<span class="selected" role="status" title=${words}>${words}</span>`;
 }
 
@@ -59,7 +59,7 @@ function Progress() {
     <progress aria-label=${words} value=${read[0]} max=${read[1]}></progress></span>`;
 }
 
-/** Pictures drawn in the last second; none are drawn while nothing changes. */
+/** Frames per second; none are drawn while nothing changes. */
 function FramesPerSecond() {
   const [drawn, setDrawn] = useState(0);
   useEffect(() => {
@@ -71,5 +71,5 @@ function FramesPerSecond() {
     }, 1000);
     return () => clearInterval(timer);
   }, []);
-  return html`<span class="fps" title="Pictures drawn in the last second; while nothing moves, none are">${drawn > 1 ? `${drawn} fps` : "at rest"}</span>`;
+  return html`<span class="fps" title="Frames per second; nothing is drawn while nothing moves">${drawn > 1 ? `${drawn} fps` : "idle"}</span>`;
 }

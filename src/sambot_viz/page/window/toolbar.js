@@ -23,14 +23,14 @@ export function Toolbar() {
   return html`<header class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
     ${tools.map((tool) => html`<${ToolButton} key=${tool.name} tool=${tool} />`)}
     <span class="rule"></span>
-    <${Button} icon="focus" name="Focus" keys="F" help="Look at what is selected, or else at the whole robot."
+    <${Button} icon="focus" name="Focus" keys="F" help="Look at the selection, or at the whole robot if nothing is selected."
       onClick=${() => act("tools/focus", [null, null])} />
-    <${Button} icon="zero" name="Zero" keys="Z" help="Bring the view to where its type begins." onClick=${() => act("tools/zero")} />
+    <${Button} icon="zero" name="Zero" keys="Z" help="Reset the view to its default." onClick=${() => act("tools/zero")} />
     <span class="gap"></span>
     <${EditButton} id="undo" keys="Ctrl+Z" />
     <${EditButton} id="redo" keys="Ctrl+Shift+Z" />
     <${FullScreen} />
-    <${Button} icon="hide" name="Hide panels" keys="H" help="The view fills the window; H brings the panels back." bare
+    <${Button} icon="hide" name="Hide panels" keys="H" help="The view fills the window; H shows the panels again." bare
       onClick=${togglePanels} />
   </header>`;
 }
