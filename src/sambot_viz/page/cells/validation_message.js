@@ -1,19 +1,23 @@
 // @ts-check
-/* Why a value was refused: over what is below its row, so that nothing moves under the hand. */
+/* Validation message, overlaid so that the layout does not shift. */
 
 import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
 
 /**
- * Its parent is what it stands below, or above where there is more room.
+ * Shown below its parent, or above it where there is more room.
  * @param {{text: string}} props
  */
-export function Why({ text }) {
-  const element = useRef(/** @type {any} */ (null));
+export function ValidationMessage({ text }) {
+  /** @type {Ref} */
+  const element = useRef(null);
   useLayoutEffect(() => {
-    const why = element.current;
-    const at = why.parentElement.getBoundingClientRect();
-    const end = why.closest(".treebox, aside")?.getBoundingClientRect().bottom ?? innerHeight;
-    why.classList.toggle("higher", at.bottom + why.offsetHeight > Math.min(end, innerHeight));
+    const message = element.current;
+    const at = /** @type {HTMLElement} */ (message.parentElement).getBoundingClientRect();
+    const end = message.closest(".treebox, aside")?.getBoundingClientRect().bottom ?? innerHeight;
+    message.classList.toggle(
+      "higher",
+      at.bottom + message.offsetHeight > Math.min(end, innerHeight),
+    );
   });
-  return html`<span class="why over-rows" role="alert" ref=${element}>${text}</span>`;
+  return html`<span class="validation over-rows" role="alert" ref=${element}>${text}</span>`;
 }

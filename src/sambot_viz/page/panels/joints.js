@@ -11,7 +11,7 @@ import { Popup } from "../window/popup.js";
 import { Cell, degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
 import { formula, limits } from "../cells/units.js";
-import { Why } from "../cells/validation_message.js";
+import { ValidationMessage } from "../cells/validation_message.js";
 import { Poses } from "./poses.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -154,7 +154,7 @@ function TurnRate() {
   if (!row) return null;
   const why = refusals.get(row.id);
   return html`<label class="rate" title=${row.help}>Turn rate <${NumberCell} row=${row} tab=${0} room=${NARROW} /></label>
-    ${why && html`<${Why} text=${why} />`}`;
+    ${why && html`<${ValidationMessage} text=${why} />`}`;
 }
 
 /** Folds all groups, or unfolds them. */

@@ -59,7 +59,7 @@ function Form({ close }) {
         autocomplete="off" spellcheck=${false} onInput=${(/** @type {any} */ e) => setTyped(e.target.value)} />
       <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}</button>
     </form>
-    ${why && html`<p class="why" role="alert">${why}</p>`}
+    ${why && html`<p class="validation" role="alert">${why}</p>`}
     <p class="place">${place}</p>
   </div>`;
 }

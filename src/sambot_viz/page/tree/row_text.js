@@ -1,7 +1,9 @@
 // @ts-check
-/* What stands in a row, as text. */
+/* A row as text, and copying it. */
 
 import { formatNumber } from "../cells/numbers.js";
+import { copy } from "../window/clipboard.js";
+import { rows } from "../wire/channel.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -24,9 +26,22 @@ export function valueText(row) {
  * What Ctrl+C on a row copies: a value alone, a status with all that is below it.
  * @param {Row} row @param {Row[]} below
  */
-export function copyText(row, below) {
+function copyText(row, below) {
   if (row.kind === "note" || row.kind === "lines") return [row, ...below].map(valueText).join("\n");
   if (row.kind === "status")
     return [row, ...below].map((one) => `${one.name}: ${valueText(one)}`).join("\n");
   return valueText(row) || row.name || "";
+}
+
+/** All rows below one. @param {string} id @returns {Row[]} */
+function allBelow(id) {
+  return rows
+    .children(id)
+    .flatMap((child) => [/** @type {Row} */ (rows.get(child)), ...allBelow(child)]);
+}
+
+/** @param {Row} row */
+export function copyRow(row) {
+  const one = row.kind === "status" ? "the status" : valueText(row) ? "the value" : "the name";
+  copy(copyText(row, allBelow(row.id)), one);
 }

@@ -6,9 +6,16 @@ import { CopyButton, ValueCell } from "../cells/cells.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { fold, select, useRow } from "../state.js";
-import { Why } from "../cells/validation_message.js";
+import { ValidationMessage } from "../cells/validation_message.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
+/**
+ * What a row asks its tree to do.
+ * @typedef {{panel: string, hover: boolean, go: (id: string | undefined) => void,
+ *   openMenu: (event: Press | Key, row: Row) => void, onDouble?: (row: Row) => boolean,
+ *   rename?: (id: string, name: string | null) => void,
+ *   drag: (event: Press, row: Row) => void}} TreeApi
+ */
 
 /** A status that is longer is below its name, over the whole width. */
 const BESIDE = 24;
@@ -29,81 +36,115 @@ export function edits(row, key) {
 }
 
 /**
- * @param {{id: string, depth: number, opens: boolean, open: boolean, current: boolean, chosen:
- *   boolean,
- *   renaming: boolean, api: {current: any}}} props
- *   opens: whether rows are below it; current: whether the Tab key stops here; api: of the tree
+ * @param {{id: string, depth: number, opens: boolean, open: boolean, current: boolean,
+ *   chosen: boolean, renaming: boolean, api: {current: TreeApi}}} props
+ *   opens: whether rows are below it; current: whether the Tab key stops here
  */
 export function RowView({ id, depth, opens, open, current, chosen, renaming, api }) {
   const row = /** @type {Row | undefined} */ (useRow(id));
-  /** Whether the row was not selected when a mouse was pressed on it. */
-  const pressed = useRef(false);
+  const mouse = useRowMouse(api, row, chosen);
   if (!row) return null;
   const tab = current ? 0 : -1;
-  const why = refusals.get(id);
-  // A name without a value beside it has the whole width.
-  const alone = row.kind === "group" || row.whole;
-  const long = row.kind === "status" && String(row.value).length > BESIDE;
+  const refused = refusals.get(id);
   const wide = row.kind === "note" || row.kind === "lines";
-  /** @param {any} event */
-  const press = (event) => {
-    pressed.current =
-      event.button === 0 && !chosen && event.pointerType !== "touch" && row.kind !== "slider";
-    if (event.button !== 0 || event.target.closest("input, select, button, label, .twist")) return;
-    select(api.current.panel, id);
-    api.current.drag(event, row);
-  };
-  // As in RViz the first click selects a row, and the next one edits its value.
-  /** @param {any} event */
-  const click = (event) => {
-    if (!pressed.current || !event.target.closest("input.field:not(.rename)")) return;
-    event.stopPropagation();
-    api.current.go(id);
-  };
-  /** @param {any} event */
-  const menu = (event) => {
-    if (!event.target.matches("input.field, input[type=range]")) api.current.openMenu(event, row);
-  };
-  /** @param {any} event */
+  const twist = html`<span class=${`twist ${opens ? (open ? "open" : "") : "none"}`}
+    aria-hidden="true" onClick=${() => opens && fold(id, !open)}></span>`;
+  /** @param {Press} event */
   const twice = (event) => {
-    if (event.target.closest(".twist, input, select, button") || api.current.onDouble?.(row))
-      return;
+    const { onDouble, rename } = api.current;
+    if (event.target.closest(".twist, input, select, button") || onDouble?.(row)) return;
     if (event.currentTarget.matches(".value")) return;
-    if (row.bold && api.current.rename) api.current.rename(id, null);
+    if (row.bold && rename) rename(id, null);
     else if (opens) fold(id, !open);
   };
-  const twist = html`<span class=${`twist${opens ? (open ? " open" : "") : " none"}`} aria-hidden="true"
-    onClick=${() => opens && fold(id, !open)}></span>`;
-  return html`<div class=${`row k-${row.kind} l-${row.level || "none"}${row.bold ? " bold" : ""}${row.off ? " off" : ""}${row.value === false ? " unticked" : ""}${alone ? " alone" : ""}${long ? " long" : ""}`}
-      role="row" aria-level=${depth + 1} aria-expanded=${opens ? String(open) : undefined}
-      aria-selected=${chosen ? "true" : "false"} tabindex=${tab} data-row=${id}
-      style=${`--depth: ${depth}`} title=${api.current.hover && !wide && row.kind !== "slider" ? row.help : undefined}
-      onfocusin=${() => select(api.current.panel, id)} onPointerDownCapture=${press} onClickCapture=${click}
-      onContextMenu=${menu}>
-    ${
-      wide
-        ? html`<${Wide} row=${row} twist=${twist} />${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}`
-        : html`
-    <span class="name" role="gridcell"
-      onMouseDown=${(/** @type {any} */ e) => {
-        if (e.detail > 1 && !e.target.matches("input")) e.preventDefault();
-      }} onDblClick=${twice}>
-      ${twist}
-      ${(row.icon || row.level) && html`<${Icon} name=${row.kind === "status" ? row.level : row.icon || row.level} />`}
-      ${
-        renaming
-          ? html`<${NameField} row=${row} done=${api.current.rename} />`
-          : html`<span class="label" title=${row.name}>${row.name}${row.whole ? `: ${row.value}` : ""}</span>`
-      }
-    </span>
-    ${!alone && html`<span class="value" role="gridcell" onDblClick=${twice}><${ValueCell} row=${row} tab=${tab} /></span>`}`
-    }
-    ${why && html`<${Why} text=${why} />`}
+  const cells = wide
+    ? html`<${Wide} row=${row} twist=${twist} tab=${tab} />`
+    : html`<${Name} row=${row} twist=${twist} twice=${twice} rename=${renaming && api.current.rename} />
+      ${!alone(row) && html`<span class="value" role="gridcell" onDblClick=${twice}><${ValueCell} row=${row} tab=${tab} /></span>`}`;
+  const help = api.current.hover && !wide && row.kind !== "slider" ? row.help : undefined;
+  return html`<div class=${rowClass(row)} role="row" data-row=${id} tabindex=${tab} title=${help}
+      aria-level=${depth + 1} aria-expanded=${opens ? String(open) : undefined}
+      aria-selected=${chosen ? "true" : "false"} style=${`--depth: ${depth}`} ...${mouse}
+      onfocusin=${() => select(api.current.panel, id)}>
+    ${cells}
+    ${refused && html`<${ValidationMessage} text=${refused} />`}
   </div>`;
 }
 
-/** A sentence or lines of a file over the whole width. @param {{row: Row, twist: any}} props */
-function Wide({ row, twist }) {
+/** A name without a value beside it has the whole width. @param {Row} row */
+const alone = (row) => row.kind === "group" || row.whole;
+
+/** @param {Row} row */
+function rowClass(row) {
+  const classes = ["row", `k-${row.kind}`, `l-${row.level || "none"}`];
+  const long = row.kind === "status" && String(row.value).length > BESIDE;
+  const states = { bold: row.bold, off: row.off, unticked: row.value === false, alone: alone(row) };
+  for (const [name, on] of Object.entries({ ...states, long })) if (on) classes.push(name);
+  return classes.join(" ");
+}
+
+/**
+ * What a mouse does on a row. As in RViz the first click selects it, and the next one edits
+ * its value.
+ * @param {{current: TreeApi}} api
+ * @param {Row | undefined} row
+ * @param {boolean} chosen
+ */
+function useRowMouse(api, row, chosen) {
+  /** Whether the row was not selected when a mouse was pressed on it. */
+  const pressed = useRef(false);
+  return {
+    /** @param {Press} event */
+    onPointerDownCapture(event) {
+      if (!row) return;
+      const byMouse = event.button === 0 && event.pointerType !== "touch";
+      pressed.current = byMouse && !chosen && row.kind !== "slider";
+      if (event.button !== 0 || event.target.closest("input, select, button, label, .twist"))
+        return;
+      select(api.current.panel, row.id);
+      api.current.drag(event, row);
+    },
+    /** @param {Press} event */
+    onClickCapture(event) {
+      if (!pressed.current || !event.target.closest("input.field:not(.rename)")) return;
+      event.stopPropagation();
+      api.current.go(row?.id);
+    },
+    /** @param {Press} event */
+    onContextMenu(event) {
+      const inField = event.target.matches("input.field, input[type=range]");
+      if (row && !inField) api.current.openMenu(event, row);
+    },
+  };
+}
+
+/**
+ * @param {{row: Row, twist: any, twice: (event: Press) => void,
+ *   rename?: TreeApi["rename"] | false}} props rename: while it is renamed
+ */
+function Name({ row, twist, twice, rename }) {
+  /** @param {Press} event */
+  const press = (event) => {
+    if (event.detail > 1 && !event.target.matches("input")) event.preventDefault();
+  };
+  const icon = row.kind === "status" ? row.level : row.icon || row.level;
+  const text = `${row.name}${row.whole ? `: ${row.value}` : ""}`;
+  return html`<span class="name" role="gridcell" onMouseDown=${press} onDblClick=${twice}>
+    ${twist}
+    ${icon && html`<${Icon} name=${icon} />`}
+    ${
+      rename
+        ? html`<${NameField} row=${row} done=${rename} />`
+        : html`<span class="label" title=${row.name}>${text}</span>`
+    }
+  </span>`;
+}
+
+/**
+ * A sentence or lines of a file over the whole width.
+ * @param {{row: Row, twist: any, tab: number}} props
+ */
+function Wide({ row, twist, tab }) {
   const text =
     row.kind === "lines"
       ? html`<${Lines} row=${row} />`
@@ -111,7 +152,7 @@ function Wide({ row, twist }) {
   return html`<span class="wide" role="gridcell">
     ${twist}${row.level && row.kind === "note" && html`<${Icon} name=${row.level} />`}${text}
     ${row.place && html`<span class="at">${row.place}</span>`}
-  </span>`;
+  </span>${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}`;
 }
 
 /**
@@ -120,10 +161,12 @@ function Wide({ row, twist }) {
  */
 function Lines({ row }) {
   if (!Array.isArray(row.value)) return html`<pre>${row.value}</pre>`;
-  return html`<pre>${row.value.map(
-    ([number, line]) => html`<div class=${number === row.line ? "marked" : ""}
-    ><span class="line-number" aria-hidden="true">${number}</span>${number === row.line && row.column ? marked(line, row.column - 1) : line || " "}</div>`,
-  )}</pre>`;
+  return html`<pre>${row.value.map(([number, line]) => {
+    const here = number === row.line;
+    const text = here && row.column ? marked(line, row.column - 1) : line || " ";
+    return html`<div class=${here ? "marked" : ""}
+      ><span class="line-number" aria-hidden="true">${number}</span>${text}</div>`;
+  })}</pre>`;
 }
 
 /** @param {string} line @param {number} at */
@@ -134,7 +177,8 @@ function marked(line, at) {
 
 /** @param {{row: Row, done: (id: string, name: string | null) => void}} props */
 function NameField({ row, done }) {
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const element = useRef(null);
   const over = useRef(false);
   // Before the first key that is typed.
   useLayoutEffect(() => {
@@ -144,16 +188,16 @@ function NameField({ row, done }) {
   }, []);
   /** @param {string} text */
   const end = (text) => {
-    if (!over.current) {
-      over.current = true;
-      done(row.id, text);
-    }
+    if (!over.current) done(row.id, text);
+    over.current = true;
+  };
+  /** @param {Key} event */
+  const key = (event) => {
+    event.stopPropagation();
+    if (event.key !== "Enter" && event.key !== "Escape") return;
+    end(event.key === "Enter" ? element.current.value : "");
+    /** @type {HTMLElement | null} */ (element.current.closest("[data-row]"))?.focus();
   };
   return html`<input class="field rename" ref=${element} aria-label="Name" spellcheck=${false}
-    onKeyDown=${(/** @type {any} */ e) => {
-      e.stopPropagation();
-      if (e.key !== "Enter" && e.key !== "Escape") return;
-      end(e.key === "Enter" ? e.target.value : "");
-      e.target.closest("[data-row]").focus();
-    }} onBlur=${(/** @type {any} */ e) => end(e.target.value)} />`;
+    onKeyDown=${key} onBlur=${() => end(element.current.value)} />`;
 }

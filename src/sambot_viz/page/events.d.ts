@@ -1,0 +1,12 @@
+// What handlers of our elements get: events whose targets are elements.
+
+type At<E extends Event, T extends Element> = E & { readonly target: T; readonly currentTarget: T };
+
+/** A mouse, a pen or a finger. */
+type Press = At<PointerEvent, HTMLElement>;
+/** A key, on an element that may be a field. */
+type Key = At<KeyboardEvent, HTMLElement>;
+/** A field with another value, or with the focus. */
+type Change = At<Event, HTMLInputElement>;
+/** What `useRef` gives, for an element that is there as soon as the component is drawn. */
+type Ref<T extends Element = HTMLElement> = { current: T };
