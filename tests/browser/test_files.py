@@ -131,7 +131,7 @@ def test_a_file_is_replaced_after_a_question_and_a_bad_name_is_kept(
     user.find("dialog", "Save Config As")
     user.type("a/b")
     user.keys("Enter")
-    user.reads("give a name without folders")
+    user.reads("Give a name without folders")
     assert user.find("textbox", "Name").value == "a/b"
     user.keys("Control+a")
     user.type("other")

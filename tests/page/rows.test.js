@@ -166,3 +166,34 @@ test("who watches cannot set what others see, and their own rows they can", () =
   rows.watch(false);
   assert.deepEqual([heard, rows.get("a")?.off], [2, undefined]);
 });
+
+test("data and commands are beside the rows, and follow the server too", () => {
+  const { rows } = grid();
+  /** @type {string[]} */
+  const heard = [];
+  for (const key of ["x/names", "x/do", "x/mine", "panel:x"])
+    rows.listen(key, () => heard.push(key));
+  const part = (/** @type {any[]} */ ...items) =>
+    rows.take("browser", "rows", { base: 5, panels: { x: items } });
+  const names = { id: "x/names", in: "", kind: "data", value: ["a"] };
+  const doIt = { id: "x/do", in: "", kind: "command" };
+  const mine = { id: "x/mine", in: "", kind: "command", local: true };
+  part(names, doIt, mine);
+  assert.deepEqual(heard, ["x/names", "x/do", "x/mine", "panel:x"]);
+  assert.deepEqual(rows.children("panel:x"), []);
+  assert.deepEqual([rows.data("x/names"), rows.get("x/names")], [["a"], undefined]);
+  assert.deepEqual([rows.can("x/do"), rows.can("x/mine"), rows.can("x/no")], [true, true, false]);
+  rows.take("browser", "changes", {
+    base: 5,
+    panels: {},
+    rows: { "x/names": { value: ["a", "b"] } },
+  });
+  assert.deepEqual(rows.data("x/names"), ["a", "b"]);
+  rows.watch(true);
+  assert.deepEqual([rows.can("x/do"), rows.can("x/mine")], [false, true]);
+  rows.watch(false);
+  heard.length = 0;
+  part(names, mine);
+  assert.deepEqual(heard, ["x/do", "x/names"]);
+  assert.deepEqual([rows.knows("x/do"), rows.data("x/names")], [false, ["a"]]);
+});

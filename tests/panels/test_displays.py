@@ -348,7 +348,7 @@ def test_a_display_is_renamed_and_removed(displays: Displays) -> None:
     gone = displays.named("Ground").id
     displays.act("remove", "Ground")
     assert displays.order() == ["Wheel axes here", "Frames of it", "Radar"]
-    with pytest.raises(SambotVizError, match="not there any more"):
+    with pytest.raises(SambotVizError, match="no longer exists"):
         displays.set("displays/remove", [gone])
 
 

@@ -158,9 +158,9 @@ def test_a_link_brings_its_own_program_back_and_is_one_step_to_undo(
 @pytest.mark.parametrize(
     ("parts", "said"),
     [
-        ([], "this link is not whole, and nothing was changed: copy it again"),
-        ([*ORBIT, [f"j.{LEFT}", "1"]], "this link is not whole"),
-        ([*ORBIT, [f"j.{LEFT}", "1"], ["v", "2"]], "of another version of sambot-viz"),
+        ([], "this link is incomplete and was not opened: copy it again"),
+        ([*ORBIT, [f"j.{LEFT}", "1"]], "this link is incomplete"),
+        ([*ORBIT, [f"j.{LEFT}", "1"], ["v", "2"]], "by another version of sambot-viz"),
     ],
 )
 def test_a_link_that_was_cut_changes_nothing(

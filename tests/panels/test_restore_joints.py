@@ -39,7 +39,7 @@ def test_the_first_page_brings_the_joints_back_in_one_step(
     assert bring_back(panel, session, 2, {f"j/{LEFT}": 3.0}) is None
     assert viz.joint_positions[LEFT] == 0.5
     assert session.history.state(2).value.undo is None
-    assert session.history.undo(1) == "Joints as before the restart"
+    assert session.history.undo(1) == "Restore joints"
     assert viz.joint_positions == before
 
 

@@ -86,7 +86,7 @@ def test_undo_and_redo_say_what_they_did(
         session.set_global("Frame Rate", 10)
     for row_id, said in (
         ("edit/undo", "Undone: Global Options: Frame Rate"),
-        ("edit/redo", "Done again: Global Options: Frame Rate"),
+        ("edit/redo", "Redone: Global Options: Frame Rate"),
     ):
         assert edit(panel, row_id) == Answer(said)
 

@@ -57,7 +57,6 @@ ROWS: list[Row | Command] = [
     called(TEXT, Argument(str, optional=True), INTEGER),
     called(LIST, FLAG, NUMBER),
     Row("row", "", "float", "Name", value=1.0),
-    settable("bool", enabled=False),
 ]
 
 
@@ -184,7 +183,7 @@ def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
         (settable("float", least=0.0, most=1.0, unit="m"), 2, "its limits are 0 … 1 m"),
         (settable("vector"), [1, 2], "'Name' needs 3 numbers"),
         (settable("text"), "x" * 1001, "'Name' takes at most 1000 characters"),
-        (settable("text"), "a\u202e", "contains a character that cannot be seen"),
+        (settable("text"), "a\u202e", "contains an invisible character"),
         (settable("enum", options=("a",)), "b", "'Name' does not offer 'b'"),
         (settable("bool"), 1, "'Name' does not take 1"),
         (settable("status"), "Ok", "'Name' does not take 'Ok'"),
@@ -197,8 +196,7 @@ def test_an_option_that_cannot_be_shown_as_it_is_can_be_chosen() -> None:
         (called(TEXT), [None], "'Name' does not take None"),
         (called(TEXT), ["a", "b"], "'Name' does not take ['a', 'b']"),
         (called(), {"a": 1}, "'Name' does not take {'a': 1}"),
-        (settable("bool", enabled=False), True, "cannot be changed at present"),
-        (Row("row", "", "bool", "Name"), True, "cannot be changed at present"),
+        (Row("row", "", "bool", "Name"), True, "cannot be changed now"),
     ],
 )
 def test_others_are_refused_with_a_reason(

@@ -102,7 +102,7 @@ def test_a_view_is_saved_renamed_used_and_removed(panel: ViewsPanel) -> None:
     assert rows_of(panel)["view/Distance"].value == 2.5
     edit(panel, "views/remove", [first.id])
     assert second.id in rows_of(panel)
-    with pytest.raises(UsageError, match="not there any more"):
+    with pytest.raises(UsageError, match="no longer exists"):
         edit(panel, "views/use", [first.id])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 from sambot_viz.panels.displays.displays import DisplaysPanel
@@ -90,8 +91,14 @@ class BrowserPanels:
         self._publisher.remake(panel)
 
     def answer(self, item_id: str, sentence: str) -> None:
-        """Say why a value was refused; the page shows the value that holds again."""
-        self._notices.say(sentence, "error", item_id)
+        """Say why a value was refused; the page shows the value that holds again.
+
+        Errors begin in lower case, as after "error:" on a terminal; here they are
+        sentences, but for those that begin with a name.
+        """
+        begin = re.match(r"[a-z]+[ ,]", sentence)
+        said = sentence[:1].upper() + sentence[1:] if begin else sentence
+        self._notices.say(said, "error", item_id)
         self._publisher.remake(self._notices)
 
     def give(self, answer: Answer) -> None:

@@ -125,7 +125,7 @@ class DrivePanel(Panel):
             self._drive.stop()
             return None
         if key not in KEYS:
-            raise UsageError(f"the robot is not driven with the key '{key}'")
+            raise UsageError(f"no key '{key}' drives the robot")
         more_v, more_w = KEYS[key]
         # Sums of tenths, without the last digits of binary numbers.
         v, w = round(self._drive.v + more_v, 6), round(self._drive.w + more_w, 6)

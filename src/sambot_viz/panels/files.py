@@ -135,7 +135,7 @@ class FilesPanel(Panel):
     @property
     def _disk(self) -> Files:
         if self._files is None:
-            raise UsageError("a visitor may only download")
+            raise UsageError("visitors can only download")
         return self._files
 
     def _reply(self, to: str, **content: Json) -> None:

@@ -72,7 +72,6 @@ class Row:
         help: a sentence or more about it.
         icon: the name of its picture.
         level: how good or bad what it shows is.
-        enabled: whether it can be used at present.
         expanded: whether the rows below it are shown when the page is opened.
         bold: RViz writes what a file gives, and displays, in bold.
         client_local: whether setting it changes only what this client shows, so that
@@ -97,7 +96,6 @@ class Row:
     help: str = ""
     icon: str = ""
     level: Level | None = None
-    enabled: bool = True
     expanded: bool = False
     bold: bool = False
     client_local: bool = False
@@ -121,7 +119,6 @@ class Row:
             "help": text(self.help, LONGEST_TEXT),
             "icon": self.icon,
             "level": self.level,
-            "off": not self.enabled,
             "fixed": self.set is None,
             "open": self.expanded,
             "bold": self.bold,

@@ -13,7 +13,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data
 from sambot_viz.session import Session
 
-_STARTED_AGAIN, _PRIVATE = "The program was started again.", "This page begins again."
+_STARTED_AGAIN, _PRIVATE = "The program was started again.", "The session was reset."
 
 
 class SessionInfoPanel(Panel):

@@ -48,7 +48,7 @@ class UndoPanel(Panel):
 
     @command("edit/redo", name="Redo")
     def _redo(self) -> Answer | None:
-        return _said("Done again", self._history.redo(self._id))
+        return _said("Redone", self._history.redo(self._id))
 
     def _touched(self) -> Json:
         """The row that the page goes to; two of one row have different numbers."""

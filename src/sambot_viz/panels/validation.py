@@ -91,8 +91,8 @@ def validate(row: Row, value: Json) -> Any:
         UsageError: it has another type, is outside the limits or not offered, or the
             row cannot be set at present.
     """
-    if row.set is None or not row.enabled:
-        raise UsageError(f"'{text(row.name)}' cannot be changed at present")
+    if row.set is None:
+        raise UsageError(f"'{text(row.name)}' cannot be changed now")
     if row.kind in ("int", "float", "slider"):
         return _number(row, value)
     if row.kind in ("bool", "display") and isinstance(value, bool):
@@ -139,7 +139,7 @@ def _short(name: str, value: str) -> str:
     # What cannot be encoded must never reach viser's buffer.
     shown = re.sub(r"[\t\r\n]", " ", value)
     if text(shown, LONGEST_TEXT) != shown:
-        raise UsageError(f"'{name}' contains a character that cannot be seen")
+        raise UsageError(f"'{name}' contains an invisible character")
     return value
 
 

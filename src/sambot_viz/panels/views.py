@@ -134,7 +134,7 @@ class ViewsPanel(Panel):
     def _saved_view(self, row_id: str) -> ViewConfig:
         saved = self._ids.find(row_id)
         if saved is None or saved not in self._session.config.saved_views:
-            raise UsageError("this saved view is not there any more")
+            raise UsageError("this saved view no longer exists")
         return saved
 
     @command("views/use", TEXT, client_local=True)

@@ -117,7 +117,7 @@ class Window:
             return
         item = browser.item(sent.id) or self._shared.item(sent.id)
         if item is None:
-            browser.answer(sent.id, "this row is not there any more")
+            browser.answer(sent.id, "this no longer exists")
             return
         may_edit = self._session.roles.may_edit(client_id)
         try:

@@ -88,11 +88,11 @@ class DisplaysPanel(Panel):
         """Return the display of a row.
 
         Raises:
-            UsageError: it is not there any more.
+            UsageError: it no longer exists.
         """
         config = self._ids.find(row_id)
         if config is None or not self._session.config.holds(config):
-            raise UsageError("this display is not there any more")
+            raise UsageError("this display no longer exists")
         return config
 
     # The rows

@@ -138,8 +138,8 @@ class JointsPanel(Panel):
             if row is None or row.kind != "slider":
                 raise UsageError("this robot does not have these joints")
             wanted[row.name] = validate(row, position)
-        self._session.set_joint_positions(wanted, "Joints as before the restart")
-        return Answer("The joints are where they were; Undo puts them at their start")
+        self._session.set_joint_positions(wanted, "Restore joints")
+        return Answer("The joints were restored; Undo puts them back to their start")
 
     @command("joints/copy", TEXT, client_local=True)
     def _copy(self, form: str) -> Answer:

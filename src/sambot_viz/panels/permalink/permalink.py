@@ -220,7 +220,7 @@ class PermalinkPanel(Panel):
             elif kind == "frame" and name in frames:
                 items.add(Selectable("frame", name))
             else:
-                link.missing[kind if kind in ("link", "frame") else "thing"] += [name]
+                link.missing[kind if kind in ("link", "frame") else "item"] += [name]
         if items != set(self._browser.tools.selection):
             self._browser.tools.select(items, None)
 

@@ -64,11 +64,11 @@ class PermalinkParts:
         )
         if not whole or not pairs or names[-1] != "v":
             raise UsageError(
-                "this link is not whole, and nothing was changed: copy it again"
+                "this link is incomplete and was not opened: copy it again"
             )
         if values[-1] != VERSION:
             raise UsageError(
-                "this link is of another version of sambot-viz, and nothing was changed"
+                "this link was made by another version of sambot-viz and was not opened"
             )
         link = cls()
         for name, value in cast("list[Pair]", pairs[:-1]):
