@@ -285,7 +285,7 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
         said = links.open(
             [*ORBIT, [f"j.{LEFT}", "1"], ["select", "link:base_link"], *END]
         )
-        assert "joints and displays stay as they are: you are watching" in said
+        assert "joints and displays stay as they are: view only" in said
         after = state(links)
         assert after["selection"] == [Selectable("link", "base_link")]
         assert {**after, "selection": []} == before

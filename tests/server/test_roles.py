@@ -14,7 +14,7 @@ from sambot_viz.session import Session
 
 Protocol = Callable[..., ProtocolClient]
 JOINT = "drivewhl_l_joint"
-REFUSED = "you are watching"
+REFUSED = "View only: request control"
 
 
 @pytest.fixture
@@ -161,7 +161,7 @@ def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
     assert name == "Ann <b>"
     guest.act("role/give", number)
     settle(guest)
-    assert "only the presenter" in guest.row("notice")["value"]["text"]
+    assert "Only the presenter" in guest.row("notice")["value"]["text"]
     teacher.act("role/give", number)
     settle(teacher, guest)
     guest.edit(joint(guest), 0.5)
@@ -242,7 +242,7 @@ def test_the_presenters_link_lets_in_too(protocol: Protocol) -> None:
         assert drives == [False, True]
 
 
-def test_each_hears_what_the_other_does_about_the_wheel(
+def test_each_hears_what_the_other_does_about_control(
     guest: ProtocolClient,
     teacher: ProtocolClient,
     settle: Callable[..., None],
@@ -259,16 +259,16 @@ def test_each_hears_what_the_other_does_about_the_wheel(
         return number
 
     teacher.act("role/refuse", ask())
-    assert heard(guest) == "Not now, says the presenter"
+    assert heard(guest) == "The presenter declined your request"
     teacher.act("role/give", ask())
-    assert heard(guest).startswith("You have the wheel")
+    assert heard(guest).startswith("You are in control")
     teacher.act("role/take")
-    assert heard(guest).endswith("the presenter has taken the wheel back")
+    assert heard(guest).endswith("the presenter has taken back control")
     teacher.act("role/give", ask())
     settle(teacher)
     guest.act("role/back")
-    assert heard(guest) == "You are watching again"
-    assert heard(teacher) == "Ann drives no longer"
+    assert heard(guest) == "You have released control"
+    assert heard(teacher) == "Ann released control"
 
 
 def test_private_sessions_know_nothing_of_people(protocol: Protocol) -> None:

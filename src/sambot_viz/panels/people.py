@@ -1,4 +1,4 @@
-"""Who drives, who watches, and what a user can do about that."""
+"""Who has control, who views, and how a user requests, gives and releases control."""
 
 from __future__ import annotations
 
@@ -87,23 +87,22 @@ class OwnRolePanel(Panel):
         return [Data("role/me", me)]
 
     def _say_news(self, person: Participant) -> None:
-        """Say what others have done about the wheel."""
+        """Say what others have changed about control."""
         before, self._before = self._before, replace(person)
-        helpers, self._helpers = self._helpers, self._guests_who_drive()
+        helpers, self._helpers = self._helpers, self._viewers_in_control()
         acted, self._acted = self._acted, False
         if before is None or not self._roles.presented:
             return
         if person.has_control and not before.has_control:
-            self._say("You have the wheel: what you move, everyone sees move", "ok")
+            self._say("You are in control. Everyone sees what you change", "ok")
         elif before.has_control and not person.has_control:
-            why = "" if acted else ": the presenter has taken the wheel back"
-            self._say(f"You are watching again{why}", "ok" if acted else "warn")
+            self._say(_RELEASED if acted else _TAKEN_BACK, "ok" if acted else "warn")
         elif before.requests and not person.requests and not acted:
-            self._say("Not now, says the presenter", "warn")
+            self._say("The presenter declined your request", "warn")
         elif person.presenter and not acted and helpers - self._helpers:
-            self._say(f"{', '.join(helpers - self._helpers)} drives no longer", "ok")
+            self._say(f"{', '.join(helpers - self._helpers)} released control", "ok")
 
-    def _guests_who_drive(self) -> frozenset[str]:
+    def _viewers_in_control(self) -> frozenset[str]:
         people = self._roles.people.values()
         return frozenset(p.name for p in people if p.has_control and not p.presenter)
 
@@ -113,7 +112,7 @@ class OwnRolePanel(Panel):
 
     @contextmanager
     def _acting(self) -> Generator[None]:
-        """This user changes something, and so needs no news of it."""
+        """Note that this user changes something, and needs no news of it."""
         self._acted = True
         try:
             yield
@@ -125,7 +124,7 @@ class OwnRolePanel(Panel):
     def _ask(self, name: str) -> Answer:
         with self._acting():
             self._roles.request(self._id, name)
-        return Answer("Asked for the wheel; the presenter sees it")
+        return Answer("Requested control; the presenter sees your request")
 
     @command("role/back", client_local=True)
     def _hand_back(self) -> None:
@@ -136,7 +135,7 @@ class OwnRolePanel(Panel):
     def _give(self, client_id: int) -> Answer:
         with self._acting():
             person = self._roles.give(self._id, client_id)
-        return Answer(f"{person.name} has the wheel, and so have you")
+        return Answer(f"You and {person.name} are in control")
 
     @command("role/refuse", INTEGER, client_local=True)
     def _refuse(self, client_id: int) -> None:
@@ -147,4 +146,8 @@ class OwnRolePanel(Panel):
     def _take(self) -> Answer:
         with self._acting():
             self._roles.take_back(self._id)
-        return Answer("You have the wheel alone")
+        return Answer("Only you are in control")
+
+
+_RELEASED = "You have released control"
+_TAKEN_BACK = "View only: the presenter has taken back control"

@@ -19,7 +19,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.geometry import finite
 from sambot_viz.panels.command import LARGEST, Argument, Command
 from sambot_viz.panels.row import Data, Json, Row
-from sambot_viz.session.people.roles import WATCHING
+from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.text import text
 
 LONGEST_TEXT = 1000
@@ -76,7 +76,7 @@ def accept(
     if isinstance(item, Data):
         raise UsageError("This cannot be changed")
     if not (item.client_local or may_edit):
-        raise UsageError(WATCHING)
+        raise UsageError(VIEW_ONLY)
     if isinstance(item, Command):
         return partial(item.run, *arguments_of(item, value))
     valid = validate(item, value)

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.row import Answer, Json, Row
-from sambot_viz.session.people.roles import WATCHING
+from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.text import text
 
 VERSION = "1"
@@ -84,7 +84,7 @@ class PermalinkParts:
         """What a user reads: all is as in the link, or what is not."""
         said = [self.missing.sentence(), *self.refused[:MOST_NAMED]]
         if self.kept:
-            said.append(f"joints and displays stay as they are: {WATCHING}")
+            said.append(f"joints and displays stay as they are: {VIEW_ONLY}")
         trouble = "; ".join(part for part in said if part)
         if not trouble and not self.elsewhere:
             return Answer("Opened the link")

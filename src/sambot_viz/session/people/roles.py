@@ -14,10 +14,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.session.signals import Change, Signal
 
 LONGEST_NAME = 40
-WATCHING = (
-    "you are watching: ask for the wheel to change what everyone sees, or work on a "
-    "copy of your own"
-)
+VIEW_ONLY = "view only: request control, or open your own copy"
 
 
 @dataclass
@@ -150,10 +147,10 @@ class Roles:
         self._check_presenter(presenter_id)
         person = self._people.get(client_id)
         if person is None or person.presenter:
-            raise UsageError("this guest is not there any more")
+            raise UsageError("this viewer has left")
         return person
 
     def _check_presenter(self, client_id: int) -> None:
         person = self._people.get(client_id)
         if not self.presented or person is None or not person.presenter:
-            raise UsageError("only the presenter can give the wheel")
+            raise UsageError("only the presenter can give control")
