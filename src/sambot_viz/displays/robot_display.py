@@ -8,6 +8,7 @@ of that robot, and waits for mesh files; the rest of the program reaches these t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeAlias
 
@@ -18,6 +19,23 @@ ModelResult: TypeAlias = "Robot | RobotError"
 """A robot, or the reason why its file gave none."""
 
 
+@dataclass(frozen=True, slots=True)
+class ModelRequest:
+    """A display's wish for a model to be read.
+
+    Attributes:
+        owner: the display; a new request replaces what it asked for before.
+        path: the file.
+        trusted: whether its code may run.
+        done: takes the result; called in another thread.
+    """
+
+    owner: object
+    path: Path
+    trusted: bool
+    done: Callable[[ModelResult], None]
+
+
 class ModelReader(Protocol):
     """Reads models in the background, for displays with a model file of their own."""
 
@@ -26,21 +44,8 @@ class ModelReader(Protocol):
         """The folders in which packages are looked for, or ``name=folder``."""
         ...
 
-    def read(
-        self,
-        owner: object,
-        path: Path,
-        trusted: bool,
-        done: Callable[[ModelResult], None],
-    ) -> None:
-        """Read a model soon.
-
-        Args:
-            owner: the display that asks; replaces what it asked for before.
-            path: the file.
-            trusted: whether its code may run.
-            done: takes the result; called in another thread.
-        """
+    def read(self, request: ModelRequest) -> None:
+        """Read a model soon."""
 
 
 class RobotDisplay(Protocol):

@@ -8,7 +8,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
-from sambot_viz.displays.robot_display import ModelReader, ModelResult
+from sambot_viz.displays.robot_display import (
+    ModelReader,
+    ModelRequest,
+    ModelResult,
+)
 from sambot_viz.displays.scene.path_line import PathLine
 from sambot_viz.export.tracks import Tracks
 from sambot_viz.frames import Transform
@@ -146,21 +150,15 @@ class _Models:
     def package_path(self) -> tuple[Path | str, ...]:
         return self._models.package_path
 
-    def read(
-        self,
-        owner: object,
-        path: Path,
-        trusted: bool,
-        done: Callable[[ModelResult], None],
-    ) -> None:
-        self._asked[owner] = done
+    def read(self, request: ModelRequest) -> None:
+        self._asked[request.owner] = request.done
 
         def take(result: ModelResult) -> None:
             with self._changed:
-                self._read[owner] = result
+                self._read[request.owner] = result
                 self._changed.notify_all()
 
-        self._models.read(owner, path, trusted, take)
+        self._models.read(replace(request, done=take))
 
     def finish(self) -> None:
         """Wait for what was asked for, and give it to the displays."""

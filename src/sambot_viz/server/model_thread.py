@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from sambot_viz.displays.robot_display import ModelResult
+from sambot_viz.displays.robot_display import ModelRequest, ModelResult
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
 
@@ -34,32 +34,18 @@ class ModelThread:
         self._requests: dict[int, Callable[[], None]] = {}
         self._running = False
 
-    def read(
-        self,
-        owner: object,
-        path: Path,
-        trusted: bool,
-        done: Callable[[ModelResult], None],
-    ) -> None:
-        """Read a model soon.
-
-        Args:
-            owner: the display that asks; replaces what it asked for before.
-            path: the file.
-            trusted: whether its code may run.
-            done: takes the robot, or the reason why there is none; called in the
-                thread.
-        """
+    def read(self, request: ModelRequest) -> None:
+        """Read a model soon."""
 
         def work() -> None:
             try:
-                result: ModelResult = self._load(path, trusted)
+                result: ModelResult = self._load(request.path, request.trusted)
             except RobotError as error:
                 result = error
-            done(result)
+            request.done(result)
 
         with self._changed:
-            self._requests[id(owner)] = work
+            self._requests[id(request.owner)] = work
             if not self._running:
                 self._running = True
                 name = "sambot-viz-models"

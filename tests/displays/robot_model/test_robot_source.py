@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import Visualizer
+from sambot_viz.displays.robot_display import ModelRequest
 from sambot_viz.displays.robot_model.robot_source import OUTSIDE
 from sambot_viz.errors import RobotError, UsageError
 from sambot_viz.inputs import declarations
@@ -255,9 +256,9 @@ def test_a_reader_survives_an_internal_error_of_what_it_calls(tmp_path: Path) ->
 
     results: list[Robot | RobotError] = []
     try:
-        reader.read(1, file, True, broken)
+        reader.read(ModelRequest(1, file, True, broken))
         assert reader.wait(20)
-        reader.read(1, file, True, results.append)
+        reader.read(ModelRequest(1, file, True, results.append))
         assert reader.wait(20)
     finally:
         threading.excepthook = before

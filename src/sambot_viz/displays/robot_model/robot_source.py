@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.robot_display import ModelResult
+from sambot_viz.displays.robot_display import ModelRequest, ModelResult
 from sambot_viz.displays.robot_model.description_file import (
     find_below,
     find_description,
@@ -140,7 +140,7 @@ class RobotSource:
         def done(result: ModelResult) -> None:
             self._context.apply(lambda: self._take(source, trusted, result))
 
-        models.read(self, path, trusted, done)
+        models.read(ModelRequest(self, path, trusted, done))
 
     def _take(
         self, source: tuple[object, ...], trusted: bool, result: ModelResult
