@@ -13,9 +13,8 @@ from typing import Any, Concatenate, ParamSpec
 import viser
 
 from sambot_viz.errors import RobotError, ServerError
-from sambot_viz.export.page_file import Looking, page_file
-from sambot_viz.export.pages import ask_page
-from sambot_viz.export.recorded_scene import Shown
+from sambot_viz.export.page_file import ViewState, ask_page, page_file
+from sambot_viz.export.recorded_scene import SceneSnapshot
 from sambot_viz.files import write_atomically
 from sambot_viz.flags import keyword_help
 from sambot_viz.frames import Transform
@@ -285,9 +284,9 @@ class Visualizer:
             OSError: it cannot be written.
         """
         session = self._first()
-        shown = Shown.by(session)
+        shown = SceneSnapshot.by(session)
         content = page_file(
-            shown, Looking.at_first(session), "sweep" if sweep else "none"
+            shown, ViewState.at_first(session), "sweep" if sweep else "none"
         )
         write_atomically(Path(path), content)
 

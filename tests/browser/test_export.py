@@ -14,8 +14,8 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
-from sambot_viz.export.page_file import Looking, page_file
-from sambot_viz.export.recorded_scene import Shown
+from sambot_viz.export.page_file import ViewState, page_file
+from sambot_viz.export.recorded_scene import SceneSnapshot
 
 pytestmark = pytest.mark.browser
 LEFT_LINK = "drivewhl_l_link"
@@ -100,7 +100,7 @@ def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
             browser.view.set_kind(f"rviz_default_plugins/{kind}")
             live.wait_for_frames()
             file = tmp_path / f"{kind}.html"
-            page = page_file(Shown.by(session), Looking.of(browser), "none")
+            page = page_file(SceneSnapshot.by(session), ViewState.of(browser), "none")
             file.write_bytes(page)
             alone = open_file(file, 800, 600 + BAR)
             alone.user.until(lambda a=alone: differing(a, live) < 0.001)

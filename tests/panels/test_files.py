@@ -13,7 +13,7 @@ from panel_rows import edit
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
-from sambot_viz.export.pages import ask_page
+from sambot_viz.export.page_file import ask_page
 from sambot_viz.panels.files import FilesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row

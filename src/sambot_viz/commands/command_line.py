@@ -125,6 +125,28 @@ def model_path(options: Options) -> Path | None:
     return Path(str(options.model)) if options.model is not None else None
 
 
+def output_path(text: str, what: str, *endings: str) -> Path:
+    """Return the file of ``-o``.
+
+    Args:
+        text: as the user wrote it.
+        what: what can be written, for the message.
+        endings: the endings of such files, the usual one first.
+
+    Raises:
+        UsageError: another ending, a folder, or a folder that does not exist.
+    """
+    path = Path(text)
+    if path.suffix.lower() not in endings:
+        name = f"FILE{endings[0]}"
+        raise UsageError(f"-o {text}: only {what} can be written; name it {name}")
+    if path.is_dir():
+        raise UsageError(f"-o {text} is a folder; name a file in it")
+    if not path.parent.is_dir():
+        raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")
+    return path
+
+
 def warn(text: str) -> None:
     """Write a warning about the command line to standard error."""
     sys.stderr.write(f"sambot-viz: warning: {text}\n")

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
-from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.command_line import Parser, output_path, parse
 from sambot_viz.commands.posed_frames import start_state
 from sambot_viz.errors import UsageError
 from sambot_viz.inputs import Inputs
 from sambot_viz.problems import write_problems
 
-ENDINGS = (".html", ".htm")
-
 
 def run(words: list[str]) -> int:
     """Write a page of a model; 0 when the file is written."""
     given, options = parse(parser(), words, panels=False, watch=False)
-    output = _output(given.output)
+    output = output_path(given.output, "a page", ".html", ".htm")
     inputs = Inputs(options)
     write_problems(inputs.robot().problems, model=options.model)
     start_state(inputs.robot(), options)
@@ -52,14 +47,3 @@ def parser() -> Parser:
         "(default: %(default)s)",
     )
     return made
-
-
-def _output(text: str) -> Path:
-    path = Path(text)
-    if path.suffix.lower() not in ENDINGS:
-        raise UsageError(f"-o {text}: only a page can be written; name it FILE.html")
-    if os.path.isdir(path):
-        raise UsageError(f"-o {text} is a folder; name a file in it")
-    if not path.parent.is_dir():
-        raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")
-    return path

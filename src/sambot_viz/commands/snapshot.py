@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 import re
 import signal
 import sys
@@ -13,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz.commands.command_line import Parser, parse, warn
+from sambot_viz.commands.command_line import Parser, output_path, parse, warn
 from sambot_viz.commands.posed_frames import start_state
 from sambot_viz.errors import UsageError
 from sambot_viz.files import write_atomically
@@ -32,7 +31,7 @@ def run(words: list[str]) -> int:
     """Write a picture of a model; 0 when the file is written."""
     given, options = parse(parser(), words, panels=False)
     width, height = _size(given.size)
-    output = _output(given.output)
+    output = output_path(given.output, "PNG files", ".png")
     inputs = Inputs(options)
     write_problems(inputs.robot().problems, model=options.model)
     start_state(inputs.robot(), options)
@@ -115,17 +114,6 @@ def _size(text: str) -> tuple[int, int]:
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise UsageError(f"--size {text}: each side must be 1 to {LARGEST} pixels")
     return width, height
-
-
-def _output(text: str) -> Path:
-    path = Path(text)
-    if path.suffix.lower() != ".png":
-        raise UsageError(f"-o {text}: only PNG files can be written; name it FILE.png")
-    if os.path.isdir(path):
-        raise UsageError(f"-o {text} is a folder; name a file in it")
-    if not path.parent.is_dir():
-        raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")
-    return path
 
 
 def _write(path: Path, picture: Picture) -> None:

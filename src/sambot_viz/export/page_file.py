@@ -1,13 +1,20 @@
-"""A session as one HTML file that shows and plays it without a server."""
+"""A session as one HTML file that shows and plays it without a server.
+
+Files that browsers ask for are made one after the other, beside all other work.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import asyncio
+from collections.abc import Callable, Coroutine, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 from sambot_viz import page
-from sambot_viz.export.recorded_scene import Shown, recorded
+from sambot_viz.errors import SambotVizError, UsageError
+from sambot_viz.export.recorded_scene import SceneSnapshot, recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.sweep import sweep
 from sambot_viz.server.page_files import page_of_viser
@@ -29,14 +36,19 @@ REST = 0.5
 USUAL_SIZE = (1280, 720)
 """Size of a page that no browser shows yet [pixels]."""
 STEP = 90
-"""In which it becomes narrower [pixels]."""
+"""Width decrement when searching for the narrowest view [pixels]."""
 LONGEST_NAME = 200
-"""Of a robot, as the title of a page [characters]."""
+"""Longest name of a robot as the title of a page [characters]."""
+LARGEST = 100_000_000
+"""A page of more bytes is not sent to a browser."""
+
+_ONE = ThreadPoolExecutor(1, "sambot-viz-export")
+"""One page is made at a time, so that many browsers take the memory of one."""
 
 
 @dataclass(frozen=True, slots=True)
-class Looking:
-    """How somebody looks at a session.
+class ViewState:
+    """The view of a page: camera, size and what the mouse needs.
 
     Attributes:
         camera: where from.
@@ -50,14 +62,14 @@ class Looking:
     mouse: Mapping[str, Any]
 
     @classmethod
-    def of(cls, browser: Browser) -> Looking:
-        """As a browser does now."""
+    def of(cls, browser: Browser) -> ViewState:
+        """Return the view of a client now."""
         view, size = browser.view, window_of(browser.client)
         return cls(view.camera, size, mouse_facts(view.view))
 
     @classmethod
-    def at_first(cls, session: Session) -> Looking:
-        """As a page does that was just opened."""
+    def at_first(cls, session: Session) -> ViewState:
+        """Return the view of a page that was just opened."""
         view = view_of(session.config.detached_view())
         if view.gives_nearness or session.robot is None:
             return cls(session.camera, USUAL_SIZE, mouse_facts(view))
@@ -73,13 +85,13 @@ class Looking:
 
 
 def page_file(
-    shown: Shown, looking: Looking, motion: Motion, past: Past | None = None
+    scene: SceneSnapshot, view: ViewState, motion: Motion, past: Past | None = None
 ) -> bytes:
     """Return the HTML file.
 
     Args:
-        shown: what is in it.
-        looking: how it is looked at first.
+        scene: what is in it.
+        view: how it is looked at first.
         motion: what moves: all joints one after the other, what has moved in the last
             minute, or nothing.
         past: how that was.
@@ -89,17 +101,17 @@ def page_file(
         steps = _sweep
     elif motion == "past" and past is not None:
         before, since = past
-        shown, steps = shown.before(before), lambda joints: _with_rest(since)
-    scene, tracks, duration = recorded(shown, looking.camera, looking.size[1], steps)
-    robot = "no robot" if shown.robot is None else shown.robot.name
+        scene, steps = scene.before(before), lambda joints: _with_rest(since)
+    first, tracks, duration = recorded(scene, view.camera, view.size[1], steps)
+    robot = "no robot" if scene.robot is None else scene.robot.name
     title = text(robot, LONGEST_NAME) or "robot"
     about = {
         "title": title,
         "duration": duration,
-        "size": looking.size,
-        "view": dict(looking.mouse),
+        "size": view.size,
+        "view": dict(view.mouse),
     }
-    return page.standing_alone(page_of_viser(), title, scene, about, tracks.packed())
+    return page.standing_alone(page_of_viser(), title, first, about, tracks.packed())
 
 
 def _sweep(joints: JointState) -> Iterable[Moved]:
@@ -109,7 +121,7 @@ def _sweep(joints: JointState) -> Iterable[Moved]:
 
 
 def _with_rest(steps: Sequence[Moved]) -> Iterable[Moved]:
-    """Steps, and a moment in which the end can be seen."""
+    """Yield the steps, and a moment in which the end can be seen."""
     yield from steps
     if steps:
         yield Moved(steps[-1].time + REST, {}, {})
@@ -118,3 +130,45 @@ def _with_rest(steps: Sequence[Moved]) -> Iterable[Moved]:
 def _nothing(joints: JointState) -> Iterable[Moved]:
     del joints
     return ()
+
+
+class PageError(SambotVizError):
+    """There is no page that could be sent."""
+
+
+def ask_page(
+    session: Session, browser: Browser, motion: str
+) -> Callable[[], Coroutine[Any, Any, bytes]]:
+    """Note what a browser sees now, for `panels.files`.
+
+    Args:
+        session: what is shown.
+        browser: who looks at it.
+        motion: what is to move (see `page_file`).
+
+    Returns:
+        What makes the HTML file, while other work of the event loop goes on. It raises
+        PageError when the file is too large to be sent.
+
+    Raises:
+        UsageError: there is no such motion, or nothing has moved.
+    """
+    with session.lock:
+        past = session.past.last_minute()
+        if motion == "past" and not past[1]:
+            raise UsageError("nothing has moved in the last minute")
+        if motion not in ("sweep", "past", "none"):
+            raise UsageError(f"there is no motion '{motion}'")
+        scene, view = SceneSnapshot.by(session), ViewState.of(browser)
+    make = partial(page_file, scene, view, motion, past)
+    return partial(_made, make)
+
+
+async def _made(make: Callable[[], bytes]) -> bytes:
+    page = await asyncio.get_running_loop().run_in_executor(_ONE, make)
+    if len(page) > LARGEST:
+        raise PageError(
+            f"the page would have {len(page) / 1e6:.0f} MB: `sambot-viz export` "
+            "writes it on the computer of the program"
+        )
+    return page

@@ -1,4 +1,4 @@
-"""What a session shows, drawn once more for a file, and then moved."""
+"""The scene of a session, drawn once more for a file, and then moved."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ LONGEST_READ = 30.0
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class SceneSnapshot:
     """All that a session shows, for another thread; used once.
 
     Attributes:
@@ -52,8 +52,8 @@ class Shown:
     meshes: MeshCache
 
     @classmethod
-    def by(cls, session: Session) -> Shown:
-        """What a session shows now."""
+    def by(cls, session: Session) -> SceneSnapshot:
+        """Take what a session shows now."""
         with session.lock:
             return cls(
                 session.robot,
@@ -63,7 +63,7 @@ class Shown:
                 session.context.assets.cache,
             )
 
-    def before(self, moved: Moved) -> Shown:
+    def before(self, moved: Moved) -> SceneSnapshot:
         """Return the same, with joints and frames where they were."""
         frames = {
             child: replace(frame, transform=Transform.trusted(moved.frames[child]))
@@ -76,7 +76,7 @@ class Shown:
 
 
 def recorded(
-    shown: Shown,
+    scene: SceneSnapshot,
     camera: Camera,
     height: int,
     motion: Callable[[JointState], Iterable[Moved]],
@@ -84,7 +84,7 @@ def recorded(
     """Draw what was shown, then move it.
 
     Args:
-        shown: what to draw.
+        scene: what to draw.
         camera: where to look from.
         height: of the picture that the camera was meant for [pixels].
         motion: what is to move, given the joints where they are.
@@ -96,9 +96,9 @@ def recorded(
     recorder, tracks = Recorder(height), Tracks()
     recorder.listen(tracks.take)
     prepare_scene(recorder.scene)
-    session = _drawn(shown, recorder)
+    session = _drawn(scene, recorder)
     BrowserCamera(cast(Any, recorder)).point(camera)
-    scene = recorder.bytes()
+    first = recorder.bytes()
     duration = 0.0
     if session.joints is not None:
         for step in motion(session.joints):
@@ -107,23 +107,23 @@ def recorded(
             session.move(step.positions, there)
             session.draw_moved()
     session.close()
-    return scene, tracks, duration
+    return first, tracks, duration
 
 
-def _drawn(shown: Shown, recorder: Recorder) -> Session:
-    models = None if shown.models is None else _Models(shown.models)
+def _drawn(scene: SceneSnapshot, recorder: Recorder) -> Session:
+    models = None if scene.models is None else _Models(scene.models)
     worker, audience = _Nobody(cast(Any, None)), cast(Any, recorder)
-    session = Session(audience, worker, shown.copy.config, shown.meshes, models)
-    shown.copy.trust(session)
+    session = Session(audience, worker, scene.copy.config, scene.meshes, models)
+    scene.copy.trust(session)
     session.show_config()
-    if shown.robot is not None:
-        session.show_robot(shown.robot)
-    shown.copy.give(session)
+    if scene.robot is not None:
+        session.show_robot(scene.robot)
+    scene.copy.give(session)
     session.draw_moved()
     if models is not None:
         models.finish()
-    if shown.trail:
-        PathLine(recorder.scene).draw(session.context.nodes.path(ODOM), shown.trail)
+    if scene.trail:
+        PathLine(recorder.scene).draw(session.context.nodes.path(ODOM), scene.trail)
     return session
 
 

@@ -13,7 +13,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import SambotVizError
-from sambot_viz.export import pages
+from sambot_viz.export import page_file as pages
 
 
 def test_while_a_page_is_made_the_loop_and_the_session_are_free(
