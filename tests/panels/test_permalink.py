@@ -10,13 +10,13 @@ from inside import session_of
 from panel_rows import data_of, edit
 
 from sambot_viz import UsageError, Visualizer
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.document.switches import switches
-from sambot_viz.tools.picking.hit import Selectable
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 Pairs = list[list[str]]

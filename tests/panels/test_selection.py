@@ -8,10 +8,10 @@ import pytest
 from panel_rows import edit, row_named, rows_of
 
 from sambot_viz import Visualizer, load_robot
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.panels.selection import SHOWN, SelectionPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
-from sambot_viz.tools.picking.hit import Selectable
 
 POST = """<robot name="post">
   <link name="foot">

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from panel_rows import data_of, edit, rows_of
 
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
-from sambot_viz.tools.picking.hit import Selectable
 
 TOOLS = ("Interact", "Move Camera", "Select", "Focus Camera", "Measure")
 

@@ -18,12 +18,12 @@ from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_config, load_robot
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
 from sambot_viz.session.browser.pick_rays import INLINE
 from sambot_viz.session.browser.tool_control import ToolControl
 from sambot_viz.session.browser.view import BrowserView
-from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
 from sambot_viz.tools.registry import TOOLS
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.drawn_shape import DrawnShape
+from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.kept_nodes import KeptNodes
 from sambot_viz.displays.scene.solids import add_axes, axes_triangles
+from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.rviz import (
     FIXED_FRAME,
     DisplayConfig,
@@ -21,7 +21,7 @@ from sambot_viz.rviz import (
 OF_ROS1 = "of ROS 1; RViz for ROS 2 ignores it"
 
 
-class AxesDisplay(Display):
+class AxesDisplay(TriangleDisplay):
     """Axes at the origin of its reference frame."""
 
     kind = "rviz_default_plugins/Axes"
@@ -72,12 +72,12 @@ class AxesDisplay(Display):
             lambda: (add_axes(self.context.scene, name, length, diameter),),
         )
 
-    def drawn_shapes(self) -> Iterator[DrawnShape]:
-        """The axes, which are not selectable, as in RViz."""
+    def drawn(self) -> Iterator[DrawnTriangles]:
+        """Yield the axes, which are not selectable, as in RViz."""
         get = self.config.get
         if self._nodes.handles:
             axes = axes_triangles(float(get("Length")), float(get("Radius")))
-            yield DrawnShape(
+            yield DrawnTriangles(
                 axes, np.eye(4), self.context.frame(get("Reference Frame"))
             )
 

@@ -12,15 +12,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
+import numpy as np
 import viser
 
-from sambot_viz.displays.drawn_shape import DrawnShape
 from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.picking.pick_geometry import (
+    Corners,
+    PickGeometry,
+    Selectable,
+)
 from sambot_viz.displays.robot_display import ModelReader, RobotDisplay
 from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.status import StatusList
 from sambot_viz.frames import FrameTree, LookupRefused
+from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
 
@@ -66,6 +72,18 @@ class DisplayContext:
         if frame == self.fixed_frame:
             return ""
         return self.nodes.path(frame) or ""
+
+    def pose(self, frame: str | None) -> Matrix | None:
+        """Return T_fixed_frame, (4, 4); None when the frame cannot be placed.
+
+        Args:
+            frame: None for the fixed frame.
+        """
+        if frame is None or frame == self.fixed_frame:
+            return np.eye(4)
+        if not self.tree.can_lookup(self.fixed_frame, frame):
+            return None
+        return self.tree.lookup(self.fixed_frame, frame).matrix
 
     def lookup_problem(self, frame: str) -> str | None:
         """RViz's long text when the frame cannot be placed, None when it can."""
@@ -142,8 +160,18 @@ class Display:
         if self.shown:
             self.draw()
 
-    def drawn_shapes(self) -> Iterator[DrawnShape]:
-        """What it has drawn; only called while it is shown."""
+    def pick_geometry(self) -> PickGeometry:
+        """Return what it shows now, for rays; only called while it is shown."""
+        return PickGeometry()
+
+    def boxes(
+        self, of: Callable[[Selectable | None], bool]
+    ) -> Iterator[tuple[Selectable | None, Corners]]:
+        """Yield boxes around what it shows of some items, in the fixed frame.
+
+        Args:
+            of: whether something is asked for; None is what cannot be selected.
+        """
         yield from ()
 
     def entries(self) -> tuple[EntryList, ...]:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.scene.kept_nodes import Handle, KeptNodes
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.displays.status import Status
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import Matrix, Vector3, Wxyz
 from sambot_viz.rviz import (
     FIXED_FRAME,
     ColorProperty,
@@ -29,6 +33,9 @@ _PLANES: dict[str, Wxyz] = {
     "YZ": (0.5, 0.5, -0.5, 0.5),
 }
 """Turns the grid's own axes (normal along y) into the plane, as RViz does."""
+_NORMALS = {"XY": (0.0, 0.0, 1.0), "XZ": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+NEAR_LINE = 3.0
+"""A line of a grid is met from so far [pixels]."""
 MOST_LINES = 100_000
 """A grid with more lines (2.4 MB) is drawn with fewer cells."""
 
@@ -73,6 +80,48 @@ def grid_segments(cells: int, layers: int, size: float) -> npt.NDArray[np.float3
         top = np.full_like(x, layers * size / 2)
         parts.append(np.stack([np.stack([x, -top, z], 1), np.stack([x, top, z], 1)], 1))
     return np.concatenate(parts).astype(np.float32)
+
+
+@dataclass(frozen=True, slots=True)
+class GridLines(PickGeometry):
+    """The lines of a grid, in the plane z = 0 or another pair of axes of its frame.
+
+    Attributes:
+        T: (4, 4) from the grid's frame to the fixed frame.
+        normal: which axis of that frame is across the plane, (3,).
+        offset: middle of the square in that frame, (3,) [m].
+        cells: how many cells there are along each side.
+        cell: side of a cell [m].
+        thickness: of a line [m].
+    """
+
+    T: Matrix
+    normal: Array
+    offset: Array
+    cells: int
+    cell: float
+    thickness: float = 0.0
+
+    def cast(self, origin: Array, direction: Array, pixel: float) -> float:
+        """Follow a ray to a line, which is met from `NEAR_LINE` pixels."""
+        o = (origin - self.T[:3, 3]) @ self.T[:3, :3] - self.offset
+        d = direction @ self.T[:3, :3]
+        towards = float(d @ self.normal)
+        if towards == 0.0:
+            return np.inf
+        t = -float(o @ self.normal) / towards
+        if t < 0.0:
+            return np.inf
+        reach = max(NEAR_LINE * pixel * t, self.thickness / 2)
+        half = self.cells * self.cell / 2
+        place, along = (o + t * d)[self.normal == 0], d[self.normal == 0]
+        # From each coordinate to the nearest line across it, in the plane …
+        line = np.round((place + half) / self.cell).clip(0, self.cells)
+        aside = np.abs(place - (line * self.cell - half))
+        # … and between the ray and that line, which is less at a flat angle.
+        apart = aside * abs(towards) / np.sqrt(1.0 - along[::-1] ** 2)
+        inside = np.abs(place[::-1]) <= half + reach
+        return t if bool(np.any((apart <= reach) & inside)) else np.inf
 
 
 class GridDisplay(Display):
@@ -211,6 +260,22 @@ class GridDisplay(Display):
             receive_shadow=False,
             wxyz=wxyz,
             position=offset,
+        )
+
+    def pick_geometry(self) -> PickGeometry:
+        """Return its lines, which can be measured to and select nothing."""
+        get = self.config.get
+        T = self.context.pose(self.context.frame(get("Reference Frame")))
+        if T is None:
+            return PickGeometry()
+        ribbons = get("Line Style") == "Billboards"
+        return GridLines(
+            T,
+            np.array(_NORMALS.get(str(get("Plane")), _NORMALS["XY"])),
+            np.array(get("Offset")),
+            int(get("Plane Cell Count")),
+            float(get("Cell Size")),
+            float(get("Line Style/Line Width")) if ribbons else 0.0,
         )
 
     def clear(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import Place
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.frames.distance import distance_between
@@ -16,7 +17,6 @@ from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
-from sambot_viz.tools.picking.hit import Selectable
 
 SHOWN = 30
 """At most this many selected items are listed."""

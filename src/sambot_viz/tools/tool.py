@@ -7,9 +7,9 @@ from typing import ClassVar, Literal, Protocol
 
 import viser
 
+from sambot_viz.displays.picking.pick_geometry import Hit, Selectable
+from sambot_viz.displays.picking.rays import Array
 from sambot_viz.rviz import Property, ToolConfig
-from sambot_viz.tools.picking.hit import Hit, Selectable
-from sambot_viz.tools.picking.rays import Array
 
 Key = Literal["I", "M", "S", "C", "N"]
 

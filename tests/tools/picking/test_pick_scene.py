@@ -8,12 +8,14 @@ from itertools import product
 import numpy as np
 import pytest
 
+from sambot_viz.displays.grid import GridLines
+from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.rays import Array, RayGrid, TriangleMesh
+from sambot_viz.displays.triangle_display import PlacedMesh, TriangleGeometry
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.origin import Origin
-from sambot_viz.tools.picking.hit import Selectable
-from sambot_viz.tools.picking.pick_scene import PickSnapshot, PlacedGrid, PlacedMesh
+from sambot_viz.tools.picking.pick_scene import PickSnapshot
 from sambot_viz.tools.picking.picture import Picture
-from sambot_viz.tools.picking.rays import Array, RayGrid, TriangleMesh
 
 SHAPES = [
     TriangleMesh.of(shape.vertices, shape.faces)
@@ -48,7 +50,7 @@ def pixels(
 
 
 def seen(*placed: PlacedMesh, grid: RayGrid | None = None) -> set[str]:
-    found = PickSnapshot(placed, ()).items_met(grid or pixels())
+    found = PickSnapshot((TriangleGeometry(placed),)).items_met(grid or pixels())
     return {item.name for item in found}
 
 
@@ -62,7 +64,7 @@ def test_a_rectangle_has_what_the_rays_through_its_pixels_meet_first() -> None:
         T[:3, :3] *= rng.uniform(0.02, 0.9, 3)
         item = None if number % 10 == 0 else link(str(number))
         placed.append(PlacedMesh(item, SHAPES[number % 3], T))
-    snapshot = PickSnapshot(tuple(placed), ())
+    snapshot = PickSnapshot((TriangleGeometry(tuple(placed)),))
     coarse = replace(PICTURE, width=32, height=24)
     for low, high in (((0.1, 0.1), (0.9, 0.9)), ((0.4, 0.3), (0.6, 0.5))):
         grid = coarse.pixels(low, high)
@@ -112,10 +114,11 @@ def test_what_is_behind_the_eye_or_beside_the_picture_is_not_selected() -> None:
 
 def test_a_grid_is_hit_at_its_lines_where_nothing_else_is() -> None:
     T = Origin((1.0, 0.0, 0.5), (0.0, 0.0, 0.0)).matrix
-    grid = PlacedGrid(
+    grid = GridLines(
         T, np.array((0.0, 0.0, 1.0)), np.array((0.0, 0.0, 0.1)), cells=4, cell=1.0
     )
-    snapshot = PickSnapshot((box("low", (0.0, 0.0, 0.0), (0.2, 0.2, 0.2)),), (grid,))
+    low = box("low", (0.0, 0.0, 0.0), (0.2, 0.2, 0.2))
+    snapshot = PickSnapshot((grid, TriangleGeometry((low,))))
     down = np.array((0.0, 0.0, -1.0))
 
     def point(*origin: float, direction: Array = down) -> Array | None:
@@ -137,6 +140,6 @@ def test_a_grid_is_hit_at_its_lines_where_nothing_else_is() -> None:
 
 def test_ribbons_of_a_grid_are_hit_in_all_their_width() -> None:
     z = np.array((0.0, 0.0, 1.0))
-    grid = PlacedGrid(np.eye(4), z, np.zeros(3), cells=2, cell=1.0, thickness=0.4)
-    hit = PickSnapshot((), (grid,)).first_hit(np.array((0.19, 0.5, 5.0)), -z, 1e-6)
+    grid = GridLines(np.eye(4), z, np.zeros(3), cells=2, cell=1.0, thickness=0.4)
+    hit = PickSnapshot((grid,)).first_hit(np.array((0.19, 0.5, 5.0)), -z, 1e-6)
     assert hit.point == pytest.approx((0.19, 0.5, 0.0))

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.drawn_shape import DrawnShape, Triangles
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
 from sambot_viz.displays.robot_model.trail import Trail
@@ -26,6 +25,7 @@ from sambot_viz.displays.scene.solids import (
     axes_triangles,
     sphere,
 )
+from sambot_viz.displays.triangle_display import DrawnTriangles, Triangles
 from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
 from sambot_viz.meshes.primitives import unit_box
 from sambot_viz.robot.joint import Joint
@@ -44,7 +44,7 @@ class _Mark:
 
     path: str
     handles: tuple[Handle, ...] = ()
-    shape: DrawnShape | None = None
+    shape: DrawnTriangles | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +114,7 @@ class RobotMarks:
             if self._context.nodes.connected(frame):
                 trail.follow(position_of(tree.lookup(fixed, frame).matrix))
 
-    def drawn_shapes(self) -> Iterator[DrawnShape]:
+    def drawn(self) -> Iterator[DrawnTriangles]:
         """What is drawn now, without the trails, which are lines."""
         for mark in self._marks.values():
             if mark.shape is not None:
@@ -160,7 +160,7 @@ class RobotMarks:
             remove_all(known.handles)
         made, mark = self._make(what, node, thing), _Mark(node)
         if made is not None:
-            mark = _Mark(node, made[0], DrawnShape(made[1], made[2], frame))
+            mark = _Mark(node, made[0], DrawnTriangles(made[1], made[2], frame))
         self._marks[what, name] = mark
         return made is not None
 

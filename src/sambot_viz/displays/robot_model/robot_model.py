@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Literal
 
-from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.drawn_shape import DrawnShape
+from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
 from sambot_viz.displays.robot_model.link_rows import collision_note, robot_lists
@@ -22,6 +22,7 @@ from sambot_viz.displays.robot_model.robot_source import FILE, OUTSIDE, RobotSou
 from sambot_viz.displays.robot_model.second_robot import publish_frames
 from sambot_viz.displays.robot_model.shape_nodes import ShapeLook, ShapeNode
 from sambot_viz.displays.status import Status
+from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Link, Robot, Shape
 from sambot_viz.robot.shape_files import asset_of
@@ -31,7 +32,7 @@ Kind = Literal["visual", "collision"]
 _ShapeKey = tuple[str, Kind, int]
 
 
-class RobotModelDisplay(Display):
+class RobotModelDisplay(TriangleDisplay):
     """The robot, each link at its frame.
 
     A link without a transform to the fixed frame is white and is drawn at its origin,
@@ -250,15 +251,15 @@ class RobotModelDisplay(Display):
         if self.shown:
             self._marks.moved()
 
-    def drawn_shapes(self) -> Iterator[DrawnShape]:
-        """The shapes of the links, and marks, which select nothing, as in RViz."""
-        yield from self._marks.drawn_shapes()
+    def drawn(self) -> Iterator[DrawnTriangles]:
+        """Yield the shapes of links, and overlays, which select nothing, as in RViz."""
+        yield from self._marks.drawn()
         for (link, _, _), (_, node) in self._shapes.items():
             frame = self.frame_of(link)
             # A link of another robot is found by its frame, not in the opened robot.
             name = link if self.own_robot is None else frame
             placed = frame if self.context.nodes.connected(frame) else None
-            yield from node.drawn(placed, ("link", name))
+            yield from node.drawn(placed, Selectable("link", name))
 
     def clear(self) -> None:
         """Take the robot out of the scene."""

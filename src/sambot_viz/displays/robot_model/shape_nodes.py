@@ -9,7 +9,7 @@ from typing import TypedDict
 import viser
 
 from sambot_viz import viser_private
-from sambot_viz.displays.drawn_shape import DrawnShape, Owner
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_model.shape_solids import (
     solids_of,
     stand_in,
@@ -20,6 +20,7 @@ from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
+from sambot_viz.displays.triangle_display import DrawnTriangles
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Rgba, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.asset import Asset
@@ -187,12 +188,12 @@ class ShapeNode:
         """Whether its nodes went with the frame they hung below."""
         return any_gone(piece.handle for piece in self._pieces)
 
-    def drawn(self, frame: str | None, owner: Owner) -> Iterator[DrawnShape]:
+    def drawn(self, frame: str | None, item: Selectable) -> Iterator[DrawnTriangles]:
         """What of it is on the screen.
 
         Args:
             frame: the frame of its link, or None for the fixed frame.
-            owner: what it belongs to.
+            item: what it belongs to.
         """
         look = self._look
         if look is None or not look.visible or not self._pieces:
@@ -204,7 +205,7 @@ class ShapeNode:
         ):
             if look.error or look.alpha * piece.alpha > 0.0:
                 T = self._shape.origin.matrix @ T_shape_solid
-                yield DrawnShape(triangles, T, frame, owner, solid)
+                yield DrawnTriangles(triangles, T, frame, item, solid)
 
     def remove(self) -> None:
         """Take the nodes out of the scene."""

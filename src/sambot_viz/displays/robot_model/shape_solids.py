@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.drawn_shape import Triangles
 from sambot_viz.displays.scene.solids import sphere
+from sambot_viz.displays.triangle_display import Triangles
 from sambot_viz.geometry import Matrix, Vector3
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale

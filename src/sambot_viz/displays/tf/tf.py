@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
-from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.drawn_shape import DrawnShape
+from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.scene.kept_nodes import (
     Handle,
     KeptNodes,
@@ -32,6 +32,7 @@ from sambot_viz.displays.tf.frame_rows import (
     FrameEntries,
     frame_list,
 )
+from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
@@ -62,7 +63,7 @@ class _FrameMarks:
         return tuple(h for h in (self.axes, self.name) if h is not None)
 
 
-class TfDisplay(Display):
+class TfDisplay(TriangleDisplay):
     """The frames: axes, names, and arrows from child to parent."""
 
     kind = "rviz_default_plugins/TF"
@@ -228,18 +229,18 @@ class TfDisplay(Display):
         )
         return tuple(arrow for arrow in arrows if arrow is not None)
 
-    def drawn_shapes(self) -> Iterator[DrawnShape]:
-        """The axes, which select their frame, and the arrows, which select nothing."""
+    def drawn(self) -> Iterator[DrawnTriangles]:
+        """Yield axes, which select their frame, and arrows, which select nothing."""
         scale = float(self.config.get("Marker Scale"))
         axes, T = axes_triangles(AXES_LENGTH, AXES_DIAMETER), np.eye(4)
         T[:3, :3] *= scale
         for frame, marks in self._marks.items():
             if marks.axes is not None:
-                yield DrawnShape(axes, T, frame, ("frame", frame))
+                yield DrawnTriangles(axes, T, frame, Selectable("frame", frame))
         for parent in self._arrows:
             arrows = self._arrows_at(parent)
             if arrows:
-                yield DrawnShape(arrow_triangles(arrows), np.eye(4), parent)
+                yield DrawnTriangles(arrow_triangles(arrows), np.eye(4), parent)
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, cast
 
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import LIST, command
 from sambot_viz.panels.joints.joint_rows import joint_id
@@ -32,7 +33,6 @@ from sambot_viz.rviz import FIXED_FRAME, ConfigItem
 from sambot_viz.session import Session
 from sambot_viz.session.browser.browser import Browser
 from sambot_viz.session.document.switches import switches
-from sambot_viz.tools.picking.hit import Selectable
 from sambot_viz.views.registry import VIEWS
 
 

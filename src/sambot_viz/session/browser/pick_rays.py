@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
-from sambot_viz.tools.picking.hit import Selectable
-from sambot_viz.tools.picking.pick_scene import Corners, PickScene, PickSnapshot
+from sambot_viz.displays.picking.pick_geometry import Corners, Selectable
+from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
 
 if TYPE_CHECKING:
     from sambot_viz.session import Session
@@ -28,7 +28,7 @@ class PickRays:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._scene = PickScene(session.context, lambda: session.displays)
+        self._scene = PickScene(lambda: session.displays)
         self._thread = ThreadPoolExecutor(1, "sambot-viz-rays")
         self._lock = threading.Lock()
         self._waiting: dict[object, Callable[[], None]] = {}

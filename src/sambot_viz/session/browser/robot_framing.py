@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import viser
 
-from sambot_viz.tools.picking.pick_scene import Corners
+from sambot_viz.displays.picking.pick_geometry import Corners
 from sambot_viz.views.view import View
 
 if TYPE_CHECKING:

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import viser
 
+from sambot_viz.displays.picking.pick_geometry import Hit, Selectable
+from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.errors import UsageError
 from sambot_viz.session.browser.pointer_events import click_of, pointed_at, rays_of
 from sambot_viz.session.signals import Signal, connect
 from sambot_viz.tools.move_camera import MoveCameraTool
-from sambot_viz.tools.picking.hit import Hit, Selectable
 from sambot_viz.tools.picking.picture import ScreenPoint
-from sambot_viz.tools.picking.rays import Array, RayGrid
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import viser
 
+from sambot_viz.displays.picking.pick_geometry import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import short_name
@@ -27,7 +28,6 @@ from sambot_viz.session.browser.saved_views import SavedViews
 from sambot_viz.session.document.document_view import target_of, view_of
 from sambot_viz.session.signals import Signal, connect
 from sambot_viz.session.throttle import Throttle
-from sambot_viz.tools.picking.pick_scene import Corners
 from sambot_viz.views.camera import Camera, Vector
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
+from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.geometry import rotation_from_xyzw
-from sambot_viz.tools.picking.rays import Array, RayGrid
 
 LARGEST_SIDE = 100_000
 """A picture with a longer side is not taken from a browser [pixels]."""

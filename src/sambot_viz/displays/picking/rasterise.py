@@ -16,8 +16,8 @@ from functools import reduce
 
 import numpy as np
 
+from sambot_viz.displays.picking.rays import Array, Indices, RayGrid, TriangleMesh
 from sambot_viz.geometry import Matrix
-from sambot_viz.tools.picking.rays import Array, Indices, RayGrid, TriangleMesh
 
 GROUPS = 2000
 """Groups of triangles that are looked at in one go, which bounds the memory."""

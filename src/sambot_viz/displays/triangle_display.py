@@ -1,0 +1,152 @@
+"""Displays that draw triangles, and how rays and rectangles meet these."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.picking.pick_geometry import (
+    Corners,
+    PickBuffer,
+    PickGeometry,
+    Selectable,
+)
+from sambot_viz.displays.picking.rasterise import covered, nearness
+from sambot_viz.displays.picking.rays import Array, TriangleMesh
+from sambot_viz.geometry import Matrix
+from sambot_viz.rviz import DisplayConfig
+
+
+class Triangles(Protocol):
+    """Triangles in arrays, as a mesh file or a unit shape has them."""
+
+    @property
+    def vertices(self) -> npt.NDArray[np.float32]:
+        """(V, 3) [m]."""
+        ...
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """(F, 3) indices of vertices, counter-clockwise seen from outside."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnTriangles:
+    """Triangles that are on the screen.
+
+    Attributes:
+        triangles: the same object as long as they do not change.
+        T_frame_shape: (4, 4) their pose at their frame; it may scale.
+        frame: the frame they are drawn at; None for the fixed frame.
+        item: what a click on them selects; None when that is nothing.
+        solid: False for lines, which can be seen through.
+    """
+
+    triangles: Triangles
+    T_frame_shape: Matrix
+    frame: str | None
+    item: Selectable | None = None
+    solid: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedMesh:
+    """Triangles with their pose, and the link or frame they belong to.
+
+    Attributes:
+        item: the link or frame; None for what is not selectable.
+        mesh: the triangles.
+        T: (4, 4) from them to the fixed frame; it may scale.
+    """
+
+    item: Selectable | None
+    mesh: TriangleMesh
+    T: Matrix
+
+
+@dataclass(frozen=True, slots=True)
+class TriangleGeometry(PickGeometry):
+    """Triangles that hide what is behind them.
+
+    Attributes:
+        placed: the meshes; of two that are equally near the first one is in front.
+    """
+
+    placed: tuple[PlacedMesh, ...]
+
+    @property
+    def triangles(self) -> int:
+        """How many triangles there are."""
+        return sum(len(placed.mesh.faces) for placed in self.placed)
+
+    def draw(self, buffer: PickBuffer) -> None:
+        """Draw each mesh into the pixels that the box around it covers."""
+        if not self.placed:
+            return
+        pixels = buffer.pixels
+        boxes = covered(pixels, pixels.seen(self._corners(), np.eye(4)))
+        for number, left, right, top, bottom in boxes:
+            placed = self.placed[number]
+            part = pixels.part(left, top, right - left + 1, bottom - top + 1)
+            near = nearness(part, placed.mesh, placed.T)
+            buffer.cover(left, top, near, placed.item)
+
+    def _corners(self) -> Array:
+        """The corners of the boxes of all meshes in the fixed frame, (M, 8, 3) [m]."""
+        T = np.stack([placed.T for placed in self.placed])
+        corners = np.concatenate([placed.mesh.corners for placed in self.placed])
+        turned: Array = np.einsum("mij,mkj->mki", T[:, :3, :3], corners)
+        return turned + T[:, None, :3, 3]
+
+
+class TriangleDisplay(Display):
+    """Base of displays that draw triangles."""
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._meshes: dict[int, tuple[Triangles, TriangleMesh]] = {}
+
+    def drawn(self) -> Iterator[DrawnTriangles]:
+        """Yield what is on the screen; only called while the display is shown."""
+        raise NotImplementedError
+
+    def pick_geometry(self) -> PickGeometry:
+        """Return what is on the screen now; files are not read for it."""
+        shapes = [shape for shape in self.drawn() if shape.solid]
+        used = {id(shape.triangles) for shape in shapes}
+        for key in [key for key in self._meshes if key not in used]:
+            del self._meshes[key]
+        return TriangleGeometry(tuple(self._placed(shapes)))
+
+    def boxes(
+        self, of: Callable[[Selectable | None], bool]
+    ) -> Iterator[tuple[Selectable | None, Corners]]:
+        """Yield the box around each shape that belongs to some items."""
+        for one in self._placed(shape for shape in self.drawn() if of(shape.item)):
+            yield one.item, one.mesh.box(one.T)
+
+    def _placed(self, shapes: Iterable[DrawnTriangles]) -> Iterator[PlacedMesh]:
+        poses: dict[str | None, Matrix | None] = {}
+        for shape in shapes:
+            if shape.frame not in poses:
+                poses[shape.frame] = self.context.pose(shape.frame)
+            T_fixed_frame = poses[shape.frame]
+            if T_fixed_frame is not None:
+                T = T_fixed_frame @ shape.T_frame_shape
+                yield PlacedMesh(shape.item, self._mesh(shape.triangles), T)
+
+    def _mesh(self, triangles: Triangles) -> TriangleMesh:
+        """The same triangles with what is computed of them once."""
+        # They are kept beside the mesh: their id is used again when they are gone.
+        known = self._meshes.get(id(triangles))
+        if known is None:
+            mesh = TriangleMesh.of(triangles.vertices, triangles.faces)
+            known = self._meshes[id(triangles)] = (triangles, mesh)
+        return known[1]
