@@ -129,7 +129,7 @@ def test_a_presenter_gets_a_second_link_and_the_model_stays_the_model(
         for path in ("", f"/?token={query}"):
             client = protocol(port, path=path)
             client.wait_until(lambda c=client: "role/me" in c.rows)
-            drives.append(client.row("role/me")["value"]["drives"])
+            drives.append(client.row("role/me")["value"]["control"])
         assert drives == [False, True]
 
 

@@ -58,7 +58,13 @@ def test_few_commands_are_for_viewers_too() -> None:
     assert local == {
         *("file/download", "file/page", "file/picture", "frames/show", "joints/copy"),
         *("permalink/copy", "permalink/open"),
-        *("role/ask", "role/back", "role/give", "role/refuse", "role/take"),
+        *(
+            "role/request",
+            "role/release",
+            "role/give",
+            "role/decline",
+            "role/take-back",
+        ),
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
         *("tools/press", "tools/right_click", "tools/zero"),
         *("views/restore", "views/use"),

@@ -47,7 +47,7 @@ def test_a_copy_begins_as_the_class_is(viz: Visualizer, copy: ProtocolClient) ->
     assert private.config.to_yaml() == shared.config.to_yaml()
     assert dict(private.added.all) == dict(shared.added.all)
     assert copy.row("people/state")["value"]["copy"] is True
-    assert copy.row("role/me")["value"]["drives"] is True
+    assert copy.row("role/me")["value"]["control"] is True
 
 
 def test_the_robot_of_the_class_is_not_sent_to_a_copy(
@@ -134,7 +134,7 @@ def test_the_class_goes_on_when_the_teacher_makes_a_copy(
     teacher.settle(viser_server(viz))
     guest.settle(viser_server(viz))
     state = guest.row("people/state")["value"]
-    assert (state["drive"], state["browsers"]) == ([], 1)
+    assert (state["control"], state["clients"]) == ([], 1)
 
 
 def test_private_sessions_have_no_copies(protocol: Protocol) -> None:

@@ -143,9 +143,9 @@ def test_the_presenter_drives_and_the_guests_see_it(
     settle(teacher, guest)
     assert viz.joint_positions[JOINT] == 1.0
     assert guest.shown("joints", JOINT) == 1.0
-    assert not me(guest)["drives"] and me(teacher)["presenter"]
+    assert not me(guest)["control"] and me(teacher)["presenter"]
     state = guest.row("people/state")["value"]
-    assert (state["drive"], state["watching"]) == (["Presenter"], 1)
+    assert (state["control"], state["viewers"]) == (["Presenter"], 1)
 
 
 def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
@@ -155,9 +155,9 @@ def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
     teacher: ProtocolClient,
     settle: Callable[..., None],
 ) -> None:
-    guest.act("role/ask", "Ann <b>")
+    guest.act("role/request", "Ann <b>")
     settle(guest, teacher)
-    ((number, name),) = teacher.row("people/state")["value"]["asks"]
+    ((number, name),) = teacher.row("people/state")["value"]["requests"]
     assert name == "Ann <b>"
     guest.act("role/give", number)
     settle(guest)
@@ -167,8 +167,8 @@ def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
     guest.edit(joint(guest), 0.5)
     settle(guest)
     assert viz.joint_positions[JOINT] == 0.5
-    assert teacher.row("people/state")["value"]["drive"] == ["Ann <b>", "Presenter"]
-    guest.act("role/back")
+    assert teacher.row("people/state")["value"]["control"] == ["Ann <b>", "Presenter"]
+    guest.act("role/release")
     guest.edit(joint(guest), 0.7)
     guest.act("edit/undo")
     settle(guest)
@@ -181,16 +181,16 @@ def test_the_wheel_is_free_when_its_guest_has_left(
     teacher: ProtocolClient,
     settle: Callable[..., None],
 ) -> None:
-    guest.act("role/ask", "")
+    guest.act("role/request", "")
     settle(guest, teacher)
-    ((number, _),) = teacher.row("people/state")["value"]["asks"]
+    ((number, _),) = teacher.row("people/state")["value"]["requests"]
     teacher.act("role/give", number)
     settle(teacher)
     guest.close()
     teacher.wait_until(lambda: len(session.browsers) == 1)
     settle(teacher)
     state = teacher.row("people/state")["value"]
-    assert (state["drive"], state["given"]) == (["Presenter"], False)
+    assert (state["control"], state["given"]) == (["Presenter"], False)
 
 
 def test_a_watcher_does_not_set_the_widgets_of_a_program(
@@ -238,7 +238,7 @@ def test_the_presenters_link_lets_in_too(protocol: Protocol) -> None:
         for url in (viz.url, viz.presenter_url):
             client = protocol(port, path=f"/?{url.partition('?')[2]}")
             client.settle(viser_server(viz))
-            drives.append(me(client)["drives"])
+            drives.append(me(client)["control"])
         assert drives == [False, True]
 
 
@@ -253,20 +253,20 @@ def test_each_hears_what_the_other_does_about_control(
         return client.row("notice")["value"]["text"]
 
     def ask() -> int:
-        guest.act("role/ask", "Ann")
+        guest.act("role/request", "Ann")
         settle(guest, teacher)
-        ((number, _),) = teacher.row("people/state")["value"]["asks"]
+        ((number, _),) = teacher.row("people/state")["value"]["requests"]
         return number
 
-    teacher.act("role/refuse", ask())
+    teacher.act("role/decline", ask())
     assert heard(guest) == "The presenter declined your request"
     teacher.act("role/give", ask())
     assert heard(guest).startswith("You are in control")
-    teacher.act("role/take")
+    teacher.act("role/take-back")
     assert heard(guest).endswith("the presenter has taken back control")
     teacher.act("role/give", ask())
     settle(teacher)
-    guest.act("role/back")
+    guest.act("role/release")
     assert heard(guest) == "You have released control"
     assert heard(teacher) == "Ann released control"
 

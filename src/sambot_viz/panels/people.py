@@ -34,16 +34,18 @@ class PeoplePanel(Panel):
         """Return how many there are, and the names of some."""
         roles = self._session.roles
         people = roles.people
-        drive = [person.name for person in people.values() if person.has_control]
-        asks = [[id, person.name] for id, person in people.items() if person.requests]
+        control = [person.name for person in people.values() if person.has_control]
+        requests = [
+            [id, person.name] for id, person in people.items() if person.requests
+        ]
         given = any(p.has_control and not p.presenter for p in people.values())
         private = isinstance(self._session.audience, viser.ClientHandle)
         state = {
-            "browsers": len(people),
+            "clients": len(people),
             "presented": roles.presented,
-            "drive": drive if roles.presented else [],
-            "watching": len(people) - len(drive),
-            "asks": asks,
+            "control": control if roles.presented else [],
+            "viewers": len(people) - len(control),
+            "requests": requests,
             "given": given and roles.presented,
             "copy": self._session.options.session == "shared" and private,
         }
@@ -81,8 +83,8 @@ class OwnRolePanel(Panel):
         me = {
             "name": person.name,
             "presenter": person.presenter,
-            "drives": person.has_control,
-            "asks": person.requests,
+            "control": person.has_control,
+            "requests": person.requests,
         }
         return [Data("role/me", me)]
 
@@ -120,13 +122,13 @@ class OwnRolePanel(Panel):
             self._acted = False
             raise
 
-    @command("role/ask", TEXT, client_local=True)
+    @command("role/request", TEXT, client_local=True)
     def _ask(self, name: str) -> Answer:
         with self._acting():
             self._roles.request(self._id, name)
         return Answer("Requested control; the presenter sees your request")
 
-    @command("role/back", client_local=True)
+    @command("role/release", client_local=True)
     def _hand_back(self) -> None:
         with self._acting():
             self._roles.release(self._id)
@@ -137,12 +139,12 @@ class OwnRolePanel(Panel):
             person = self._roles.give(self._id, client_id)
         return Answer(f"You and {person.name} are in control")
 
-    @command("role/refuse", INTEGER, client_local=True)
+    @command("role/decline", INTEGER, client_local=True)
     def _refuse(self, client_id: int) -> None:
         with self._acting():
             self._roles.refuse(self._id, client_id)
 
-    @command("role/take", client_local=True)
+    @command("role/take-back", client_local=True)
     def _take(self) -> Answer:
         with self._acting():
             self._roles.take_back(self._id)

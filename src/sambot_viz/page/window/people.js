@@ -8,9 +8,9 @@ import { Popup } from "./popup.js";
 import { Cell, useData } from "../state.js";
 
 /**
- * @typedef {{browsers: number, presented: boolean, drive: string[], watching: number,
- *   asks: [number, string][], given: boolean, copy: boolean}} State
- * @typedef {{name: string, presenter: boolean, drives: boolean, asks: boolean}} Me
+ * @typedef {{clients: number, presented: boolean, control: string[], viewers: number,
+ *   requests: [number, string][], given: boolean, copy: boolean}} State
+ * @typedef {{name: string, presenter: boolean, control: boolean, requests: boolean}} Me
  */
 
 /** The name under which this user requests control. @type {Cell<string>} */
@@ -21,8 +21,8 @@ export function followRole() {
   const look = () => {
     const me = /** @type {Me | undefined} */ (rows.data("role/me"));
     if (!me) return;
-    rows.watch(!me.drives);
-    document.body.classList.toggle("watching", !me.drives);
+    rows.watch(!me.control);
+    document.body.classList.toggle("watching", !me.control);
   };
   rows.listen("role/me", look);
   look();
@@ -40,7 +40,7 @@ export function People() {
   const now = usePeople();
   if (!now) return null;
   const { state, me } = now;
-  if (!state.copy && !state.presented && state.browsers < 2) return null;
+  if (!state.copy && !state.presented && state.clients < 2) return null;
   return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me)}>${(
     /** @type {() => void} */ close,
   ) =>
@@ -63,41 +63,42 @@ const count = (number, noun) => `${number || "no"} ${noun}${number === 1 ? "" : 
 /** @param {State} state @param {Me} me */
 function short(state, me) {
   if (state.copy) return "Private copy";
-  if (!state.presented) return `${state.browsers} browsers`;
+  if (!state.presented) return `${state.clients} browsers`;
   const requests =
-    me.presenter && state.asks.length ? `, ${count(state.asks.length, "request")}` : "";
-  return `${inControl(state, me)}, ${count(state.watching, "viewer")}${requests}`;
+    me.presenter && state.requests.length ? `, ${count(state.requests.length, "request")}` : "";
+  return `${inControl(state, me)}, ${count(state.viewers, "viewer")}${requests}`;
 }
 
 /** @param {State} state @param {Me} me */
 function inControl(state, me) {
-  const others = me.drives ? state.drive.filter((name) => name !== me.name) : state.drive;
-  const who = me.drives ? ["You", ...others] : others;
-  return `${who.length ? who.join(" and ") : "Nobody"} ${me.drives || who.length > 1 ? "are" : "is"} in control`;
+  const others = me.control ? state.control.filter((name) => name !== me.name) : state.control;
+  const who = me.control ? ["You", ...others] : others;
+  return `${who.length ? who.join(" and ") : "Nobody"} ${me.control || who.length > 1 ? "are" : "is"} in control`;
 }
 
 /** @param {State} state @param {Me} me */
 function inWords(state, me) {
   if (state.copy) return "This is a private copy. Only you see what you change.";
-  if (!state.presented) return `${state.browsers} pages show this robot, and each can control it.`;
-  return `${inControl(state, me)}. ${count(state.watching, "viewer")}.`;
+  if (!state.presented) return `${state.clients} pages show this robot, and each can control it.`;
+  return `${inControl(state, me)}. ${count(state.viewers, "viewer")}.`;
 }
 
 /** @param {{state: State, me: Me, close: () => void}} props */
 function Control({ state, me, close }) {
   const name = useRef(/** @type {any} */ (null));
   if (me.presenter) {
-    return html`<${AskList} asks=${state.asks} />
-      ${state.given && html`<button onClick=${() => act("role/take")}>Take back control</button>`}`;
+    return html`<${AskList} requests=${state.requests} />
+      ${state.given && html`<button onClick=${() => act("role/take-back")}>Take back control</button>`}`;
   }
-  if (me.drives) return html`<button onClick=${() => act("role/back")}>Release control</button>`;
-  if (me.asks) {
+  if (me.control)
+    return html`<button onClick=${() => act("role/release")}>Release control</button>`;
+  if (me.requests) {
     return html`<p>You have requested control.</p>
-      <button onClick=${() => act("role/back")}>Cancel the request</button>`;
+      <button onClick=${() => act("role/release")}>Cancel the request</button>`;
   }
   const ask = () => {
     ownName.set(name.current.value.trim());
-    act("role/ask", [ownName.value]);
+    act("role/request", [ownName.value]);
     close();
   };
   return html`<form onSubmit=${(/** @type {Event} */ e) => {
@@ -109,18 +110,18 @@ function Control({ state, me, close }) {
   </form>`;
 }
 
-/** @param {{asks: [number, string][]}} props */
-function AskList({ asks }) {
-  return html`${asks.map(
+/** @param {{requests: [number, string][]}} props */
+function AskList({ requests }) {
+  return html`${requests.map(
     ([id, name]) => html`<p class="ask" key=${id}>${`${name} requests control.`}
     <button onClick=${() => act("role/give", [id])} aria-label=${`Give control to ${name}`}>Give control</button>
-    <button onClick=${() => act("role/refuse", [id])} aria-label=${`Not now, ${name}`}>Not now</button></p>`,
+    <button onClick=${() => act("role/decline", [id])} aria-label=${`Not now, ${name}`}>Not now</button></p>`,
   )}`;
 }
 
 /** Over the view of a presenter: the requests for control. */
 export function Asking() {
   const now = usePeople();
-  const asks = now?.me.presenter ? now.state.asks : [];
-  return html`<div class="asking" role="status" aria-live="polite"><${AskList} asks=${asks} /></div>`;
+  const asks = now?.me.presenter ? now.state.requests : [];
+  return html`<div class="asking" role="status" aria-live="polite"><${AskList} requests=${asks} /></div>`;
 }
