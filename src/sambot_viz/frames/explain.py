@@ -1,13 +1,15 @@
-"""Why a frame is where it is, step by step; or why there is no answer, in words."""
+"""Explain where a frame is step by step, or why there is no answer; measure it."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from sambot_viz.frames.errors import LookupRefused
 from sambot_viz.frames.frame_tree import FrameTree, Hop
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform
+from sambot_viz.geometry import Vector3
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Robot
 
@@ -152,3 +154,26 @@ def _cut_off(frame: str, joint: Joint) -> str:
         f"publishes no transform for it; something else has to say where "
         f"'{joint.child}' is in '{joint.parent}'"
     )
+
+
+@dataclass(frozen=True, slots=True)
+class FrameDistance:
+    """The origin of a frame, seen from another.
+
+    Attributes:
+        length: between the two origins [m].
+        offset: of the second origin, along the axes of the first frame [m].
+    """
+
+    length: float
+    offset: Vector3
+
+
+def distance_between(tree: FrameTree, first: str, second: str) -> FrameDistance:
+    """Return the distance of the origins of two frames.
+
+    Raises:
+        LookupRefused: a frame does not exist, or the two are not connected.
+    """
+    x, y, z = tree.lookup(first, second).translation.tolist()
+    return FrameDistance(math.sqrt(x * x + y * y + z * z), (x, y, z))

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sambot_viz.frames.compose import compose
 from sambot_viz.frames.errors import LookupRefused, TransformRefused
 from sambot_viz.frames.hierarchy import Edge, FrameHierarchy
-from sambot_viz.frames.transform import Transform
+from sambot_viz.frames.transform import Transform, compose
 from sambot_viz.geometry import Matrix
 
 _SEEN_LIMIT = 4096
