@@ -38,12 +38,7 @@ def parser() -> Parser:
         "files and setup.py. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
-    made.add_argument(
-        "--format",
-        choices=("text", "json"),
-        default="text",
-        help="how to print it (default: %(default)s)",
-    )
+    made.add_format()
     return made
 
 

@@ -61,6 +61,15 @@ class Parser(argparse.ArgumentParser):
             "--debug", action="store_true", help="show where an internal error occurred"
         )
 
+    def add_format(self) -> None:
+        """Add ``--format``, for commands that print text or JSON."""
+        self.add_argument(
+            "--format",
+            choices=("text", "json"),
+            default="text",
+            help="how to print it (default: %(default)s)",
+        )
+
     def error(self, message: str) -> NoReturn:
         """Exit with the message and where the help is."""
         self.exit(2, f"{self.prog}: error: {message}; see {self.prog} --help\n")

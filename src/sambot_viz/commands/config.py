@@ -37,10 +37,5 @@ def parser() -> Parser:
         "file, 2 usage.",
     )
     made.add_argument("file", metavar="FILE.rviz", help="the file, of ROS 2 or ROS 1")
-    made.add_argument(
-        "--format",
-        choices=("text", "json"),
-        default="text",
-        help="how to print it (default: %(default)s)",
-    )
+    made.add_format()
     return made

@@ -56,10 +56,5 @@ def parser() -> Parser:
     )
     made.add_argument("source", metavar="SOURCE", help="the frame to look from")
     made.add_argument("target", metavar="TARGET", help="the frame to look at")
-    made.add_argument(
-        "--format",
-        choices=("text", "json"),
-        default="text",
-        help="how to print it (default: %(default)s)",
-    )
+    made.add_format()
     return made
