@@ -68,7 +68,7 @@ export function followLinks() {
     void copy(addressOf(now.parts, location), "a link to this view");
   });
   rows.listen("whole:browser", open);
-  rows.listen("panel:joints_again", open);
+  rows.listen("joints/untouched", open);
   addEventListener("hashchange", take);
   take();
 }
