@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.scene.kept_nodes import KeptNodes
+from sambot_viz.displays.scene.node_cache import NodeCache
 from sambot_viz.displays.scene.solids import add_axes, axes_triangles
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.rviz import (
@@ -53,7 +53,7 @@ class AxesDisplay(TriangleDisplay):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._nodes = KeptNodes()
+        self._nodes = NodeCache()
 
     def draw(self) -> None:
         """Draw the axes, unless they are drawn already."""

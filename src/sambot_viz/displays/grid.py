@@ -10,8 +10,8 @@ import numpy.typing as npt
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array
-from sambot_viz.displays.scene.kept_nodes import Handle, KeptNodes
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
+from sambot_viz.displays.scene.node_cache import Handle, NodeCache
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.displays.status import Status
 from sambot_viz.geometry import Matrix, Vector3, Wxyz
@@ -195,7 +195,7 @@ class GridDisplay(Display):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._nodes = KeptNodes()
+        self._nodes = NodeCache()
 
     def draw(self) -> None:
         """Draw the grid, unless it is drawn already."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList, numbers
-from sambot_viz.displays.robot_model.link_marks import WITH_AXIS
+from sambot_viz.displays.robot_model.link_overlays import WITH_AXIS
 from sambot_viz.displays.robot_model.robot_entries import RobotEntries
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix

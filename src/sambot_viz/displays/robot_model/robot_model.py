@@ -10,7 +10,7 @@ from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_display import RobotDisplay
-from sambot_viz.displays.robot_model.link_marks import RobotMarks, Wanted
+from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
 from sambot_viz.displays.robot_model.link_rows import collision_note, robot_lists
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
@@ -49,7 +49,7 @@ class RobotModelDisplay(TriangleDisplay):
         self._entries: RobotEntries | None = None
         self._source = RobotSource(context, config, self._file_read)
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
-        self._marks = RobotMarks(context, key, self.frame_of)
+        self._overlays = LinkOverlays(context, key, self.frame_of)
 
     def frame_of(self, link: str) -> str:
         """The TF frame of a link."""
@@ -86,11 +86,11 @@ class RobotModelDisplay(TriangleDisplay):
                 node.draw(ShapeLook(on[kind] and own.get(BOX), opacity, not connected))
         for key in [key for key in self._shapes if key not in wanted]:
             self._shapes.pop(key)[1].remove()
-        wanted_marks = Wanted(
+        wanted_overlays = Wanted(
             bool(self.config.get("Mass Properties/Mass")),
             bool(self.config.get("Mass Properties/Inertia")),
         )
-        self._marks.draw(robot, entries, wanted_marks)
+        self._overlays.draw(robot, entries, wanted_overlays)
         self._report(robot)
 
     def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
@@ -117,7 +117,7 @@ class RobotModelDisplay(TriangleDisplay):
         """The robot to draw; what was drawn of another one is taken out."""
         change = self._source.choose()
         if change != "none":
-            self._marks.clear()
+            self._overlays.clear()
         if change == "other":
             # After an edit of the opened robot, what is the same stays.
             self._remove_shapes()
@@ -249,11 +249,11 @@ class RobotModelDisplay(TriangleDisplay):
     def frames_moved(self, frames: Iterable[str]) -> None:
         """The shapes hang below their frames; only trails have to follow."""
         if self.shown:
-            self._marks.moved()
+            self._overlays.moved()
 
     def drawn(self) -> Iterator[DrawnTriangles]:
         """Yield the shapes of links, and overlays, which select nothing, as in RViz."""
-        yield from self._marks.drawn()
+        yield from self._overlays.drawn()
         for (link, _, _), (_, node) in self._shapes.items():
             frame = self.frame_of(link)
             # A link of another robot is found by its frame, not in the opened robot.
@@ -270,7 +270,7 @@ class RobotModelDisplay(TriangleDisplay):
         for _, node in self._shapes.values():
             node.remove()
         self._shapes.clear()
-        self._marks.clear()
+        self._overlays.clear()
 
 
 def _shapes_of(link: Link) -> Iterator[tuple[Kind, int, Shape]]:

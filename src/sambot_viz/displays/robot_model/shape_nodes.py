@@ -16,7 +16,7 @@ from sambot_viz.displays.robot_model.shape_solids import (
     stand_in_edges,
     textured,
 )
-from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
+from sambot_viz.displays.scene.node_cache import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere

@@ -8,7 +8,7 @@ from collections import deque
 import numpy as np
 import viser
 
-from sambot_viz.displays.scene.kept_nodes import remove_all
+from sambot_viz.displays.scene.node_cache import remove_all
 from sambot_viz.geometry import Vector3
 
 COLOR = (0, 128, 128)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import viser
 
-from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
+from sambot_viz.displays.scene.node_cache import any_gone, remove_all
 
 COLOR = (255, 170, 0)
 WIDTH = 0.012

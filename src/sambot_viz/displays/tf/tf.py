@@ -11,9 +11,9 @@ import viser
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.displays.scene.kept_nodes import (
+from sambot_viz.displays.scene.node_cache import (
     Handle,
-    KeptNodes,
+    NodeCache,
     any_gone,
     remove_all,
 )
@@ -50,7 +50,7 @@ EM_HEIGHT = 0.0889
 
 
 @dataclass
-class _FrameMarks:
+class _FrameOverlays:
     """What is drawn for one frame, and at which node."""
 
     path: str
@@ -130,8 +130,8 @@ class TfDisplay(TriangleDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._entries = FrameEntries(config)
-        self._marks: dict[str, _FrameMarks] = {}
-        self._arrows: dict[str, KeptNodes] = {}
+        self._overlays: dict[str, _FrameOverlays] = {}
+        self._arrows: dict[str, NodeCache] = {}
 
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
@@ -142,10 +142,10 @@ class TfDisplay(TriangleDisplay):
             for frame in tree.frames
             if nodes.connected(frame) and self._entries.is_on(frame) and passes(frame)
         }
-        for frame in [f for f in self._marks if f not in frames]:
-            self._drop(self._marks.pop(frame))
+        for frame in [f for f in self._overlays if f not in frames]:
+            self._drop(self._overlays.pop(frame))
         for frame in frames:
-            self._draw_marks(frame)
+            self._draw_overlays(frame)
         parents = {tree.parent(f) for f in frames}
         for parent in [p for p in self._arrows if p not in parents]:
             self._arrows.pop(parent).remove()
@@ -166,30 +166,32 @@ class TfDisplay(TriangleDisplay):
 
         return passes
 
-    def _draw_marks(self, frame: str) -> None:
+    def _draw_overlays(self, frame: str) -> None:
         path = self.context.nodes.path(frame)
         if path is None:
             return
-        marks = self._marks.get(frame)
-        if marks is not None and (marks.path != path or any_gone(marks.handles)):
-            self._drop(marks)
-            marks = None
-        if marks is None:
-            marks = self._marks[frame] = _FrameMarks(path)
+        overlays = self._overlays.get(frame)
+        if overlays is not None and (
+            overlays.path != path or any_gone(overlays.handles)
+        ):
+            self._drop(overlays)
+            overlays = None
+        if overlays is None:
+            overlays = self._overlays[frame] = _FrameOverlays(path)
         scene, scale = self.context.scene, float(self.config.get("Marker Scale"))
         if bool(self.config.get("Show Axes")):
-            if marks.axes is None:
-                marks.axes = add_axes(
+            if overlays.axes is None:
+                overlays.axes = add_axes(
                     scene, f"{path}/{self.key}a", AXES_LENGTH, AXES_DIAMETER
                 )
-            marks.axes.scale = scale
-        elif marks.axes is not None:
-            remove_all([marks.axes])
-            marks.axes = None
+            overlays.axes.scale = scale
+        elif overlays.axes is not None:
+            remove_all([overlays.axes])
+            overlays.axes = None
         if bool(self.config.get("Show Names")):
             height = EM_HEIGHT * abs(scale)
-            if marks.name is None:
-                marks.name = scene.add_label(
+            if overlays.name is None:
+                overlays.name = scene.add_label(
                     f"{path}/{self.key}n",
                     text(frame),
                     font_size_mode="scene",
@@ -197,20 +199,20 @@ class TfDisplay(TriangleDisplay):
                     depth_test=True,
                     anchor="top-center",
                 )
-            marks.name.font_scene_height = height
-        elif marks.name is not None:
-            remove_all([marks.name])
-            marks.name = None
+            overlays.name.font_scene_height = height
+        elif overlays.name is not None:
+            remove_all([overlays.name])
+            overlays.name = None
 
     def _draw_arrows(self, parent: str) -> None:
         """The arrows of all children of a frame, as two nodes below it."""
         path = self.context.nodes.path(parent)
         arrows = self._arrows_at(parent)
         if path is None or not arrows:
-            self._arrows.pop(parent, KeptNodes()).remove()
+            self._arrows.pop(parent, NodeCache()).remove()
             return
         name = f"{path}/{self.key}"
-        self._arrows.setdefault(parent, KeptNodes()).show(
+        self._arrows.setdefault(parent, NodeCache()).show(
             (name, arrows),
             lambda: add_arrows(
                 self.context.scene, name, arrows, SHAFT_COLOR, HEAD_COLOR
@@ -225,7 +227,7 @@ class TfDisplay(TriangleDisplay):
         arrows = (
             frame_arrow(position_of(tree.hop(child).transform.matrix), scale)
             for child in tree.children(parent)
-            if child in self._marks
+            if child in self._overlays
         )
         return tuple(arrow for arrow in arrows if arrow is not None)
 
@@ -234,8 +236,8 @@ class TfDisplay(TriangleDisplay):
         scale = float(self.config.get("Marker Scale"))
         axes, T = axes_triangles(AXES_LENGTH, AXES_DIAMETER), np.eye(4)
         T[:3, :3] *= scale
-        for frame, marks in self._marks.items():
-            if marks.axes is not None:
+        for frame, overlays in self._overlays.items():
+            if overlays.axes is not None:
                 yield DrawnTriangles(axes, T, frame, Selectable("frame", frame))
         for parent in self._arrows:
             arrows = self._arrows_at(parent)
@@ -279,14 +281,14 @@ class TfDisplay(TriangleDisplay):
         self.status.replace(rows)
 
     def clear(self) -> None:
-        """Take all marks out of the scene."""
-        for marks in self._marks.values():
-            self._drop(marks)
+        """Take all overlays out of the scene."""
+        for overlays in self._overlays.values():
+            self._drop(overlays)
         for arrows in self._arrows.values():
             arrows.remove()
-        self._marks.clear()
+        self._overlays.clear()
         self._arrows.clear()
 
     @staticmethod
-    def _drop(marks: _FrameMarks) -> None:
-        remove_all(marks.handles)
+    def _drop(overlays: _FrameOverlays) -> None:
+        remove_all(overlays.handles)

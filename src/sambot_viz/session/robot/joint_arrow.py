@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import viser
 
 from sambot_viz.displays.scene.direction_arrow import add_direction_arrow
-from sambot_viz.displays.scene.kept_nodes import any_gone, remove_all
+from sambot_viz.displays.scene.node_cache import any_gone, remove_all
 from sambot_viz.robot.joint import Joint
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
 from sambot_viz.displays.robot_model.trail import Trail
-from sambot_viz.displays.scene.kept_nodes import Handle, any_gone, remove_all
+from sambot_viz.displays.scene.node_cache import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import (
     Arrow,
@@ -39,7 +39,7 @@ WITH_AXIS = frozenset({"continuous", "revolute", "prismatic", "planar"})
 
 
 @dataclass(frozen=True, slots=True)
-class _Mark:
+class _Overlay:
     """Something drawn at a node."""
 
     path: str
@@ -55,8 +55,8 @@ class Wanted:
     inertia: bool
 
 
-class RobotMarks:
-    """The marks of one RobotModel.
+class LinkOverlays:
+    """The overlays of one RobotModel.
 
     Args:
         context: what to draw with.
@@ -70,7 +70,7 @@ class RobotMarks:
         self._context = context
         self._key = key
         self._frame_of = frame_of
-        self._marks: dict[tuple[str, str], _Mark] = {}
+        self._overlays: dict[tuple[str, str], _Overlay] = {}
         self._trails: dict[str, Trail] = {}
         self._fixed = context.fixed_frame
 
@@ -80,12 +80,12 @@ class RobotMarks:
         for link in robot.links.values():
             own = entries.link(link.name)
             shown = own.get(BOX) or not (link.visuals or link.collisions)
-            marks: dict[str, bool] = {
+            overlays: dict[str, bool] = {
                 "a": own.get("Show Axes") and shown,
                 "m": wanted.mass and shown,
                 "i": wanted.inertia and shown,
             }
-            for what, on in marks.items():
+            for what, on in overlays.items():
                 if on and self._at(what, link.name, link):
                     keep.add((what, link.name))
             self._draw_trail(link.name, own.get("Show Trail"), shown)
@@ -97,8 +97,8 @@ class RobotMarks:
             }.items():
                 if on and self._at(what, joint.name, joint):
                     keep.add((what, joint.name))
-        for mark in [mark for mark in self._marks if mark not in keep]:
-            remove_all(self._marks.pop(mark).handles)
+        for overlay in [overlay for overlay in self._overlays if overlay not in keep]:
+            remove_all(self._overlays.pop(overlay).handles)
         for name in [name for name in self._trails if name not in robot.links]:
             self._trails.pop(name).remove()
         self._fixed = self._context.fixed_frame
@@ -116,17 +116,17 @@ class RobotMarks:
 
     def drawn(self) -> Iterator[DrawnTriangles]:
         """What is drawn now, without the trails, which are lines."""
-        for mark in self._marks.values():
-            if mark.shape is not None:
-                yield mark.shape
+        for overlay in self._overlays.values():
+            if overlay.shape is not None:
+                yield overlay.shape
 
     def clear(self) -> None:
         """Take everything out of the scene."""
-        for mark in self._marks.values():
-            remove_all(mark.handles)
+        for overlay in self._overlays.values():
+            remove_all(overlay.handles)
         for trail in self._trails.values():
             trail.remove()
-        self._marks.clear()
+        self._overlays.clear()
         self._trails.clear()
 
     def _draw_trail(self, link: str, on: bool, visible: bool) -> None:
@@ -142,7 +142,7 @@ class RobotMarks:
             trail.show(visible)
 
     def _at(self, what: str, name: str, thing: Link | Joint) -> bool:
-        """Draw one mark at its node; False when there is nothing to draw."""
+        """Draw one overlay at its node; False when there is nothing to draw."""
         link = thing.parent if isinstance(thing, Joint) else name
         frame = self._frame_of(link)
         path = self._context.nodes.path(frame)
@@ -153,15 +153,15 @@ class RobotMarks:
         if isinstance(thing, Joint):
             child = self._context.nodes.path(self._frame_of(thing.child)) or name
             node += child.rpartition("/")[2]
-        known = self._marks.get((what, name))
+        known = self._overlays.get((what, name))
         if known and known.path == node and not any_gone(known.handles):
             return bool(known.handles)
         if known is not None:
             remove_all(known.handles)
-        made, mark = self._make(what, node, thing), _Mark(node)
+        made, overlay = self._make(what, node, thing), _Overlay(node)
         if made is not None:
-            mark = _Mark(node, made[0], DrawnTriangles(made[1], made[2], frame))
-        self._marks[what, name] = mark
+            overlay = _Overlay(node, made[0], DrawnTriangles(made[1], made[2], frame))
+        self._overlays[what, name] = overlay
         return made is not None
 
     def _make(self, what: str, node: str, thing: Link | Joint) -> _Made | None:
@@ -223,6 +223,6 @@ class RobotMarks:
 
 
 _Made = tuple[tuple[Handle, ...], Triangles, Matrix]
-"""The nodes of a mark, and the same as triangles with their pose in the link."""
+"""The nodes of an overlay, and the same as triangles with their pose in the link."""
 _AXES = axes_triangles(AXES_LENGTH, AXES_DIAMETER)
 _NO_SHADOWS: dict[str, Any] = {"cast_shadow": False, "receive_shadow": False}

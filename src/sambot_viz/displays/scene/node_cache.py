@@ -11,7 +11,7 @@ from sambot_viz import viser_private
 Handle = viser.SceneNodeHandle
 
 
-class KeptNodes:
+class NodeCache:
     """A few nodes, and what they were made from."""
 
     def __init__(self) -> None:
