@@ -12,13 +12,22 @@ from typing import Literal
 
 from sambot_viz.errors import FrameError, did_you_mean
 
-LookupReason = Literal["unknown-frame", "empty-name", "not-connected"]
+LookupReason = Literal[
+    "unknown-frame",
+    "empty-name",
+    "not-connected",
+    "ring",
+    "extrapolation-past",
+    "extrapolation-future",
+    "extrapolation-one",
+]
 TransformFault = Literal[
     "TF_SELF_TRANSFORM",
     "TF_NO_FRAME_ID",
     "TF_NO_CHILD_FRAME_ID",
     "TF_NAN_INPUT",
     "TF_DENORMALIZED_QUATERNION",
+    "TF_OLD_DATA",
 ]
 
 
@@ -62,8 +71,12 @@ class LookupRefused(FrameError):
     Attributes:
         target: the frame in which the pose was wanted (RViz's fixed frame).
         source: the frame whose pose was wanted.
-        reason: "unknown-frame", "empty-name" or "not-connected".
+        reason: "unknown-frame", "empty-name", "not-connected", "ring", or
+            "extrapolation-…" for a time before the first ("past") or after the last
+            sample ("future") on the way, or beside the only one ("one").
         unknown: the frame that does not exist, or "".
+        times: the time that was asked for and that of the nearest sample [ns], for an
+            extrapolation; else None.
         tf2_text: the text of tf2 (what tf2_echo shows while it waits).
         rviz_text: the longer text of RViz's displays.
     """
@@ -75,14 +88,21 @@ class LookupRefused(FrameError):
         reason: LookupReason,
         known: Iterable[str] = (),
         unknown: str = "",
+        times: tuple[int, int] | None = None,
     ) -> None:
         self.target = target
         self.source = source
         self.reason: LookupReason = reason
         self.unknown = unknown
-        self.tf2_text = _tf2_text(target, source, reason, unknown)
+        self.times = times
+        if times is not None:
+            self.tf2_text = _extrapolation(target, source, reason, times)
+            message = _no_data(target, source, reason, times)
+        else:
+            self.tf2_text = _tf2_text(target, source, reason, unknown)
+            message = _message(target, source, reason, known, unknown)
         self.rviz_text = _rviz_text(target, source, self.tf2_text, reason, unknown)
-        super().__init__(_message(target, source, reason, known, unknown))
+        super().__init__(message)
 
 
 def _message(
@@ -92,6 +112,11 @@ def _message(
         return f"no frame '{unknown}'; {did_you_mean(unknown, known)}"
     if reason == "empty-name":
         return "a frame name is empty; name a target and a source frame"
+    if reason == "ring":
+        return (
+            f"no way from '{source}' to '{target}': the frames above '{unknown}' form "
+            "a ring; two publishers disagree about which is the parent"
+        )
     return (
         f"no way from '{source}' to '{target}': they belong to separate trees; "
         "a transform between the two trees is missing"
@@ -99,6 +124,8 @@ def _message(
 
 
 def _tf2_text(target: str, source: str, reason: LookupReason, unknown: str) -> str:
+    if reason == "ring":
+        return FrameCycleError.tf2_text
     if reason == "not-connected":
         # The missing blank after the first full stop is tf2's.
         return (
@@ -120,7 +147,38 @@ def _tf2_text(target: str, source: str, reason: LookupReason, unknown: str) -> s
 def _rviz_text(
     target: str, source: str, tf2_text: str, reason: LookupReason, unknown: str
 ) -> str:
-    if reason == "not-connected":
+    if reason not in ("unknown-frame", "empty-name"):
         return f"No transform to fixed frame [{target}]. TF error: [{tf2_text}]"
     role = "Fixed Frame" if unknown == target else "Frame"
     return f"For frame [{source}]: {role} [{unknown}] does not exist"
+
+
+def _extrapolation(
+    target: str, source: str, reason: LookupReason, times: tuple[int, int]
+) -> str:
+    asked, data = (f"{time / 1e9:.6f}" for time in times)
+    if reason == "extrapolation-one":
+        fault = f"at time {asked}, but only time {data} is in the buffer"
+    elif reason == "extrapolation-past":
+        fault = f"into the past.  Requested time {asked} but the earliest data is at "
+        fault += f"time {data}"
+    else:
+        fault = f"into the future.  Requested time {asked} but the latest data is at "
+        fault += f"time {data}"
+    return (
+        f"Lookup would require extrapolation {fault}, when looking up transform from "
+        f"frame [{source}] to frame [{target}]"
+    )
+
+
+def _no_data(
+    target: str, source: str, reason: LookupReason, times: tuple[int, int]
+) -> str:
+    apart = abs(times[1] - times[0]) / 1e9
+    word = {
+        "extrapolation-past": f"the earliest data is {apart:.3g} s newer",
+        "extrapolation-future": f"the latest data is {apart:.3g} s older",
+    }.get(reason, f"there is only one value, {apart:.3g} s away")
+    return (
+        f"no transform from '{source}' to '{target}' at {times[0] / 1e9:.6f} s: {word}"
+    )

@@ -1,7 +1,8 @@
 """The tree of frames: where anything is seen from anywhere.
 
-The rules are tf2's: the latest value counts, and a look-up from a frame to itself
-always works, even without any data.
+The rules are tf2's: a look-up from a frame to itself always works, even without any
+data. What is set here is where a frame is now, and holds at all times; a history beside
+it has frames that were somewhere else before.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from sambot_viz.frames.errors import LookupRefused, TransformRefused
-from sambot_viz.frames.hierarchy import Edge, FrameHierarchy
+from sambot_viz.frames.hierarchy import Edge, FrameHierarchy, plain_name
+from sambot_viz.frames.history import FrameHistory
+from sambot_viz.frames.samples import Sample
 from sambot_viz.frames.transform import Transform, compose
 from sambot_viz.geometry import Matrix
 
@@ -64,12 +67,19 @@ class FrameTree(FrameHierarchy):
     Names are taken as tf2 takes them: one leading slash is stripped. Not thread-safe:
     the session that owns it holds the lock.
 
+    Args:
+        history: frames of live data or of a recording, which are looked up together
+            with those of the tree. It wins where both have a frame.
+
     Attributes:
-        version: grows when a frame appears, disappears or gets another parent.
+        version: grows when a frame of the tree appears, disappears or gets another
+            parent.
+        history: as given; None for a robot that only sliders move.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, history: FrameHistory | None = None) -> None:
         super().__init__()
+        self.history = history
         # The answers since the last change: asking twice costs once.
         self._seen: dict[tuple[str, str], Transform] = {}
 
@@ -167,16 +177,25 @@ class FrameTree(FrameHierarchy):
         """
         return _hop(self._edge_of(child), up=True)
 
-    def lookup(self, target: str, source: str) -> Transform:
-        """The pose of the source frame in the target frame, T_target_source.
+    def lookup(self, target: str, source: str, time_ns: int | None = None) -> Transform:
+        """Return the pose of the source frame in the target frame, T_target_source.
 
         It takes coordinates of the source to the target, and is what
         ``tf2_echo TARGET SOURCE`` prints. The same name twice needs no data.
 
+        Args:
+            target: the frame in which the pose is wanted.
+            source: the frame whose pose is wanted.
+            time_ns: the time [ns], for frames of the history; None is now: the latest
+                time at which all of them are known.
+
         Raises:
             LookupRefused: a frame that does not exist (the target is tested first),
-                or frames of separate trees; with the texts of tf2 and RViz.
+                frames of separate trees, or a time of which the history knows
+                nothing; with the texts of tf2 and RViz.
         """
+        if self.history is not None:
+            return self.history.lookup(target, source, time_ns, self)
         seen = self._seen.get((target, source))
         if seen is None:
             if len(self._seen) >= _SEEN_LIMIT:
@@ -184,10 +203,13 @@ class FrameTree(FrameHierarchy):
             seen = self._seen[target, source] = self._look(target, source)
         return seen
 
-    def can_lookup(self, target: str, source: str) -> bool:
-        """Whether `lookup` has an answer."""
+    def can_lookup(self, target: str, source: str, time_ns: int | None = None) -> bool:
+        """Tell whether `lookup` has an answer."""
         try:
-            self._path(target, source)
+            if self.history is not None:
+                self.history.lookup(target, source, time_ns, self)
+            else:
+                self._path(target, source)
         except LookupRefused:
             return False
         return True
@@ -211,6 +233,16 @@ class FrameTree(FrameHierarchy):
         ups = [_hop(edge, up=True) for edge in below]
         downs = [_hop(edge, up=False) for edge in reversed(above)]
         return (*ups, *downs)
+
+    def held(self, child: str) -> Sample | None:
+        """Return where a frame of the tree is now; None for a root."""
+        edge = self._edges.get(plain_name(child))
+        if edge is None:
+            return None
+        x, y, z = edge.transform.translation.tolist()
+        qx, qy, qz, qw = edge.transform.rotation_xyzw.tolist()
+        stamp = round(edge.stamp * 1e9)
+        return Sample(stamp, edge.parent, ((x, y, z), (qx, qy, qz, qw)))
 
     # Inside
 
