@@ -1,16 +1,45 @@
-"""A real Chromium for the tests that look at the page."""
+"""Pages of a real Chromium: one for a test alone, or desks that tests share."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 if TYPE_CHECKING:
+    from desk import Desk
     from viewer_page import ViewerPage
 
     from sambot_viz.export.chromium import Chromium
+
+_TASKS = Path(__file__).parent / "tasks"
+_OUTPUT = Path(__file__).parents[1] / "output"
+_FAILED = pytest.StashKey[bool]()
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
+    """Remember which tests failed: their desk is not used again."""
+    outcome = yield
+    report = outcome.get_result()  # type: ignore[attr-defined]
+    if report.failed:
+        item.stash[_FAILED] = True
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """End the desks of a folder or file: open pages make the tests after it slower."""
+    if nextitem is None or _home(nextitem) != _home(item):
+        if desks := item.config.stash.get(_DESKS, None):
+            desks.close()
+
+
+def _home(item: pytest.Item) -> Path:
+    """The file of a test; of a task, the folder."""
+    return _TASKS if _TASKS in item.path.parents else item.path
 
 
 @pytest.fixture
@@ -49,3 +78,87 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
         assert viewer.foreign_requests() == []
         if not viewer.expects_errors:
             assert viewer.errors() == []
+
+
+class Desks:
+    """The desks that are open, by the letter of their robot and what they are for."""
+
+    def __init__(self, chromium: Chromium, folders: pytest.TempPathFactory) -> None:
+        self._chromium = chromium
+        self._folders = folders
+        self._open: dict[str, Desk] = {}
+
+    def take(self, letter: str, config: str | None, resolution: float) -> Desk:
+        """The desk with a robot, as it was at the start."""
+        from desk import Desk
+
+        if letter not in self._open:
+            folder = self._folders.mktemp("desk")
+            self._open[letter] = Desk(
+                letter, self._chromium, folder, config, resolution
+            )
+        return self._open[letter]
+
+    def drop(self, letter: str) -> None:
+        """End a desk."""
+        desk = self._open.pop(letter, None)
+        if desk is not None:
+            desk.close()
+
+    def close(self) -> None:
+        """End all."""
+        for letter in list(self._open):
+            self.drop(letter)
+
+
+_DESKS = pytest.StashKey[Desks]()
+
+
+@pytest.fixture(scope="session")
+def desks(
+    chromium: Chromium,
+    tmp_path_factory: pytest.TempPathFactory,
+    request: pytest.FixtureRequest,
+) -> Iterator[Desks]:
+    """The desks; a robot's server and page start with its first task."""
+    desks = request.config.stash[_DESKS] = Desks(chromium, tmp_path_factory)
+    yield desks
+    desks.close()
+
+
+def _keep_picture(desk: Desk, name: str) -> None:
+    """Put what the page showed at the end of a failed test into tests/output."""
+    _OUTPUT.mkdir(exist_ok=True)
+    _OUTPUT.joinpath(f"{name}.png").write_bytes(desk.page.screenshot())
+
+
+@pytest.fixture
+def sit(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Callable[..., Desk]]:
+    """Use a desk that other tests use too: ``sit("S")``, ``sit("S near", config)``."""
+    from viewer_page import COARSE
+
+    with ExitStack() as leaving:
+
+        def at(
+            letter: str, config: str | None = None, resolution: float = COARSE
+        ) -> Desk:
+            leaving.callback(_leave, desks, letter, request)
+            return desks.take(letter, config, resolution)
+
+        yield at
+
+
+def _leave(desks: Desks, letter: str, request: pytest.FixtureRequest) -> None:
+    """Tidy a desk for the next test, or end it when that would not be enough."""
+    desk = desks.take(letter, None, 1.0)
+    if request.node.stash.get(_FAILED, False):
+        _keep_picture(desk, request.node.name)
+        desks.drop(letter)
+        return
+    try:
+        desk.tidy()
+        assert desk.viewer.errors() == []
+        assert desk.viewer.foreign_requests() == []
+    except BaseException:
+        desks.drop(letter)
+        raise

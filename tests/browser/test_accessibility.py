@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
-from recorded_page import open_page
+from recorded_page import RecordedPage, open_page
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
@@ -22,40 +23,38 @@ RUN = """axe.run('#sambot').then(found => JSON.stringify(found.violations
 TABS = ("Joints", "Frames", "Selection", "Drive", "Tool Properties")
 
 
-@pytest.fixture(scope="module")
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0) as shown:
-        yield shown
+def violations(page: RecordedPage) -> Any:
+    return json.loads(page.evaluate(RUN, timeout=60.0))
 
 
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_axe_finds_nothing_serious(
-    viz: Visualizer, open_viewer: Callable[..., ViewerPage], dark: bool
+def test_axe_finds_nothing_serious_in_light_and_in_dark(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:
     if not AXE.is_file():
         pytest.skip("axe-core is not installed; bash tests/page/check installs it")
-    viewer = open_viewer(viz.url, dark=dark)
+    viewer = open_viewer(viz.url)
     viewer.user.find("slider", "drivewhl_l_joint")
     viewer.page.evaluate(AXE.read_text("utf-8") + ";0")
     for tab in TABS:
         viewer.user.click("tab", tab)
         viewer.user.find("tabpanel", tab)
-        found = json.loads(viewer.page.evaluate(RUN, timeout=60.0))
-        assert found == [], tab
+        for dark in (False, True):
+            viewer.page.set_dark(dark)
+            viewer.wait_for_frames()
+            assert violations(viewer.page) == [], (tab, dark)
 
 
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 def test_axe_finds_nothing_serious_in_an_exported_page(
-    viz: Visualizer, chromium: Chromium, tmp_path: Path, dark: bool
+    viz: Visualizer, chromium: Chromium, tmp_path: Path
 ) -> None:
     if not AXE.is_file():
         pytest.skip("axe-core is not installed; bash tests/page/check installs it")
     viz.export(tmp_path / "robot.html")
     page = open_page(chromium, 800, 600)
-    page.set_dark(dark)
     page.goto(f"file://{tmp_path}/robot.html")
     page.wait_for("document.querySelector('#sambot[data-ready]')", 30.0)
     page.evaluate(AXE.read_text("utf-8") + ";0")
-    found = json.loads(page.evaluate(RUN, timeout=60.0))
+    for dark in (False, True):
+        page.set_dark(dark)
+        assert violations(page) == [], dark
     page.close()
-    assert found == []

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from desk import Desk
+from inside import session_of
 from user import User
 from viewer_page import ViewerPage
 
@@ -14,6 +16,8 @@ from sambot_viz.session import Session
 from sambot_viz.session.document.drawn_scene import walk
 
 pytestmark = pytest.mark.browser
+
+Own = tuple[User, Session]
 
 MODEL = """<robot name="r">
   <link name="base_link"><visual><geometry>
@@ -37,24 +41,37 @@ Visualization Manager:
 
 
 @pytest.fixture
-def model(tmp_path: Path) -> Path:
-    (tmp_path / "r.rviz").write_text(CONFIG, "utf-8")
-    model = tmp_path / "r.urdf"
-    model.write_text(MODEL, "utf-8")
-    return model
+def desk(sit: Callable[..., Desk]) -> Desk:
+    desk = sit(MODEL, CONFIG)
+    desk.user.row("Displays", "TF")
+    return desk
 
 
 @pytest.fixture
-def viz(model: Path) -> Iterator[Visualizer]:
-    with Visualizer(model, model.with_suffix(".rviz"), port=0, watch=True) as viz:
+def user(desk: Desk) -> User:
+    return desk.user
+
+
+@pytest.fixture
+def session(desk: Desk) -> Session:
+    return desk.session
+
+
+@pytest.fixture
+def viz(tmp_path: Path) -> Iterator[Visualizer]:
+    model, config = tmp_path / "r.urdf", tmp_path / "r.rviz"
+    model.write_text(MODEL, "utf-8")
+    config.write_text(CONFIG, "utf-8")
+    with Visualizer(model, config, port=0) as viz:
         yield viz
 
 
 @pytest.fixture
-def user(viz: Visualizer, open_viewer: Callable[..., ViewerPage]) -> User:
+def own(viz: Visualizer, open_viewer: Callable[..., ViewerPage]) -> Own:
+    """The same for what a desk cannot put back."""
     user = open_viewer(viz.url).user
     user.row("Displays", "TF")
-    return user
+    return user, session_of(viz)
 
 
 def names(session: Session) -> list[str]:
@@ -75,6 +92,7 @@ def select(user: User, *names: str) -> None:
 def test_a_display_is_dragged_into_a_folded_group_and_out_of_it(
     user: User, session: Session
 ) -> None:
+    user.unfold("Displays", "Ground", fold=True)
     drag(user, "Grid", "Ground", 0.5)
     user.until(lambda: names(session) == ["Robot", "Ground", "Axes", "Grid", "TF"])
     # The group is open now, and the display is selected in it.
@@ -97,8 +115,9 @@ def test_escape_puts_a_dragged_display_back(user: User, session: Session) -> Non
 
 
 def test_what_is_half_typed_stays_in_the_hand_when_others_change_the_displays(
-    user: User, session: Session
+    own: Own,
 ) -> None:
+    user, session = own
     user.unfold("Displays", "Robot")
     select(user, "Robot", "TF Prefix")
     user.type("ab")
@@ -113,8 +132,9 @@ def test_what_is_half_typed_stays_in_the_hand_when_others_change_the_displays(
 
 
 def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
-    user: User, session: Session
+    own: Own,
 ) -> None:
+    user, session = own
     name = "Wheel axes here and there"
     box = user.box(user.row("Displays", "Grid").one("checkbox"))
     session.rename_display(session.displays[0].config, name)
@@ -182,15 +202,16 @@ def test_a_part_of_a_vector_is_set_with_the_others(
 
 
 def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
-    user: User, model: Path
+    desk: Desk,
 ) -> None:
+    user, model = desk.user, desk.model
     count = user.find("button", "No problems")
     assert not count.state("expanded")
     model.write_text(MODEL.replace("</link>", "</lnk>"), "utf-8")
     row = user.row("Problems", "Showing the last good version")
     assert user.can_see(row)
     assert user.find("button", "Problems: 1 error").state("expanded")
-    user.reads("r.urdf:4")
+    user.reads("robot.urdf:4")
     user.keys("h")
     user.gone("treegrid", "Problems")
     user.click("button", "Problems: 1 error")
@@ -200,7 +221,8 @@ def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
     user.until(lambda: not user.there("treegrid", "Problems"))
 
 
-def test_a_mere_remark_takes_no_room(user: User, session: Session) -> None:
+def test_a_mere_remark_takes_no_room(own: Own) -> None:
+    user, session = own
     remark = Problem("info", "i", "worth knowing", "do that")
     session.worker.post(lambda: session.problems.set_model([remark]))
     user.find("button", "Problems: 1 info")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from desk import Desk
 from inside import session_of
 from PIL import Image
 from user import User
@@ -52,6 +53,14 @@ def user(viewer: ViewerPage) -> User:
     return viewer.user
 
 
+@pytest.fixture
+def desk(sit: Callable[..., Desk]) -> Desk:
+    """A page for what leaves the files alone."""
+    desk = sit("S")
+    desk.user.row("Displays", "Grid")
+    return desk
+
+
 def title(user: User) -> str:
     return str(user.page.evaluate("document.title"))
 
@@ -76,7 +85,8 @@ def focused(user: User) -> str:
     return str(user.page.evaluate(f"{script}(document.activeElement)")).strip()
 
 
-def test_the_menus_follow_the_keys_of_a_menu_bar(user: User) -> None:
+def test_the_menus_follow_the_keys_of_a_menu_bar(desk: Desk) -> None:
+    user = desk.user
     user.click("menuitem", "File")
     user.find("menu", "File")
     user.keys("ArrowDown", "ArrowDown")
@@ -98,7 +108,8 @@ def test_the_menus_follow_the_keys_of_a_menu_bar(user: User) -> None:
     user.until(lambda: focused(user) == "Help")
 
 
-def test_keys_of_the_window_do_nothing_while_a_dialog_is_open(user: User) -> None:
+def test_keys_of_the_window_do_nothing_while_a_dialog_is_open(desk: Desk) -> None:
+    user = desk.user
     choose(user, "Help", "Keys")
     user.find("dialog", "Keys")
     user.keys("m", "h", "n")
@@ -210,9 +221,8 @@ def test_the_config_and_a_picture_are_downloaded_at_once(
     assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 20
 
 
-def test_a_new_display_is_selected_unfolded_and_named(
-    user: User, viz: Visualizer
-) -> None:
+def test_a_new_display_is_selected_unfolded_and_named(desk: Desk) -> None:
+    user, viz = desk.user, desk.viz
     user.unfold("Displays", "Grid")
     user.click("button", "Add", ("region", "Displays"))
     dialog = user.find("dialog", "Add Display")
@@ -229,7 +239,8 @@ def test_a_new_display_is_selected_unfolded_and_named(
     assert session_of(viz).config.displays[-1].name == "Wheel axes, main"
 
 
-def test_panels_are_hidden_and_shown_again_from_the_menu(user: User) -> None:
+def test_panels_are_hidden_and_shown_again_from_the_menu(desk: Desk) -> None:
+    user = desk.user
     choose(user, "Panels", "Hide all")
     user.gone("treegrid")
     user.click("button", re.compile("Show panels"))
@@ -242,9 +253,8 @@ def test_panels_are_hidden_and_shown_again_from_the_menu(user: User) -> None:
     user.row("Displays", "Grid")
 
 
-def test_widgets_of_a_script_have_a_panel_only_while_there_are_any(
-    user: User, viz: Visualizer
-) -> None:
+def test_widgets_of_a_script_have_a_panel_only_while_there_are_any(desk: Desk) -> None:
+    user, viz = desk.user, desk.viz
     assert not user.there("button", "Blink")
     pressed: list[bool] = []
     button = viz.viser.gui.add_button("Blink")

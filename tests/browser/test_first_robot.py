@@ -5,11 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
+from desk import Desk
 from inside import node_of, session_of
 from patience import patience
 from viewer_page import Pixels, ViewerPage
@@ -24,14 +24,14 @@ LINK = "drivewhl_l_link"
 
 
 @pytest.fixture
-def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
+def desk(sit: Callable[..., Desk]) -> Desk:
     """sam_bot, seen from the left and near enough to see a wheel turn."""
     config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     view = config["Visualization Manager"]["Views"]["Current"]
     view |= {"Distance": 1.2, "Yaw": 1.9, "Pitch": 0.4}
-    path = tmp_path / "near.rviz"
-    path.write_text(yaml.safe_dump(config), "utf-8")
-    return make_viz(config=path)
+    desk = sit("S near", yaml.safe_dump(config))
+    desk.viewer.wait_for_nodes(node_of(desk.viz, LINK))
+    return desk
 
 
 def around(pixels: Pixels, place: tuple[int, int], size: int) -> Pixels:
@@ -106,11 +106,8 @@ def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height
     assert not session.history.modified.value
 
 
-def test_the_page_shows_robot_and_panels_and_asks_nobody_else(
-    viz: Visualizer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url)
-    viewer.wait_for_nodes(node_of(viz, LINK))
+def test_the_page_shows_robot_and_panels_and_asks_nobody_else(desk: Desk) -> None:
+    viewer = desk.viewer
     for text in ("Grid", "RobotModel", "TF", "Fixed Frame", LEFT, RIGHT):
         viewer.user.reads(text)
     pixels = viewer.pixels()
@@ -120,21 +117,15 @@ def test_the_page_shows_robot_and_panels_and_asks_nobody_else(
     assert viewer.errors() == []
 
 
-def test_nothing_covers_the_robot_and_the_panels_stand_beside_it(
-    viz: Visualizer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url, width=1280, height=720)
-    viewer.wait_for_nodes(node_of(viz, LINK))
+def test_nothing_covers_the_robot_and_the_panels_stand_beside_it(desk: Desk) -> None:
+    viz, viewer = desk.viz, desk.viewer
     for frame in ("base_link", LINK, "drivewhl_r_link", "front_caster"):
         place = viewer.project("", place_of(viz, frame))
         assert not viewer.is_covered(*place), frame
 
 
-def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(
-    viz: Visualizer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url)
-    viewer.wait_for_nodes(node_of(viz, LINK))
+def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(desk: Desk) -> None:
+    viz, viewer = desk.viz, desk.viewer
     before = viewer.pixels()
     place = wheel_place(viz, viewer)
     viewer.user.drag_slider(viewer.user.find("slider", LEFT), 1.0)
@@ -146,10 +137,9 @@ def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(
     assert changed(before[:100, :100], after[:100, :100]) == 0
 
 
-def test_two_browsers_stay_in_step(viz: Visualizer, open_viewer: Open) -> None:
-    first, second = open_viewer(viz.url), open_viewer(viz.url)
-    for viewer in (first, second):
-        viewer.wait_for_nodes(node_of(viz, LINK))
+def test_two_browsers_stay_in_step(desk: Desk, open_viewer: Open) -> None:
+    viz, first, second = desk.viz, desk.viewer, open_viewer(desk.viz.url)
+    second.wait_for_nodes(node_of(viz, LINK))
     first.user.click("slider", LEFT)
     first.user.keys("End")
     second.user.until(lambda: slider(second, LEFT) == pytest.approx(np.pi))
@@ -161,11 +151,8 @@ def test_two_browsers_stay_in_step(viz: Visualizer, open_viewer: Open) -> None:
         viewer.wait_for_pose(node_of(viz, LINK), T, node_of(viz, "base_link"))
 
 
-def test_fifty_quick_steps_end_with_pose_and_slider_equal(
-    viz: Visualizer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url)
-    viewer.wait_for_nodes(node_of(viz, LINK))
+def test_fifty_quick_steps_end_with_pose_and_slider_equal(desk: Desk) -> None:
+    viz, viewer = desk.viz, desk.viewer
     viewer.user.click("slider", LEFT)
     viewer.user.until(lambda: abs(viz.joint_positions[LEFT]) < 0.2)
     start = slider(viewer, LEFT)
@@ -175,9 +162,9 @@ def test_fifty_quick_steps_end_with_pose_and_slider_equal(
     assert viz.joint_positions[LEFT] == slider(viewer, LEFT)
 
 
-def test_center_brings_the_wheels_back(viz: Visualizer, open_viewer: Open) -> None:
+def test_center_brings_the_wheels_back(desk: Desk) -> None:
+    viz, viewer = desk.viz, desk.viewer
     viz.set_joint_positions({LEFT: 1.0, RIGHT: -1.0})
-    viewer = open_viewer(viz.url)
     viewer.user.until(lambda: slider(viewer, LEFT) == 1.0)
     viewer.user.click("button", "Center")
     for joint in (LEFT, RIGHT):

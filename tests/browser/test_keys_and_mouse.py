@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from inside import node_of, session_of
+from desk import Desk
 from user import User
 from viewer_page import ViewerPage
 
@@ -21,22 +21,24 @@ FOCUSED = "document.activeElement"
 
 
 @pytest.fixture
-def viewer(viz: Visualizer, open_viewer: Callable[..., ViewerPage]) -> ViewerPage:
-    viewer = open_viewer(viz.url)
-    viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
-    viewer.wait_for("window.sambotViz && window.sambotViz.view.kind === 'Orbit'")
-    return viewer
+def desk(sit: Callable[..., Desk]) -> Desk:
+    return sit("S")
+
+
+@pytest.fixture
+def viewer(desk: Desk) -> ViewerPage:
+    desk.viewer.wait_for("window.sambotViz && window.sambotViz.view.kind === 'Orbit'")
+    return desk.viewer
 
 
 @pytest.fixture
 def user(viewer: ViewerPage) -> User:
-    return User(viewer.page)
+    return viewer.user
 
 
 @pytest.fixture
-def browser(viz: Visualizer, viewer: ViewerPage) -> Browser:
-    (browser,) = session_of(viz).browsers.values()
-    return browser
+def browser(desk: Desk) -> Browser:
+    return desk.browser
 
 
 def pressed(user: User, tool: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,9 +13,10 @@ import numpy as np
 import pytest
 import viser
 import yaml
+from desk import Desk
 from inside import node_of
 from patience import patience
-from viewer_page import COARSE, ViewerPage
+from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.views.camera import angles_of
@@ -92,41 +93,59 @@ _ENDS = """(({ cameraControl, camera, nodeRefFromName }) => {
 })(__viserMutable)"""
 
 
-@pytest.fixture
-def opened() -> Iterator[list[Visualizer]]:
-    """What a test has started; stopped after the pages are closed."""
-    opened: list[Visualizer] = []
-    yield opened
-    for viz in opened:
-        viz.stop()
+def config(kind: str = "Orbit", **values: Any) -> str:
+    """sam_bot with a view."""
+    config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
+    manager = config["Visualization Manager"]
+    manager["Displays"] = [
+        d for d in manager["Displays"] if not d["Class"].endswith("/TF")
+    ]
+    manager["Global Options"]["Fixed Frame"] = "base_link"
+    manager["Views"]["Current"] = {
+        "Class": f"rviz_default_plugins/{kind}",
+        "Name": "Current View",
+        "Target Frame": "<Fixed Frame>",
+        **{name.replace("_", " "): value for name, value in values.items()},
+    }
+    return yaml.safe_dump(config)
 
 
 @pytest.fixture
-def show(
-    tmp_path: Path, opened: list[Visualizer], open_viewer: Open
+def show(sit: Callable[..., Desk]) -> Callable[..., Shown]:
+    """Look at sam_bot with a view: ``show("Orbit", Distance=3.0)``."""
+
+    def one(kind: str, **values: Any) -> Shown:
+        desk = sit("S mouse", config())
+        desk.viewer.wait_for_nodes(node_of(desk.viz, "drivewhl_l_link"))
+        view = desk.browser.view
+        view.set_kind(f"rviz_default_plugins/{kind}")
+        for name, value in values.items():
+            given = tuple(value.values()) if isinstance(value, dict) else value
+            view.set(name.replace("_", " "), given)
+        desk.viewer.wait_for(f"window.sambotVizMouse?.kind === {kind!r}")
+        shown = Shown(desk.viewer, desk.browser.client.camera)
+        wanted = view.camera.position
+        desk.user.until(
+            lambda: np.allclose(desk.page.evaluate(_ENDS)[0], wanted, atol=1e-4)
+        )
+        desk.viewer.wait_until_drawn()
+        shown.rests()
+        return shown
+
+    return one
+
+
+@pytest.fixture
+def show_alone(
+    tmp_path: Path, make_viz: Callable[..., Visualizer], open_viewer: Open
 ) -> Callable[..., Shown]:
-    """Open sam_bot with a view: ``show("Orbit", Distance=3.0)``."""
+    """The same in a page of its own, on a screen that can be touched if need be."""
 
-    def one(
-        kind: str, touch: bool = False, resolution: float = COARSE, **values: Any
-    ) -> Shown:
-        config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
-        manager = config["Visualization Manager"]
-        manager["Displays"] = [
-            d for d in manager["Displays"] if not d["Class"].endswith("/TF")
-        ]
-        manager["Global Options"]["Fixed Frame"] = "base_link"
-        manager["Views"]["Current"] = {
-            "Class": f"rviz_default_plugins/{kind}",
-            "Name": "Current View",
-            "Target Frame": "<Fixed Frame>",
-            **{name.replace("_", " "): value for name, value in values.items()},
-        }
+    def one(kind: str, touch: bool = False, **values: Any) -> Shown:
         path = tmp_path / "view.rviz"
-        path.write_text(yaml.safe_dump(config), "utf-8")
-        viz = Visualizer(config=path, port=0)
-        opened.append(viz)
-        viewer = open_viewer(viz.url, touch=touch, resolution=resolution)
+        path.write_text(config(kind, **values), "utf-8")
+        viz = make_viz(config=path)
+        viewer = open_viewer(viz.url, touch=touch, resolution=1)
         viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
         viewer.wait_for(f"window.sambotVizMouse?.kind === {kind!r}")
         # The camera of the view has taken the place of viser's, at (3, 3, 3).
@@ -258,9 +277,9 @@ def test_fps_turns_in_place_and_walks(show: Callable[..., Shown]) -> None:
 
 
 def test_from_above_the_picture_turns_moves_and_is_scaled(
-    show: Callable[..., Shown],
+    show_alone: Callable[..., Shown],
 ) -> None:
-    shown = show("TopDownOrtho", resolution=1, Scale=200.0, Angle=0.3, X=0.1, Y=-0.2)
+    shown = show_alone("TopDownOrtho", Scale=200.0, Angle=0.3, X=0.1, Y=-0.2)
     mouse, far = shown.viewer.page.mouse, shown.distance
     mouse.drag(SKY, (SKY[0], SKY[1] + 20), button="right", steps=1)
     shown.rests()
@@ -316,8 +335,10 @@ def test_no_key_moves_the_camera(show: Callable[..., Shown]) -> None:
     assert shown.position == pytest.approx(before)
 
 
-def test_one_finger_turns_and_two_move_and_zoom(show: Callable[..., Shown]) -> None:
-    shown = show("Orbit", touch=True, **ORBIT)
+def test_one_finger_turns_and_two_move_and_zoom(
+    show_alone: Callable[..., Shown],
+) -> None:
+    shown = show_alone("Orbit", touch=True, **ORBIT)
     touch, (x, y) = shown.viewer.page.touch, SKY
     touch.start(SKY)
     touch.move((x - 20, y + 30))

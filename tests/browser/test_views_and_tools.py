@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from inside import node_of
+from desk import Desk
+from inside import node_of, session_of
 from patience import patience
 from viewer_page import ViewerPage
 
@@ -34,8 +35,7 @@ RECTANGLE = """(() => {
 """Whether a rectangle is being drawn."""
 
 
-@pytest.fixture
-def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
+def config() -> str:
     """sam_bot without axes, seen from above and near."""
     config = yaml.safe_load(bundled.config_path().read_text("utf-8"))
     manager = config["Visualization Manager"]
@@ -54,18 +54,29 @@ def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
         {"Class": f"rviz_default_plugins/{name}"}
         for name in ("MoveCamera", "Select", "FocusCamera", "Measure")
     ]
-    path = tmp_path / "views.rviz"
-    path.write_text(yaml.safe_dump(config), "utf-8")
-    return make_viz(config=path)
+    return yaml.safe_dump(config)
 
 
 @pytest.fixture
-def viewer(viz: Visualizer, open_viewer: Open) -> ViewerPage:
-    viewer = open_viewer(viz.url, resolution=1)
-    viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
+def desk(sit: Callable[..., Desk]) -> Desk:
+    desk = sit("S tools", config(), 1.0)
+    desk.viewer.wait_for_nodes(node_of(desk.viz, "drivewhl_l_link"))
+    is_seen(desk.viewer)
+    return desk
+
+
+@pytest.fixture
+def own(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
+    """The same for what a desk cannot put back."""
+    path = tmp_path / "views.rviz"
+    path.write_text(config(), "utf-8")
+    return make_viz(config=path)
+
+
+def is_seen(viewer: ViewerPage) -> None:
+    """Wait until a page shows the view of the config."""
     viewer.wait_for("window.sambotVizMouse && window.sambotVizMouse.kind === 'Orbit'")
     viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 2) < 1e-3")
-    return viewer
 
 
 def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
@@ -112,9 +123,8 @@ def place(viewer: ViewerPage, point: tuple[float, float, float]) -> tuple[float,
     return left + column, top + row
 
 
-def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(
-    session: Session, viewer: ViewerPage
-) -> None:
+def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(desk: Desk) -> None:
+    session, viewer = desk.session, desk.viewer
     mouse = viewer.page.mouse
     mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
     until(viewer, lambda: abs(value(session, "Yaw") - 1.1) < 1e-4)
@@ -131,24 +141,23 @@ def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(
     viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 10) < 1e-3")
 
 
-def test_moving_a_view_from_straight_above_keeps_its_yaw(
-    session: Session, viewer: ViewerPage
-) -> None:
+def test_moving_a_view_from_straight_above_keeps_its_yaw(desk: Desk) -> None:
+    session, viewer = desk.session, desk.viewer
     view_of(session).set("Pitch", 2.0)
     assert value(session, "Pitch") == STEEPEST
     viewer.wait_for("__viserMutable.cameraControl.polarAngle < 0.002")
     yaws: list[float] = []
     (browser,) = session.browsers.values()
-    connect([browser.view.changed], lambda: yaws.append(value(session, "Yaw")))
+    end = connect([browser.view.changed], lambda: yaws.append(value(session, "Yaw")))
     for x, y in ((30, 0), (0, 30), (-30, -20)):
         viewer.page.mouse.drag(SKY, (SKY[0] + x, SKY[1] + y), button="middle")
     until(viewer, lambda: abs(value(session, "Focal Point")[0]) > 0.01)
+    end()
     assert yaws == pytest.approx([1.0] * len(yaws), abs=0.01)
 
 
-def test_another_type_of_view_has_its_own_mouse(
-    session: Session, viewer: ViewerPage
-) -> None:
+def test_another_type_of_view_has_its_own_mouse(desk: Desk) -> None:
+    session, viewer = desk.session, desk.viewer
     view_of(session).set_kind("rviz_default_plugins/TopDownOrtho")
     viewer.wait_for("window.sambotVizMouse.kind === 'TopDownOrtho'")
     viewer.wait_for("__viserMutable.camera.fov < 1")
@@ -160,9 +169,8 @@ def test_another_type_of_view_has_its_own_mouse(
     assert value(session, "Scale") == pytest.approx(scale, rel=1e-3)
 
 
-def test_keys_choose_tools_and_clicks_select_and_measure(
-    session: Session, viewer: ViewerPage
-) -> None:
+def test_keys_choose_tools_and_clicks_select_and_measure(desk: Desk) -> None:
+    session, viewer = desk.session, desk.viewer
     keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, tools_of(session)
     keyboard.press("s")
     chosen(session, viewer, "Select")
@@ -197,8 +205,11 @@ def test_keys_choose_tools_and_clicks_select_and_measure(
 
 
 def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
-    session: Session, viewer: ViewerPage
+    own: Visualizer, open_viewer: Open
 ) -> None:
+    session, viewer = session_of(own), open_viewer(own.url, resolution=1)
+    viewer.wait_for_nodes(node_of(own, "drivewhl_l_link"))
+    is_seen(viewer)
     tools, mouse = tools_of(session), viewer.page.mouse
     session.set_global("Background Color", (255, 0, 255))
     for display in session.displays:
@@ -222,7 +233,8 @@ def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
         until(viewer, lambda: not tools.selection)
 
 
-def test_the_panels_can_be_hidden(viewer: ViewerPage) -> None:
+def test_the_panels_can_be_hidden(desk: Desk) -> None:
+    viewer = desk.viewer
     assert "Joints" in viewer.text
     viewer.page.keyboard.press("h")
     viewer.wait_for("!document.body.innerText.includes('Randomize')")
@@ -238,10 +250,11 @@ def differs(viewer: ViewerPage) -> tuple[list[int], float]:
 
 
 def test_from_above_every_zoom_shows_the_scene_on_its_background(
-    viz: Visualizer, session: Session, open_viewer: Open
+    own: Visualizer, open_viewer: Open
 ) -> None:
+    session = session_of(own)
     session.set_global("Background Color", (255, 255, 255))
-    viewer = open_viewer(viz.url, width=900, height=300, resolution=1)
+    viewer = open_viewer(own.url, width=900, height=300, resolution=1)
     until(viewer, lambda: len(session.browsers) == 1)
     view_of(session).set_kind("rviz_default_plugins/TopDownOrtho")
     view_of(session).set("Scale", 10.0)
@@ -265,19 +278,17 @@ def test_from_above_every_zoom_shows_the_scene_on_its_background(
         until(viewer, shows_the_scene)
 
 
-def test_a_button_of_the_toolbar_leaves_select(
-    session: Session, viewer: ViewerPage
-) -> None:
+def test_a_button_of_the_toolbar_leaves_select(desk: Desk) -> None:
+    session, viewer = desk.session, desk.viewer
     for label in ("Select", "Measure", "Select", "Move Camera"):
         viewer.user.click("button", label)
         chosen(session, viewer, label)
 
 
-def test_tools_work_with_a_finger(
-    viz: Visualizer, session: Session, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url, width=1024, height=768, touch=True, resolution=1)
-    viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
+def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
+    session = session_of(own)
+    viewer = open_viewer(own.url, width=1024, height=768, touch=True, resolution=1)
+    viewer.wait_for_nodes(node_of(own, "drivewhl_l_link"))
     touch, tools = viewer.page.touch, tools_of(session)
     tools_bar = ("toolbar", "Tools")
     viewer.user.click("button", "Select", tools_bar)

@@ -36,6 +36,8 @@ class Desk:
         letter: the robot, "S", "T", "C" or "L"; or the text of a model.
         chromium: the browser.
         folder: an empty folder for the model and what is saved.
+        config: the text of its config; None for the one of the program.
+        resolution: of the 3D view while its pixels are not read.
 
     Attributes:
         viz: the program.
@@ -45,8 +47,17 @@ class Desk:
         downloads: where the browser puts files.
     """
 
-    def __init__(self, letter: str, chromium: Chromium, folder: Path) -> None:
+    def __init__(
+        self,
+        letter: str,
+        chromium: Chromium,
+        folder: Path,
+        config: str | None = None,
+        resolution: float = COARSE,
+    ) -> None:
         self.folder = folder
+        self._config = None if config is None else folder / "desk.rviz"
+        self._resolution = resolution
         self.downloads = folder / "downloads"
         self.downloads.mkdir(parents=True)
         if letter.startswith("<"):
@@ -58,6 +69,8 @@ class Desk:
         else:
             self.model = folder / f"{letter.lower()}.urdf"
             self.model.write_text(MODELS[letter](), "utf-8")
+        if self._config is not None and config is not None:
+            self._config.write_text(config, "utf-8")
         self._chromium = chromium
         self._start()
 
@@ -66,7 +79,7 @@ class Desk:
     ) -> ViewerPage:
         """Open one more page of it; `close` closes it too."""
         page = open_page(self._chromium, width, height, touch=touch)
-        page.goto(viewer_url(self.viz.url))
+        page.goto(viewer_url(self.viz.url, self._resolution))
         page.take_downloads(self.downloads)
         page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
         return ViewerPage(page, viewer_url(self.viz.url), touch)
@@ -84,17 +97,18 @@ class Desk:
     @property
     def fixed_frame(self) -> str:
         """The frame in which all is drawn."""
-        return str(self._session.config.global_options.get("Fixed Frame"))
+        return str(self.session.config.global_options.get("Fixed Frame"))
 
     @property
-    def _session(self) -> Session:
+    def session(self) -> Session:
+        """What all pages share."""
         (session,) = self.viz.server.sessions()
         return session
 
     @property
-    def _browser(self) -> Browser:
+    def browser(self) -> Browser:
         """That of the first page; others of a task have left, or leave now."""
-        browsers = self._session.browsers
+        browsers = self.session.browsers
         return browsers[min(browsers)]
 
     def restart(self) -> None:
@@ -103,10 +117,12 @@ class Desk:
         self._start()
 
     def _start(self) -> None:
-        self.viz = Visualizer(self.model, port=0, watch=True)
+        self.viz = Visualizer(self.model, self._config, port=0, watch=True)
         self.viewer = self.open()
         self._wait_for_robot()
-        self._view = dict(self._browser.view.values)
+        view = self.browser.view
+        self._kind, self._view = view.view.kind, dict(view.values)
+        self._tool = self.browser.tools.current.label
         self._joints = self.viz.joint_positions
 
     def _wait_for_robot(self) -> None:
@@ -119,17 +135,17 @@ class Desk:
 
         The server knows what is not as it was; a page is slow to ask.
         """
-        user, browser = self.user, self._browser
-        tools, history = browser.tools, self._session.history
-        self.viewer.set_resolution(COARSE)
+        user, browser = self.user, self.browser
+        tools, history = browser.tools, self.session.history
+        self.viewer.set_resolution(self._resolution)
         user.keys("Escape", "Escape")
         wait_for_workers()
         if tools.selection:
             self.choose_tool("Select")
             self.page.mouse.click(*_NOTHING)
             user.until(lambda: not tools.selection)
-        if tools.current.label != "Interact":
-            self.choose_tool("Interact")
+        if tools.current.label != self._tool:
+            self.choose_tool(self._tool)
         things = user.see()
         if not things.one("tab", "Joints").state("selected"):
             user.click_on(things.one("tab", "Joints"))
@@ -142,16 +158,27 @@ class Desk:
         # What another page has done cannot be undone on this one.
         if self.viz.joint_positions != self._joints:
             self.viz.set_joint_positions(self._joints)
-        if browser.view.values != self._view:
+        if self._config is not None:
+            self._look_as_at_first()
+        elif browser.view.values != self._view:
             for button in ("Zero", "Focus"):
                 user.click("button", button, _TOOLS)
             self._wait_for_robot()
 
+    def _look_as_at_first(self) -> None:
+        """Give the view of the config back, which no button does."""
+        view = self.browser.view
+        if view.view.kind != self._kind:
+            view.set_kind(self._kind)
+        for name, value in self._view.items():
+            if view.values[name] != value:
+                view.set(name, value)
+
     def undo_of_others(self) -> None:
         """Undo what other pages have done, before they leave: nobody else can."""
-        first, undo = self._browser.client_id, self._session.history
-        for client in [n for n in self._session.browsers if n != first]:
-            while undo.undo_label(client) is not None:
+        first, undo = self.browser.client_id, self.session.history
+        for client in [n for n in self.session.browsers if n != first]:
+            while undo.state(client).value.undo is not None:
                 undo.undo(client)
 
     def choose_tool(self, tool: str) -> None:

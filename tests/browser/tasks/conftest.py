@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from sambot_viz.export.chromium import Chromium
 
 _HERE = Path(__file__).parent
-_OUTPUT = _HERE.parents[1] / "output"
-_FAILED = pytest.StashKey[bool]()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -29,99 +27,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         items[place] = task
 
 
-@pytest.hookimpl(hookwrapper=True)
-def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
-    """Remember which tasks failed: their desk is not used again."""
-    outcome = yield
-    report = outcome.get_result()  # type: ignore[attr-defined]
-    if report.failed:
-        item.stash[_FAILED] = True
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
-    """End the desks after the last task: open pages make the tests after it slower."""
-    if nextitem is None or _HERE not in nextitem.path.parents:
-        if desks := item.config.stash.get(_DESKS, None):
-            desks.close()
-
-
-class Desks:
-    """The desks that are open, by the letter of their robot."""
-
-    def __init__(self, chromium: Chromium, folders: pytest.TempPathFactory) -> None:
-        self._chromium = chromium
-        self._folders = folders
-        self._open: dict[str, Desk] = {}
-
-    def take(self, letter: str) -> Desk:
-        """The desk with a robot, as it was at the start."""
-        from desk import Desk
-
-        if letter not in self._open:
-            folder = self._folders.mktemp(letter.replace(" ", "-"))
-            self._open[letter] = Desk(letter, self._chromium, folder)
-        return self._open[letter]
-
-    def drop(self, letter: str) -> None:
-        """End a desk."""
-        desk = self._open.pop(letter, None)
-        if desk is not None:
-            desk.close()
-
-    def close(self) -> None:
-        """End all."""
-        for letter in list(self._open):
-            self.drop(letter)
-
-
-_DESKS = pytest.StashKey[Desks]()
-
-
-@pytest.fixture(scope="session")
-def desks(
-    chromium: Chromium,
-    tmp_path_factory: pytest.TempPathFactory,
-    request: pytest.FixtureRequest,
-) -> Iterator[Desks]:
-    """The desks; a robot's server and page start with its first task."""
-    desks = request.config.stash[_DESKS] = Desks(chromium, tmp_path_factory)
-    yield desks
-    desks.close()
-
-
-def _keep_picture(desk: Desk, name: str) -> None:
-    """Put what the page showed at the end of a failed task into tests/output."""
-    _OUTPUT.mkdir(exist_ok=True)
-    _OUTPUT.joinpath(f"{name}.png").write_bytes(desk.page.screenshot())
-
-
-def _desk(desks: Desks, letter: str, request: pytest.FixtureRequest) -> Iterator[Desk]:
-    desk = desks.take(letter)
-    yield desk
-    if request.node.stash.get(_FAILED, False):
-        _keep_picture(desk, request.node.name)
-        desks.drop(letter)
-        return
-    try:
-        desk.tidy()
-        assert desk.viewer.errors() == []
-        assert desk.viewer.foreign_requests() == []
-    except BaseException:
-        desks.drop(letter)
-        raise
-
-
 @pytest.fixture
-def s(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
+def s(sit: Callable[..., Desk]) -> Desk:
     """The small two-wheeled robot that comes with the program."""
-    yield from _desk(desks, "S", request)
+    return sit("S")
 
 
 @pytest.fixture
-def files(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
+def files(sit: Callable[..., Desk]) -> Desk:
     """The same robot, for tasks that open and save configs."""
-    yield from _desk(desks, "S files", request)
+    return sit("S files")
 
 
 @pytest.fixture
@@ -147,18 +62,18 @@ def own(make_desk: Callable[[str], Desk]) -> Desk:
 
 
 @pytest.fixture
-def t(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
+def t(sit: Callable[..., Desk]) -> Desk:
     """A humanoid of 32 movable joints without meshes."""
-    yield from _desk(desks, "T", request)
+    return sit("T")
 
 
 @pytest.fixture
-def c(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:
+def c(sit: Callable[..., Desk]) -> Desk:
     """A chain of 300 joints."""
-    yield from _desk(desks, "C", request)
+    return sit("C")
 
 
 @pytest.fixture
-def l(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Desk]:  # noqa: E743
+def l(sit: Callable[..., Desk]) -> Desk:  # noqa: E743
     """A joint whose name has 56 letters, and a sliding joint."""
-    yield from _desk(desks, "L", request)
+    return sit("L")
