@@ -2,21 +2,18 @@
 /* The order of displays: which places there are, and how a hand takes a display there. */
 
 import { act, rows } from "../wire/channel.js";
-import { fold, isOpen } from "../state.js";
-import { reveal } from "../tree/tree.js";
+import { isOpen } from "../state.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 /**
  * A place between displays.
  * @typedef {{group: string, index: number}} Place
  *   group: the id of the group, "" at the top; index: counted without the display that goes there
+ * @typedef {Place & {y: number, depth: number, into?: string}} Line where a place is drawn
+ *   into: the id of the group's row, when the display goes into a folded group
  */
 
 const TOP = "";
-/** So far a hand moves before a click is a drag [px]. */
-const SLACK = 5;
-/** So near to an edge of the tree it scrolls while something is dragged [px]. */
-const EDGE = 24;
 
 /** The displays in a group, or at the top. @param {string} group @returns {string[]} */
 export function members(group) {
@@ -89,11 +86,10 @@ function step() {
  * All places where a display can go, with the line at which each is drawn.
  * @param {string} moved the id of the display
  * @param {(id: string) => {top: number, bottom: number} | null} box where the row of an id is drawn
- * @returns {(Place & {y: number, depth: number, into?: string})[]}
- *   into: the id of the group's row, when the display goes into a folded group
+ * @returns {Line[]}
  */
 export function places(moved, box) {
-  /** @type {(Place & {y: number, depth: number, into?: string})[]} */
+  /** @type {Line[]} */
   const found = [];
   /** The lower end of a row and all that is shown below it. @param {string} id @returns {number} */
   const end = (id) => {
@@ -142,89 +138,4 @@ export function nearest(all, x, y, indent) {
     (/** @type {P | undefined} */ best, p) => (best && off(best) <= off(p) ? best : p),
     undefined,
   );
-}
-
-/**
- * Follow a hand that may drag a display; Esc puts it back.
- * @param {any} down the press @param {Row} row @param {HTMLElement} tree
- */
-export function dragDisplay(down, row, tree) {
-  if (!row.display || down.pointerType === "touch") return;
-  const box = /** @type {HTMLElement} */ (tree.parentElement);
-  const mark = document.createElement("div");
-  /** @type {ReturnType<typeof places>[number] | undefined} */
-  let to;
-  let at = { x: down.clientX, y: down.clientY };
-  let scrolls = 0;
-  /** @param {string} id */
-  const find = (id) =>
-    /** @type {HTMLElement | null} */ (tree.querySelector(`[data-row="${CSS.escape(id)}"]`));
-  const indent = 14;
-  const draw = () => {
-    const origin = tree.getBoundingClientRect();
-    const seen = box.getBoundingClientRect();
-    const all = places(row.id, (id) => find(id)?.getBoundingClientRect() ?? null);
-    to = nearest(all, at.x - origin.left - 16, at.y, indent);
-    for (const marked of tree.querySelectorAll(".into")) marked.classList.remove("into");
-    const folded = to?.into ? find(to.into) : null;
-    folded?.classList.add("into");
-    mark.hidden = !to || Boolean(folded);
-    if (!to) return;
-    mark.style.top = `${Math.min(Math.max(to.y, seen.top), seen.bottom) - origin.top - 1}px`;
-    mark.style.left = `${16 + to.depth * indent}px`;
-  };
-  const scroll = () => {
-    const { top, bottom } = box.getBoundingClientRect();
-    const by = at.y < top + EDGE ? -6 : at.y > bottom - EDGE ? 6 : 0;
-    if (by) {
-      box.scrollTop += by;
-      draw();
-    }
-    scrolls = requestAnimationFrame(scroll);
-  };
-  /** @param {PointerEvent} event */
-  const follow = (event) => {
-    at = { x: event.clientX, y: event.clientY };
-    if (!mark.isConnected) {
-      if (Math.hypot(at.x - down.clientX, at.y - down.clientY) < SLACK) return;
-      mark.className = "drop";
-      box.append(mark);
-      tree.classList.add("dragging");
-      find(row.id)?.classList.add("dragged");
-      getSelection()?.removeAllRanges();
-      scroll();
-    }
-    draw();
-  };
-  const end = () => {
-    removeEventListener("pointermove", follow);
-    removeEventListener("pointerup", drop);
-    removeEventListener("pointercancel", end);
-    removeEventListener("keydown", escape, true);
-    cancelAnimationFrame(scrolls);
-    tree.classList.remove("dragging");
-    for (const marked of tree.querySelectorAll(".into, .dragged"))
-      marked.classList.remove("into", "dragged");
-    mark.remove();
-  };
-  const drop = () => {
-    const dragged = mark.isConnected;
-    end();
-    const stays = to && to.group === row.in && to.index === members(row.in).indexOf(row.id);
-    if (!dragged || !to || stays) return;
-    if (to.group) fold(to.group, true);
-    reveal("displays", row.id);
-    act("displays/move", [row.id, to.group, to.index]);
-  };
-  /** @param {KeyboardEvent} event */
-  const escape = (event) => {
-    if (event.key !== "Escape") return;
-    event.preventDefault();
-    event.stopPropagation();
-    end();
-  };
-  addEventListener("pointermove", follow);
-  addEventListener("pointerup", drop);
-  addEventListener("pointercancel", end);
-  addEventListener("keydown", escape, true);
 }
