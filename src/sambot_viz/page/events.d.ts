@@ -10,3 +10,12 @@ type Key = At<KeyboardEvent, HTMLElement>;
 type Change = At<Event, HTMLInputElement>;
 /** What `useRef` gives, for an element that is there as soon as the component is drawn. */
 type Ref<T extends Element = HTMLElement> = { current: T };
+
+// What we look for by a selector are our elements.
+interface ParentNode {
+  querySelector<E extends Element = HTMLElement>(selectors: string): E | null;
+  querySelectorAll<E extends Element = HTMLElement>(selectors: string): NodeListOf<E>;
+}
+interface Element {
+  closest<E extends Element = HTMLElement>(selectors: string): E | null;
+}

@@ -29,7 +29,7 @@ export function Box({ row, tab }) {
   // The label is what a finger hits.
   return html`<label class="tick"><input type="checkbox" class="box" aria-label=${row.name || ""} tabindex=${tab}
     checked=${Boolean(row.value)} disabled=${row.fixed || row.off}
-    onChange=${(/** @type {any} */ e) => send(row.id, e.target.checked)} /></label>`;
+    onChange=${(/** @type {Change} */ e) => send(row.id, e.target.checked)} /></label>`;
 }
 
 /** @param {{row: Row, tab: number}} props */
@@ -75,7 +75,7 @@ function ColorCell({ row, tab }) {
   return html`<span class="color">
     <input type="color" value=${hex} tabindex=${tab} disabled=${row.fixed || row.off}
       aria-label=${`${row.name}, choose`}
-      onInput=${(/** @type {any} */ e) => send(row.id, e.target.value, (gesture.current ||= newGesture()))}
+      onInput=${(/** @type {Change} */ e) => send(row.id, e.target.value, (gesture.current ||= newGesture()))}
       onChange=${() => {
         gesture.current = 0;
       }} />
@@ -93,7 +93,7 @@ function EnumCell({ row, tab }) {
   const offered = options.includes(row.value) ? options : [row.value, ...options];
   return html`<select class="field" aria-label=${row.name || ""} tabindex=${tab}
       disabled=${row.fixed || row.off} value=${row.value}
-      onChange=${(/** @type {any} */ e) => send(row.id, e.target.value)}>
+      onChange=${(/** @type {Change} */ e) => send(row.id, e.target.value)}>
     ${offered.map((option) => html`<option value=${option}>${option}</option>`)}
   </select>`;
 }

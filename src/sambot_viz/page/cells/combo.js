@@ -42,7 +42,8 @@ export function preselected(offered, typed) {
  *   leave: called after Enter
  */
 export function Combo({ label, value, options, tab, title, invalid, off, accept, leave }) {
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const element = useRef(null);
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
   const [open, setOpen] = useState(false);
@@ -67,7 +68,7 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
   };
   const choice = () => (marked.current >= 0 ? marked.current : preselected(offered(), typed()));
   const meant = () => offered()[choice()]?.name ?? value;
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     if (event.key === "ArrowDown" || event.key === "ArrowUp") {
       const all = offered();
@@ -86,7 +87,7 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
       leave?.(event.target);
     } else if (event.key === "Escape" && (open || typing.current)) {
       close();
-      event.target.select();
+      element.current.select();
     } else return;
     event.preventDefault();
     event.stopPropagation();
@@ -96,11 +97,11 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
       aria-controls=${id} aria-autocomplete="list" tabindex=${tab} title=${title} disabled=${off}
       aria-activedescendant=${open && choice() >= 0 ? `${id}-${choice()}` : undefined} aria-invalid=${invalid ? "true" : undefined}
       spellcheck=${false} autocomplete="off"
-      onFocus=${(/** @type {any} */ e) => e.target.select()}
-      onClick=${(/** @type {any} */ e) => {
+      onFocus=${(/** @type {Change} */ e) => element.current.select()}
+      onClick=${(/** @type {Press} */ e) => {
         if (!open) {
           setOpen(true);
-          e.target.select();
+          element.current.select();
         }
       }}
       onInput=${() => {
@@ -119,7 +120,8 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
  *   boolean}[], at: number,
  *   value: string, choose: (name: string) => void}} props */
 function Choices({ id, label, of, offered, at, value, choose }) {
-  const list = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const list = useRef(null);
   useLayoutEffect(() => {
     list.current.showPopover?.();
     const box = of.current.getBoundingClientRect();
@@ -140,7 +142,7 @@ function Choices({ id, label, of, offered, at, value, choose }) {
     ${offered.map(
       ({ name, isNew }, i) => html`<li role="option" id=${`${id}-${i}`} key=${name}
       aria-selected=${isMarked(i) ? "true" : "false"}
-      onPointerDown=${(/** @type {any} */ e) => {
+      onPointerDown=${(/** @type {Press} */ e) => {
         e.preventDefault();
         choose(name);
       }}

@@ -14,7 +14,7 @@ export function leave(field) {
   if (row instanceof HTMLElement) row.focus();
 }
 
-/** The first click marks the whole text, as typing is meant to replace it. @param {any} event */
+/** The first click marks the whole text, as typing is meant to replace it. @param {Press} event */
 export function focusWhole(event) {
   if (event.button === 0 && document.activeElement !== event.target) {
     event.preventDefault();
@@ -46,7 +46,8 @@ export function Field({
 }) {
   // What is being typed is in the element: keys come faster than the page is drawn.
   const typing = useRef(false);
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const element = useRef(null);
   const why = refusals.get(row.id);
   const put = () => {
     const input = element.current;
@@ -54,7 +55,8 @@ export function Field({
     const text = held ? full : shown;
     typing.current = false;
     if (input.value === text) return;
-    const whole = held && input.selectionEnd - input.selectionStart === input.value.length;
+    const marked = Number(input.selectionEnd) - Number(input.selectionStart);
+    const whole = held && marked === input.value.length;
     input.value = text;
     if (whole) input.select();
   };
@@ -69,7 +71,7 @@ export function Field({
   useLayoutEffect(() => {
     if (!typing.current) put();
   });
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     const ctrl = event.ctrlKey || event.metaKey;
     if (event.key === "Enter") {
@@ -96,7 +98,7 @@ export function Field({
   return html`<input class=${`field ${kind}`} ref=${element} tabindex=${tab}
     aria-label=${row.name || ""} aria-invalid=${why ? "true" : undefined} title=${why || title}
     spellcheck=${false} autocomplete="off" readonly=${row.fixed} disabled=${row.off}
-    onFocus=${(/** @type {any} */ e) => {
+    onFocus=${(/** @type {Change} */ e) => {
       if (!typing.current) put();
       e.target.select();
     }} onMouseDown=${focusWhole} onPointerDown=${grab}

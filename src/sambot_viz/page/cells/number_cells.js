@@ -106,7 +106,7 @@ function NumberField({ row, tab, held, room }) {
   // The cell is drawn again while it is dragged; the drag keeps to the latest one.
   const latest = useRef(held);
   latest.current = held;
-  /** @param {any} event */
+  /** @param {Press} event */
   const grab = (event) => {
     const input = event.target;
     if (event.button !== 0 || event.pointerType === "touch" || document.activeElement === input)
@@ -116,7 +116,7 @@ function NumberField({ row, tab, held, room }) {
     let at = event.clientX;
     let shown = latest.current.value * factor;
     let moved = false;
-    input.onpointermove = (/** @type {any} */ e) => {
+    input.onpointermove = (e) => {
       if (!moved && Math.abs(e.clientX - at) < 4) return;
       moved = true;
       shown += (e.clientX - at) * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
@@ -124,7 +124,7 @@ function NumberField({ row, tab, held, room }) {
       at = e.clientX;
       latest.current.move(snapped(shown, e.altKey ? step / 10 : step) / factor);
     };
-    input.onpointerup = input.onpointercancel = (/** @type {any} */ e) => {
+    input.onpointerup = input.onpointercancel = (e) => {
       input.onpointermove = input.onpointerup = input.onpointercancel = null;
       if (moved) latest.current.release();
       else if (e.type === "pointerup") input.focus();
@@ -169,7 +169,7 @@ function useFinger(value, slide) {
       null
     ),
   );
-  /** @param {any} event */
+  /** @param {Press} event */
   const decide = (event) => {
     const one = finger.current;
     const across = one && Math.abs(event.clientX - one.x);
@@ -178,7 +178,7 @@ function useFinger(value, slide) {
       one.wants = Number(across) > Number(down) ? "slide" : "scroll";
   };
   return {
-    onPointerDown: (/** @type {any} */ e) => {
+    onPointerDown: (/** @type {Press} */ e) => {
       finger.current =
         e.pointerType === "touch" ? { x: e.clientX, y: e.clientY, wants: "", raw: null } : null;
     },
@@ -198,12 +198,12 @@ function useFinger(value, slide) {
     onTouchCancel: () => {
       finger.current = null;
     },
-    onInput: (/** @type {any} */ e) => {
+    onInput: (/** @type {Change} */ e) => {
       const one = finger.current;
       const raw = Number(e.target.value);
       if (!one || one.wants === "slide") return slide(raw);
       one.raw = raw;
-      e.target.value = value();
+      e.target.value = String(value());
     },
   };
 }
@@ -219,7 +219,7 @@ function Handle({ row, tab, held }) {
   const slide = (raw) =>
     held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
   const finger = useFinger(() => held.value, slide);
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     const count = /** @type {Record<string, number>} */ ({
       ArrowRight: 1,
@@ -232,7 +232,7 @@ function Handle({ row, tab, held }) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (/^[\d.,+\-(]$/.test(event.key)) {
       // A number is typed into the field beside it.
-      event.target.closest("[data-row]").querySelector("input.num").focus();
+      event.target.closest("[data-row]")?.querySelector("input.num")?.focus();
       return event.stopPropagation();
     }
     if (count)

@@ -43,7 +43,8 @@ export function Dialogs() {
  * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}} props
  */
 export function Dialog({ title, close, submit, wide, children }) {
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLDialogElement>} */
+  const element = useRef(null);
   const over = useRef(false);
   const label = useRef(`dialog${count}-title`).current;
   useLayoutEffect(() => {

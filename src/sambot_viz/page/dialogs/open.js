@@ -41,7 +41,8 @@ function SaveRefused({ saving }) {
 
 /** @param {{close: () => void, folder: string, name: string}} props */
 function Choose({ close, folder, name }) {
-  const list = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLSelectElement>} */
+  const list = useRef(null);
   const [asked, setAsked] = useState(false);
   const { refused, answer, begin } = useAnswer("file/open");
   const names = useData("file/names");
@@ -67,7 +68,7 @@ function Choose({ close, folder, name }) {
     ${
       names?.length
         ? html`<select size=${Math.min(14, Math.max(4, names.length))} aria-label="Configs" ref=${list} data-first
-        onDblClick=${open} onKeyDown=${(/** @type {any} */ e) => {
+        onDblClick=${open} onKeyDown=${(/** @type {Key} */ e) => {
           if (e.key === "Enter") {
             e.preventDefault();
             open();

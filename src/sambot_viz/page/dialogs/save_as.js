@@ -9,7 +9,8 @@ import { Dialog, useAnswer } from "./dialog.js";
 /** @param {{close: () => void, then?: () => void}} props */
 export function SaveAs({ close, then }) {
   const state = rows.data("file/state") || {};
-  const field = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const field = useRef(null);
   const [wanted, setWanted] = useState("");
   const { refused, answer, begin } = useAnswer("file/save-as");
   // Before the first key that is typed.
@@ -56,7 +57,8 @@ export function SaveAs({ close, then }) {
 /** The answers to the question; an Enter too many replaces nothing.
  * @param {{replace: () => void, cancel: () => void}} props */
 function Question({ replace, cancel }) {
-  const button = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const button = useRef(null);
   useLayoutEffect(() => button.current.focus(), []);
   return html`<button type="button" onClick=${replace}>Replace</button>
     <button type="button" class="main" ref=${button} onClick=${cancel}>Cancel</button>`;

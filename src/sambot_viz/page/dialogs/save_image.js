@@ -12,8 +12,10 @@ const size = new Cell(/** @type {[number, number]} */ ([1280, 720]), "picture");
 
 /** @param {{close: () => void}} props */
 export function SaveImage({ close }) {
-  const width = useRef(/** @type {any} */ (null));
-  const height = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const width = useRef(null);
+  /** @type {Ref<HTMLInputElement>} */
+  const height = useRef(null);
   const save = () => {
     size.set([Number(width.current.value), Number(height.current.value)]);
     act("file/picture", size.value);
@@ -22,7 +24,7 @@ export function SaveImage({ close }) {
   /** @param {any} ref @param {string} name @param {number} value */
   const side = (ref, name, value) => html`<label class="line"><span class="of">${name}</span>
     <input type="number" aria-label=${name} ref=${ref} min="16" max=${LONGEST} step="1" required value=${value}
-      data-first=${name === "Width" ? "" : undefined} onFocus=${(/** @type {any} */ e) => e.target.select()} /> <span class="unit">pixels</span></label>`;
+      data-first=${name === "Width" ? "" : undefined} onFocus=${(/** @type {Change} */ e) => e.target.select()} /> <span class="unit">pixels</span></label>`;
   return html`<${Dialog} title="Save Image" close=${close} submit=${save}>
     <p>Save the view with its background, without the panels, as a PNG file.</p>
     ${side(width, "Width", size.value[0])}

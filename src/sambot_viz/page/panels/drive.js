@@ -87,8 +87,9 @@ function HoldButton({ name }) {
       end();
     };
   }, []);
-  const element = useRef(/** @type {any} */ (null));
-  /** @param {any} event */
+  /** @type {Ref} */
+  const element = useRef(null);
+  /** @param {Key} event */
   const key = (event) => {
     if (event.key !== " " && event.key !== "Enter") return;
     event.preventDefault();
@@ -96,7 +97,7 @@ function HoldButton({ name }) {
     else start();
   };
   return html`<button class=${`way go-${name}`} ref=${element} aria-label=${label} title=${`${label}, while it is held`}
-    onPointerDown=${(/** @type {any} */ e) => {
+    onPointerDown=${(/** @type {Press} */ e) => {
       if (e.button === 0) {
         element.current.setPointerCapture(e.pointerId);
         start();
@@ -104,7 +105,7 @@ function HoldButton({ name }) {
     }}
     onPointerUp=${end} onPointerCancel=${end} onLostPointerCapture=${end} onBlur=${end}
     onKeyDown=${key} onKeyUp=${key}
-    onContextMenu=${(/** @type {any} */ e) => e.preventDefault()}><${Icon} name=${name} /></button>`;
+    onContextMenu=${(/** @type {Press} */ e) => e.preventDefault()}><${Icon} name=${name} /></button>`;
 }
 
 /** While the robot drives: how fast, and Stop, unless the panel has it. */

@@ -59,7 +59,8 @@ function Form() {
   useRow("frames/add");
   useRow("frames/paste");
   const why = refusals.get("frames/add") || refusals.get("frames/paste");
-  const form = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLFormElement>} */
+  const form = useRef(null);
   const [parent, setParent] = useState(/** @type {string | null} */ (null));
   const within = parent ?? rows.value("frames/from") ?? "";
   const angle = inDegrees ? "°" : "rad";
@@ -67,13 +68,16 @@ function Form() {
   const wanted = useRef(-1);
   useRow("panel:frames");
   const count = rows.children("frames/static").filter((id) => rows.get(id)?.static).length;
+  /** @param {string} name */
+  const field = (name) =>
+    /** @type {HTMLInputElement} */ (form.current.querySelector(`[name=${name}]`));
   useEffect(() => {
     if (wanted.current < 0 || count <= wanted.current) return;
     wanted.current = -1;
-    for (const name of ["child", "pasted"]) form.current.querySelector(`[name=${name}]`).value = "";
+    for (const name of ["child", "pasted"]) field(name).value = "";
   }, [count]);
   /** @param {string} name */
-  const typed = (name) => form.current.querySelector(`[name=${name}]`).value;
+  const typed = (name) => field(name).value;
   const begin = () => refuse("frames/add");
   /** @param {Event} event */
   const add = (event) => {

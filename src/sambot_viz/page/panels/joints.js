@@ -39,8 +39,10 @@ const hovered = new Cell("");
 export function JointsPanel() {
   useRow("panel:joints");
   const [search, setSearch] = useState("");
-  const box = useRef(/** @type {any} */ (null));
-  const panel = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const box = useRef(null);
+  /** @type {Ref} */
+  const panel = useRef(null);
   const ids = rows.panels.get("joints") || [];
   const grouped = ids.some((id) => rows.get(id)?.kind === "group");
   const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
@@ -52,7 +54,7 @@ export function JointsPanel() {
     row.kind === "slider" && words.every((word) => (row.name || "").toLowerCase().includes(word));
   const many = ids.filter((id) => rows.get(id)?.kind === "slider").length > SEARCH_FROM;
   const found = !words.length || ids.some((id) => wanted(/** @type {Row} */ (rows.get(id))));
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     if (event.key === "Escape" && box.current.value) {
       box.current.value = "";
@@ -81,12 +83,12 @@ export function JointsPanel() {
       ${
         many &&
         html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" ref=${box}
-        onMouseDown=${focusWhole} onFocus=${(/** @type {any} */ e) => e.target.select()}
-        onInput=${(/** @type {any} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`
+        onMouseDown=${focusWhole} onFocus=${(/** @type {Change} */ e) => e.target.select()}
+        onInput=${(/** @type {Change} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`
       }
       <${FoldAll} />
     </div>
-    <div class="list" onPointerOver=${(/** @type {any} */ e) => hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
+    <div class="list" onPointerOver=${(/** @type {Press} */ e) => hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
         onPointerLeave=${() => hovered.set("")}>
       ${!found && html`<p class="empty" role="status">No joint has ${words.map((word) => `'${word}'`).join(" and ")} in its name</p>`}
       <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />

@@ -21,16 +21,18 @@ function Form({ close }) {
     place = useData("poses/place");
   useRow("poses/save");
   const why = refusals.get("poses/save");
-  const field = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const field = useRef(null);
   const [typed, setTyped] = useState("");
   const exists = names.includes(typed.trim());
-  /** @param {any} event */
+  /** @param {Press} event */
   const save = (event) => {
     event.preventDefault();
     act("poses/save", [field.current.value]);
   };
   // The button that has removed a pose goes with it: the next one has the focus, or the field.
-  const list = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const list = useRef(null);
   const removed = useRef(-1);
   /** @param {string} name */
   const remove = (name) => {
@@ -56,7 +58,7 @@ function Form({ close }) {
     ${!names.length && html`<p class="empty">No poses saved yet</p>`}
     <form onSubmit=${save}>
       <input class="search" ref=${field} aria-label="Name of the pose" placeholder="Name of this pose" maxlength="60"
-        autocomplete="off" spellcheck=${false} onInput=${(/** @type {any} */ e) => setTyped(e.target.value)} />
+        autocomplete="off" spellcheck=${false} onInput=${(/** @type {Change} */ e) => setTyped(e.target.value)} />
       <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}</button>
     </form>
     ${why && html`<p class="validation" role="alert">${why}</p>`}

@@ -22,7 +22,8 @@ const STEPS = [
 export function Top({ panels, hideAll }) {
   const { width } = room.use();
   useData("tools/list");
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const element = useRef(null);
   // Each step is tried, as only the browser knows how wide words are; nothing is painted before.
   const [tried, setTried] = useState({ width, step: 0 });
   const step = tried.width === width ? tried.step : 0;

@@ -34,7 +34,8 @@ export function menuKey(event, entries) {
  * @param {{items: Item[], at: Place, label: string, close: () => void}} props
  */
 export function Menu({ items, at, label, close }) {
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const element = useRef(null);
   const before = useRef(document.activeElement);
   /** @type {() => HTMLElement[]} */
   const entries = () => [
@@ -49,7 +50,7 @@ export function Menu({ items, at, label, close }) {
   useEffect(() => {
     /** @param {Event} event */
     const outside = (event) => {
-      if (!element.current?.contains(event.target)) close();
+      if (!element.current?.contains(/** @type {Node} */ (event.target))) close();
     };
     addEventListener("pointerdown", outside, true);
     addEventListener("resize", close);
@@ -62,7 +63,7 @@ export function Menu({ items, at, label, close }) {
     close();
     if (before.current instanceof HTMLElement) before.current.focus();
   };
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     if (event.key === "Escape" || event.key === "Tab") end();
     else if (!menuKey(event, entries())) return;
@@ -82,7 +83,7 @@ export function Menu({ items, at, label, close }) {
             item.act();
           }
         }}
-        onPointerEnter=${(/** @type {any} */ e) => {
+        onPointerEnter=${(/** @type {Press} */ e) => {
           if (!item.off) e.target.focus();
         }}>
       <span>${item.label}</span>${item.keys && html`<kbd>${item.keys}</kbd>`}</li>`,

@@ -96,7 +96,8 @@ export function MenuBar({ panels, hideAll, small }) {
     : all;
   const [opened, setOpened] = useState(-1);
   const [stop, setStop] = useState(0);
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const element = useRef(null);
   /** @param {number} i */
   const headOf = (i) => element.current.querySelectorAll("[aria-haspopup]")[i];
   /** @param {number} i */
@@ -113,7 +114,7 @@ export function MenuBar({ panels, hideAll, small }) {
       setOpened(to);
     } else focusHead(to);
   };
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     if (event.key === "ArrowRight") next(1);
     else if (event.key === "ArrowLeft") next(-1);
@@ -129,7 +130,7 @@ export function MenuBar({ panels, hideAll, small }) {
     if (opened < 0) return undefined;
     /** @param {Event} event */
     const outside = (event) => {
-      if (!element.current?.contains(event.target)) setOpened(-1);
+      if (!element.current?.contains(/** @type {Node} */ (event.target))) setOpened(-1);
     };
     addEventListener("pointerdown", outside, true);
     addEventListener("blur", outside);
@@ -153,7 +154,7 @@ export function MenuBar({ panels, hideAll, small }) {
           setStop(i);
           setOpened(opened === i ? -1 : i);
         }}
-        onPointerEnter=${(/** @type {any} */ e) => {
+        onPointerEnter=${(/** @type {Press} */ e) => {
           if (opened >= 0 && e.pointerType === "mouse") {
             setStop(i);
             setOpened(i);
@@ -170,13 +171,14 @@ export function MenuBar({ panels, hideAll, small }) {
 function Menu({ menu, choose, leave }) {
   useData("edit/labels");
   useCommand("file/page");
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const element = useRef(null);
   /** @returns {HTMLElement[]} */
   const items = () => [...element.current.querySelectorAll("[role^=menuitem]")];
   useLayoutEffect(() => {
     items()[0]?.focus();
   }, []);
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     if (event.key === "Tab") return leave();
     if (!menuKey(event, items())) return undefined;
@@ -194,7 +196,7 @@ function Menu({ menu, choose, leave }) {
           onClick=${() => {
             if (!entry.off) choose(entry);
           }}
-          onPointerMove=${(/** @type {any} */ e) => e.currentTarget.focus()}>
+          onPointerMove=${(/** @type {Press} */ e) => e.currentTarget.focus()}>
         <span class="tick">${entry.checked ? html`<${Icon} name="ok" />` : ""}</span><span class="entry">${entry.name}</span>
         ${entry.keys && html`<kbd>${entry.keys}</kbd>`}</div>`,
     )}

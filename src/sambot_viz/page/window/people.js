@@ -85,7 +85,8 @@ function inWords(state, me) {
 
 /** @param {{state: State, me: Me, close: () => void}} props */
 function Control({ state, me, close }) {
-  const name = useRef(/** @type {any} */ (null));
+  /** @type {Ref<HTMLInputElement>} */
+  const name = useRef(null);
   if (me.presenter) {
     return html`<${AskList} requests=${state.requests} />
       ${state.given && html`<button onClick=${() => act("role/take-back")}>Take back control</button>`}`;

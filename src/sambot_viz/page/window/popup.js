@@ -14,8 +14,10 @@ const EDGE = 4;
  */
 export function Popup({ label, name, role, title, children }) {
   const [open, setOpen] = useState(false);
-  const button = useRef(/** @type {any} */ (null));
-  const panel = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const button = useRef(null);
+  /** @type {Ref} */
+  const panel = useRef(null);
   const close = () => {
     setOpen(false);
     button.current?.focus();
@@ -26,10 +28,10 @@ export function Popup({ label, name, role, title, children }) {
   useLayoutEffect(() => {
     if (!open) return undefined;
     (panel.current.querySelector("button, input") || panel.current).focus();
-    /** @param {any} event */
+    /** @param {Event} event */
     const elsewhere = (event) => {
-      if (!panel.current?.contains(event.target) && !button.current.contains(event.target))
-        setOpen(false);
+      const at = /** @type {Node} */ (event.target);
+      if (!panel.current?.contains(at) && !button.current.contains(at)) setOpen(false);
     };
     /** What had the focus may be gone. @param {KeyboardEvent} event */
     const lost = (event) => {
@@ -42,17 +44,19 @@ export function Popup({ label, name, role, title, children }) {
       removeEventListener("keydown", lost);
     };
   }, [open]);
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     const by = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1 })[event.key];
     const does = meaning(event, []);
     const edits = typeof does === "object" && does.act.startsWith("edit/");
     if (event.key === "Escape") close();
     // A field with nothing in it has nothing of its own to undo.
-    else if (edits && !(isTyping(event.target) && event.target.value)) act(does.act);
+    else if (edits && !(isTyping(event.target) && "value" in event.target && event.target.value))
+      act(does.act);
     else if (by) {
       const stops = [...panel.current.querySelectorAll("button:enabled, input")];
-      stops[(stops.indexOf(document.activeElement) + by + stops.length) % stops.length]?.focus();
+      const at = stops.findIndex((stop) => stop === document.activeElement);
+      stops[(at + by + stops.length) % stops.length]?.focus();
     } else return;
     event.preventDefault();
     event.stopPropagation();

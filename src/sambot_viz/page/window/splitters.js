@@ -71,19 +71,19 @@ export function Splitter({ side, label }) {
     }
     chosen.set(next);
   };
-  /** @param {any} event */
+  /** @param {Press} event */
   const drag = (event) => {
     const from = across ? event.clientX : event.clientY;
     const size = sizes[side];
     event.target.setPointerCapture(event.pointerId);
-    event.target.onpointermove = (/** @type {any} */ e) =>
+    event.target.onpointermove = (e) =>
       set(size + sign * ((across ? e.clientX : e.clientY) - from));
     event.target.onpointerup = event.target.onpointercancel = () => {
       event.target.onpointermove = null;
     };
     event.preventDefault();
   };
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     const by = /** @type {Record<string, number>} */ ({
       ArrowRight: 16,

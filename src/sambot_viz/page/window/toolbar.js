@@ -35,7 +35,7 @@ export function Toolbar() {
   </header>`;
 }
 
-/** Arrow keys go from button to button. @param {any} event */
+/** Arrow keys go from button to button. @param {Key} event */
 function move(event) {
   const by = /** @type {Record<string, number>} */ ({ ArrowRight: 1, ArrowLeft: -1 })[event.key];
   if (!by || !event.target.matches("button")) return;

@@ -110,7 +110,8 @@ export function Window() {
   const form = shape.use();
   const away = hidden.use();
   const size = useSizes();
-  const view = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const view = useRef(null);
   useEffect(() => placeView(view.current), []);
   const style = `--left:${size.left}px;--right:${size.right}px;--side:${size.side}px;--bottom:${size.bottom}px`;
   return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
@@ -215,7 +216,7 @@ function fadeEdges(strip) {
  *   props
  */
 function Tabs({ names, of, current }) {
-  /** @param {any} event */
+  /** @param {Key} event */
   const key = (event) => {
     const by = /** @type {Record<string, number>} */ ({ ArrowRight: 1, ArrowLeft: -1 })[event.key];
     if (!by) return;
@@ -225,15 +226,16 @@ function Tabs({ names, of, current }) {
     event.preventDefault();
     event.stopPropagation();
   };
-  const element = useRef(/** @type {any} */ (null));
+  /** @type {Ref} */
+  const element = useRef(null);
   const fade = () => fadeEdges(element.current);
   // The chosen tab is in sight, and so is that there are others beside it.
   useLayoutEffect(() => {
     const strip = element.current;
     const { left, right } = strip.getBoundingClientRect();
     const chosen = strip.querySelector("[aria-selected=true]")?.getBoundingClientRect();
-    if (chosen?.left < left + EDGE) strip.scrollLeft -= left + EDGE - chosen.left;
-    if (chosen?.right > right - EDGE) strip.scrollLeft += chosen.right - right + EDGE;
+    if (chosen && chosen.left < left + EDGE) strip.scrollLeft -= left + EDGE - chosen.left;
+    if (chosen && chosen.right > right - EDGE) strip.scrollLeft += chosen.right - right + EDGE;
   }, [current]);
   useLayoutEffect(fade);
   useLayoutEffect(() => {
