@@ -27,7 +27,8 @@ export function ValueCell({ row, tab }) {
 /** @param {{row: Row, tab: number}} props */
 export function Box({ row, tab }) {
   // The label is what a finger hits.
-  return html`<label class="tick"><input type="checkbox" class="box" aria-label=${row.name || ""} tabindex=${tab}
+  return html`<label class="tick"><input type="checkbox" class="box" aria-label=${row.name || ""}
+    tabindex=${tab}
     checked=${Boolean(row.value)} disabled=${row.fixed || row.off}
     onChange=${(/** @type {Change} */ e) => send(row.id, e.target.checked)} /></label>`;
 }
@@ -61,7 +62,8 @@ function VectorCell({ row, tab }) {
     }
     send(row.id, values);
   };
-  return html`<span class="number"><${Field} row=${row} tab=${tab} shown=${texts.join("; ")} accept=${accept} />
+  return html`<span class="number"><${Field} row=${row} tab=${tab} shown=${texts.join("; ")}
+    accept=${accept} />
     ${unit && html`<span class="unit">${unit}</span>`}</span>`;
 }
 
@@ -108,7 +110,8 @@ function FrameCell({ row, tab }) {
 /** @param {{row: Row, tab: number, options: string[]}} props */
 function ComboCell({ row, tab, options }) {
   return html`<${Combo} label=${row.name || ""} value=${String(row.value ?? "")} options=${options}
-    tab=${tab} title=${refusals.get(row.id)} invalid=${refusals.has(row.id)} off=${row.fixed || row.off}
+    tab=${tab} title=${refusals.get(row.id)} invalid=${refusals.has(row.id)}
+      off=${row.fixed || row.off}
     accept=${(/** @type {string} */ chosen) => {
       refuse(row.id);
       send(row.id, chosen);
@@ -117,14 +120,17 @@ function ComboCell({ row, tab, options }) {
 
 /** @param {{row: Row, tab: number}} props */
 function FactCell({ row, tab }) {
-  return html`<span class="fact" title=${row.kind === "readonly" ? String(row.value) : undefined}>${row.value}</span>
+  return html`<span class="fact" title=${row.kind === "readonly" ? String(row.value) : undefined}>
+    ${row.value}</span>
     ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;
 }
 
 /** @param {{row: Row, tab: number}} props */
 export function CopyButton({ row, tab }) {
-  return html`<button class="flat copy" tabindex=${tab} aria-label=${`Copy ${row.name}`} title=${`Copy ${row.name}`}
-    onClick=${() => copy(String(row.value), row.name || "the text")}><${Icon} name="copy" /></button>`;
+  return html`<button class="flat copy" tabindex=${tab} aria-label=${`Copy ${row.name}`}
+    title=${`Copy ${row.name}`}
+    onClick=${() => copy(String(row.value), row.name || "the text")}><${Icon} name="copy" />
+      </button>`;
 }
 
 /** @type {Record<string, any>} */

@@ -93,9 +93,11 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
     event.stopPropagation();
   };
   return html`<span class="combo">
-    <input class="field" role="combobox" aria-label=${label} aria-expanded=${open ? "true" : "false"} ref=${element}
+    <input class="field" role="combobox" aria-label=${label}
+      aria-expanded=${open ? "true" : "false"} ref=${element}
       aria-controls=${id} aria-autocomplete="list" tabindex=${tab} title=${title} disabled=${off}
-      aria-activedescendant=${open && choice() >= 0 ? `${id}-${choice()}` : undefined} aria-invalid=${invalid ? "true" : undefined}
+      aria-activedescendant=${open && choice() >= 0 ? `${id}-${choice()}` : undefined}
+        aria-invalid=${invalid ? "true" : undefined}
       spellcheck=${false} autocomplete="off"
       onFocus=${(/** @type {Change} */ e) => element.current.select()}
       onClick=${(/** @type {Press} */ e) => {
@@ -111,7 +113,11 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
         again((n) => n + 1);
       }}
       onKeyDown=${key} onBlur=${() => (typing.current ? choose(meant()) : close())} />
-    ${open && html`<${Choices} id=${id} label=${label} of=${element} offered=${offered()} at=${choice()} value=${value} choose=${choose} />`}
+    ${
+      open &&
+      html`<${Choices} id=${id} label=${label} of=${element} offered=${offered()}
+      at=${choice()} value=${value} choose=${choose} />`
+    }
   </span>`;
 }
 
@@ -138,7 +144,8 @@ function Choices({ id, label, of, offered, at, value, choose }) {
   }, [at, offered.length]);
   /** @param {number} i */
   const isMarked = (i) => (at >= 0 ? i === at : offered[i].name === value);
-  return html`<ul class="choices" role="listbox" id=${id} aria-label=${label} popover="manual" ref=${list}>
+  return html`<ul class="choices" role="listbox" id=${id} aria-label=${label} popover="manual"
+    ref=${list}>
     ${offered.map(
       ({ name, isNew }, i) => html`<li role="option" id=${`${id}-${i}`} key=${name}
       aria-selected=${isMarked(i) ? "true" : "false"}

@@ -137,8 +137,10 @@ function NumberField({ row, tab, held, room }) {
   const shown = room ? fittingNumber(number, few, room) : formatNumber(number, few);
   const exact = formatNumber(number, 9);
   return html`<span class="number">
-    <${Field} row=${row} tab=${tab} kind="num" accept=${accept} title=${exact === shown ? "" : exact}
-      full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release} grab=${free ? grab : undefined} shown=${shown} />
+    <${Field} row=${row} tab=${tab} kind="num" accept=${accept}
+      title=${exact === shown ? "" : exact}
+      full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release}
+        grab=${free ? grab : undefined} shown=${shown} />
     ${unit && html`<span class="unit">${unit}</span>`}
   </span>`;
 }
@@ -151,7 +153,12 @@ export function SliderCell({ row, tab }) {
     !row.wheel &&
     (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
   return html`<span class=${`slide${over ? " over" : ""}`}>
-    ${row.follows ? html`<span class="formula" title=${formula(row)}>${formula(row)}</span>` : html`<${Handle} row=${row} tab=${tab} held=${held} />`}
+    ${
+      row.follows
+        ? html`<span class="formula" title=${formula(row)}>${formula(row)}
+      </span>`
+        : html`<${Handle} row=${row} tab=${tab} held=${held} />`
+    }
     <${NumberField} row=${row} tab=${tab} held=${held} room=${row.fixed ? NARROW - 1 : NARROW} />
     ${row.wheel && html`<${TurnButton} row=${row} tab=${tab} />`}
   </span>`;
@@ -261,6 +268,8 @@ function Handle({ row, tab, held }) {
 function TurnButton({ row, tab }) {
   const turning = (useData("joints/turning") || []).includes(row.id);
   const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
-  return html`<button class="flat turn drives" aria-pressed=${String(turning)} aria-label=${label} title=${label} tabindex=${tab}
-    onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} /></button>`;
+  return html`<button class="flat turn drives" aria-pressed=${String(turning)} aria-label=${label}
+    title=${label} tabindex=${tab}
+    onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} />
+      </button>`;
 }

@@ -63,7 +63,8 @@ export function AddDisplay({ close }) {
   const option = (
     type,
     i,
-  ) => html`<div role="option" id=${`add-${nameOf(type.kind)}`} key=${type.kind} class=${`option${type.why ? " off" : ""}`}
+  ) => html`<div role="option" id=${`add-${nameOf(type.kind)}`} key=${type.kind}
+    class=${`option${type.why ? " off" : ""}`}
       aria-selected=${String(!type.why && i === at)} aria-disabled=${type.why ? "true" : undefined}
       title=${type.why ? `${nameOf(type.kind)} ${type.why}` : type.kind}
       onClick=${() => {
@@ -71,15 +72,19 @@ export function AddDisplay({ close }) {
       }} onDblClick=${() => {
         if (!type.why) add();
       }}>
-    <${Icon} name=${nameOf(type.kind)} /><b>${nameOf(type.kind)}</b><span>${type.help}</span></div>`;
+    <${Icon} name=${nameOf(type.kind)} /><b>${nameOf(type.kind)}</b><span>${type.help}</span>
+    </div>`;
   return html`<${Dialog} title="Add Display" close=${close} submit=${add} wide>
-    <div class="options" role="listbox" tabindex="0" aria-label="Display types" data-first ref=${list} onKeyDown=${key}
+    <div class="options" role="listbox" tabindex="0" aria-label="Display types" data-first
+      ref=${list} onKeyDown=${key}
         aria-activedescendant=${chosen ? `add-${nameOf(chosen.kind)}` : undefined}>
       <div role="group" aria-label="Shown here">${shown.map(option)}</div>
-      <div role="group" aria-labelledby="add-others"><div class="group" id="add-others">Not shown here: each ${others[0]?.why || ""}</div>
+      <div role="group" aria-labelledby="add-others"><div class="group"
+        id="add-others">Not shown here: each ${others[0]?.why || ""}</div>
         ${others.map(option)}</div>
     </div>
-    <label class="line">Name <input ref=${name} placeholder=${chosen ? nameOf(chosen.kind) : ""} spellcheck=${false} autocomplete="off" maxlength="200" /></label>
+    <label class="line">Name <input ref=${name} placeholder=${chosen ? nameOf(chosen.kind) : ""}
+      spellcheck=${false} autocomplete="off" maxlength="200" /></label>
     <div class="buttons end">
       <button type="submit" class="main">Add</button>
       <button type="button" onClick=${close}>Cancel</button>

@@ -40,7 +40,8 @@ export function Dialogs() {
 
 /**
  * The frame of a dialog: its title, and a form that Enter submits.
- * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}} props
+ * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}}
+ *   props
  */
 export function Dialog({ title, close, submit, wide, children }) {
   /** @type {Ref<HTMLDialogElement>} */
@@ -59,9 +60,10 @@ export function Dialog({ title, close, submit, wide, children }) {
   }, []);
   /** No key of the window acts while a dialog is open. @param {KeyboardEvent} event */
   const key = (event) => event.stopPropagation();
-  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element} onClose=${() => {
-    if (!over.current) close();
-  }}
+  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element}
+    onClose=${() => {
+      if (!over.current) close();
+    }}
       onKeyDown=${key} onKeyUp=${key}>
     <form onSubmit=${(/** @type {Event} */ event) => {
       event.preventDefault();

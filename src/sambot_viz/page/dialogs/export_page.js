@@ -33,8 +33,10 @@ export function ExportPage({ close }) {
     <fieldset><legend>Motion</legend>
       ${MOTIONS.map(
         ([id, name, what]) => html`<label class="line choice" key=${id}>
-        <input type="radio" name="motion" value=${id} checked=${motion === id} data-first=${motion === id ? "" : undefined}
-          onChange=${() => setMotion(id)} /> <span>${name}<span class="soft">: ${what}</span></span></label>`,
+        <input type="radio" name="motion" value=${id} checked=${motion === id}
+          data-first=${motion === id ? "" : undefined}
+          onChange=${() => setMotion(id)} /> <span>${name}<span class="soft">: ${what}</span></span>
+            </label>`,
       )}
     </fieldset>
     <div class="buttons end">

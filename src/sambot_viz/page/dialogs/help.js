@@ -68,7 +68,10 @@ export function Keys({ close }) {
     ].map(
       ([title, list]) => html`
       <section key=${title}><h3>${title}</h3><table aria-label=${title}>
-        ${list.map(([keys, does]) => html`<tr key=${keys}><th scope="row"><kbd>${keys}</kbd></th><td>${does}</td></tr>`)}
+        ${list.map(
+          ([keys, does]) => html`<tr key=${keys}><th scope="row"><kbd>${keys}</kbd></th>
+          <td>${does}</td></tr>`,
+        )}
       </table></section>`,
     )}</div>
     <p class="soft">Letter keys work while you are not typing.</p>
@@ -81,9 +84,12 @@ export function About({ close }) {
   return html`<${Dialog} title="About sambot-viz" close=${close} submit=${close}>
     <p>${`sambot-viz ${rows.data("names/version")}, under the Apache License 2.0.`}</p>
     <p>Shows URDF and xacro robots in the browser, as RViz does, without ROS.</p>
-    <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with Preact (MIT) and htm (Apache-2.0).${" "}
-      <a href="./sambot/licenses.txt" target="_blank" rel="noopener">The licences of Preact and htm</a></p>
-    <p class="soft">docs/displays.md lists the supported displays, docs/command-line.md the options.</p>
+    <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with${" "}
+      Preact (MIT) and htm (Apache-2.0).${" "}
+      <a href="./sambot/licenses.txt" target="_blank"
+        rel="noopener">The licences of Preact and htm</a></p>
+    <p class="soft">docs/displays.md lists the supported displays,${" "}
+      docs/command-line.md the options.</p>
     <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
   </${Dialog}>`;
 }

@@ -13,7 +13,8 @@ export function OpenConfig({ close }) {
   const [discard, setDiscard] = useState(false);
   const [saving, setSaving] = useState(false);
   if (!state.modified || discard)
-    return html`<${Choose} close=${close} folder=${state.folder} name=${state.own ? state.name : ""} />`;
+    return html`<${Choose} close=${close} folder=${state.folder} name=${state.own ? state.name : ""}
+      />`;
   const save = () => {
     // The list comes as soon as the file is saved.
     if (state.own) {
@@ -67,16 +68,21 @@ function Choose({ close, folder, name }) {
     <p>In the folder <b class="path">${folder}</b></p>
     ${
       names?.length
-        ? html`<select size=${Math.min(14, Math.max(4, names.length))} aria-label="Configs" ref=${list} data-first
+        ? html`<select size=${Math.min(14, Math.max(4, names.length))} aria-label="Configs"
+          ref=${list} data-first
         onDblClick=${open} onKeyDown=${(/** @type {Key} */ e) => {
           if (e.key === "Enter") {
             e.preventDefault();
             open();
           }
         }}>
-        ${names.map((/** @type {string} */ one) => html`<option key=${one} value=${one}>${one}</option>`)}
+        ${names.map(
+          (/** @type {string} */ one) => html`<option key=${one} value=${one}>${one}
+          </option>`,
+        )}
       </select>`
-        : html`<p class="empty">${asked && names ? "This folder has no .rviz files." : "Reading the folder…"}</p>`
+        : html`<p class="empty">
+          ${asked && names ? "This folder has no .rviz files." : "Reading the folder…"}</p>`
     }
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     <div class="buttons end">

@@ -36,19 +36,26 @@ export function SaveAs({ close, then }) {
   const exists = answer?.exists;
   return html`<${Dialog} title="Save Config As" close=${close} submit=${() => save(false)}>
     <p>In the folder <b class="path">${state.folder}</b></p>
-    <label class="line">Name <input data-first aria-label="Name" ref=${field} spellcheck=${false} autocomplete="off"
+    <label class="line">Name <input data-first aria-label="Name" ref=${field} spellcheck=${false}
+      autocomplete="off"
       aria-invalid=${refused ? "true" : undefined} placeholder="my_robot" onInput=${() => {
         begin();
         setWanted("");
       }} />
       <span class="ending">.rviz</span></label>
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
-    ${exists && wanted && html`<p class="question" role="alert">${`${exists} already exists. Replace it?`}</p>`}
+    ${
+      exists &&
+      wanted &&
+      html`<p class="question" role="alert">
+      ${`${exists} already exists. Replace it?`}</p>`
+    }
     <div class="buttons end">
       ${
         exists && wanted
           ? html`<${Question} replace=${() => save(true)} cancel=${close} />`
-          : html`<button type="submit" class="main">Save</button><button type="button" onClick=${close}>Cancel</button>`
+          : html`<button type="submit" class="main">Save</button>
+            <button type="button" onClick=${close}>Cancel</button>`
       }
     </div>
   </${Dialog}>`;

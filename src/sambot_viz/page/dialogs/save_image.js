@@ -23,8 +23,11 @@ export function SaveImage({ close }) {
   };
   /** @param {any} ref @param {string} name @param {number} value */
   const side = (ref, name, value) => html`<label class="line"><span class="of">${name}</span>
-    <input type="number" aria-label=${name} ref=${ref} min="16" max=${LONGEST} step="1" required value=${value}
-      data-first=${name === "Width" ? "" : undefined} onFocus=${(/** @type {Change} */ e) => e.target.select()} /> <span class="unit">pixels</span></label>`;
+    <input type="number" aria-label=${name} ref=${ref} min="16" max=${LONGEST} step="1" required
+      value=${value}
+      data-first=${name === "Width" ? "" : undefined}
+        onFocus=${(/** @type {Change} */ e) => e.target.select()} /> <span
+          class="unit">pixels</span></label>`;
   return html`<${Dialog} title="Save Image" close=${close} submit=${save}>
     <p>Save the view with its background, without the panels, as a PNG file.</p>
     ${side(width, "Width", size.value[0])}

@@ -18,7 +18,12 @@ const SCROLL = 6;
 const MARGIN = 16;
 const INDENT = 14;
 
-/** Follow a press that may become a drag. @param {Press} down @param {Row} row @param {HTMLElement} tree */
+/**
+ * Follow a press that may become a drag.
+ * @param {Press} down
+ * @param {Row} row
+ * @param {HTMLElement} tree
+ */
 export function dragDisplay(down, row, tree) {
   if (row.display && down.pointerType !== "touch") new Drag(down, row, tree);
 }

@@ -69,13 +69,17 @@ export function DisplaysPanel() {
   };
   return html`<section class="panel displays" aria-label="Displays">
     <header class="title">Displays</header>
-    <${Tree} panel=${PANEL} label="Displays" hover=${false} onKey=${key} menu=${menu} renaming=${renaming} rename=${rename} drag=${dragDisplay} />
+    <${Tree} panel=${PANEL} label="Displays" hover=${false} onKey=${key} menu=${menu}
+      renaming=${renaming} rename=${rename} drag=${dragDisplay} />
     <div class="help" aria-live="polite">${row && html`<b>${row.name}</b> ${row.help || ""}`}</div>
     <div class="buttons">
       <button class="drives" onClick=${add}>Add</button>
-      <button class="drives" disabled=${!display} onClick=${() => display && duplicate(display)}>Duplicate</button>
-      <button class="drives" disabled=${!display} onClick=${() => display && remove(display)}>Remove</button>
-      <button class="drives" disabled=${!display} onClick=${() => display && rename(display.id, null)}>Rename</button>
+      <button class="drives" disabled=${!display}
+        onClick=${() => display && duplicate(display)}>Duplicate</button>
+      <button class="drives" disabled=${!display}
+        onClick=${() => display && remove(display)}>Remove</button>
+      <button class="drives" disabled=${!display}
+        onClick=${() => display && rename(display.id, null)}>Rename</button>
     </div>
   </section>`;
 }

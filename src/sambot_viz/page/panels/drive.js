@@ -63,7 +63,9 @@ export function DrivePanel() {
     <div class="pad" role="group" aria-label="Drive">
       ${Object.keys(WAYS).map((name) => html`<${HoldButton} key=${name} name=${name} />`)}
       <${Stop} />
-      <button class="home drives" title="Move the robot back to the start, and reset its wheels and path" onClick=${() => act("drive/reset")}>Reset</button>
+      <button class="home drives"
+        title="Move the robot back to the start, and reset its wheels and path"
+          onClick=${() => act("drive/reset")}>Reset</button>
       <p class="keys">Hold a button, or press 8 2 4 6; 5 stops</p>
     </div>
     <${Tree} panel="drive" label="Drive" split=${false} />
@@ -71,7 +73,8 @@ export function DrivePanel() {
 }
 
 function Stop() {
-  return html`<button class="halt" aria-keyshortcuts="5" title="Stop (5)" onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button>`;
+  return html`<button class="halt" aria-keyshortcuts="5" title="Stop (5)"
+    onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button>`;
 }
 
 /** Drives while it is held, by a mouse, a finger, Space or Enter. @param {{name: string}} props */
@@ -96,7 +99,8 @@ function HoldButton({ name }) {
     if (event.type === "keyup") end();
     else start();
   };
-  return html`<button class=${`way go-${name}`} ref=${element} aria-label=${label} title=${`${label}, while it is held`}
+  return html`<button class=${`way go-${name}`} ref=${element} aria-label=${label}
+    title=${`${label}, while it is held`}
     onPointerDown=${(/** @type {Press} */ e) => {
       if (e.button === 0) {
         element.current.setPointerCapture(e.pointerId);
@@ -105,7 +109,8 @@ function HoldButton({ name }) {
     }}
     onPointerUp=${end} onPointerCancel=${end} onLostPointerCapture=${end} onBlur=${end}
     onKeyDown=${key} onKeyUp=${key}
-    onContextMenu=${(/** @type {Press} */ e) => e.preventDefault()}><${Icon} name=${name} /></button>`;
+    onContextMenu=${(/** @type {Press} */ e) => e.preventDefault()}><${Icon} name=${name} />
+      </button>`;
 }
 
 /** While the robot drives: how fast, and Stop, unless the panel has it. */

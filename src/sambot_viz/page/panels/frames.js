@@ -34,7 +34,8 @@ export function FramesPanel() {
   return html`<div class="frames">
     <${Tree} panel="frames" label="Frames" onKey=${key} />
     <${Add}>
-      <button disabled=${!of} title="Remove the selected static transform (Delete)" onClick=${remove}>Remove</button>
+      <button disabled=${!of} title="Remove the selected static transform (Delete)"
+        onClick=${remove}>Remove</button>
     </${Add}>
   </div>`;
 }
@@ -47,7 +48,8 @@ function Add({ children }) {
   folds.use();
   const open = isOpen("frames/form");
   return html`<div class="buttons">
-      <button aria-expanded=${String(open)} onClick=${() => fold("frames/form", !open)}>Add static transform …</button>${children}
+      <button aria-expanded=${String(open)}
+        onClick=${() => fold("frames/form", !open)}>Add static transform …</button>${children}
     </div>
     ${open && html`<${Form} />`}`;
 }
@@ -100,14 +102,21 @@ function Form() {
     unit,
   ) => html`<label><span>${name}</span> <input name=${name} autocomplete="off"
     placeholder=${`0 ${unit}`} title=${`${name}, in ${unit} or with a unit behind it`} /></label>`;
-  return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin} aria-label="Static transform">
+  return html`<form class="fields" ref=${form} onSubmit=${add} onInput=${begin}
+    aria-label="Static transform">
     ${LENGTHS.map((name) => number(name, "m"))}
     ${ANGLES.map((name) => number(name, angle))}
-    <label class="wide"><span>Parent</span> <${Combo} label="Parent" value=${within} options=${rows.data("names/frames") || []} tab=${0} accept=${setParent} /></label>
-    <label class="wide"><span>Child</span> <input name="child" autocomplete="off" spellcheck=${false} placeholder="base_laser" /></label>
-    <label class="wide"><span>Or paste</span> <input name="pasted" autocomplete="off" spellcheck=${false} aria-label="Arguments of static_transform_publisher"
-      placeholder="x y z yaw pitch roll parent child" title="The arguments of static_transform_publisher, a command or a line of a launch file" /></label>
+    <label class="wide"><span>Parent</span> <${Combo} label="Parent" value=${within}
+      options=${rows.data("names/frames") || []} tab=${0} accept=${setParent} /></label>
+    <label class="wide"><span>Child</span> <input name="child" autocomplete="off"
+      spellcheck=${false} placeholder="base_laser" /></label>
+    <label class="wide"><span>Or paste</span> <input name="pasted" autocomplete="off"
+      spellcheck=${false} aria-label="Arguments of static_transform_publisher"
+      placeholder="x y z yaw pitch roll parent child"
+        title="The arguments of static_transform_publisher, a command or a line of a launch file" />
+          </label>
     <button class="wide" type="submit">Add</button>
-    <p class=${why ? "wide refused" : "wide"} role=${why ? "alert" : undefined}>${why || "Numbers may be pi/2, 90deg or 5cm; an empty field is 0."}</p>
+    <p class=${why ? "wide refused" : "wide"} role=${why ? "alert" : undefined}>
+    ${why || "Numbers may be pi/2, 90deg or 5cm; an empty field is 0."}</p>
   </form>`;
 }

@@ -72,8 +72,10 @@ export function JointsPanel() {
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
-      <button class="drives" onClick=${() => act("joints/center")} title="Move all joints to their start positions">Center</button>
-      <button class="drives" onClick=${() => act("joints/randomize")} title="Move all joints to random positions within their limits">Randomize</button>
+      <button class="drives" onClick=${() => act("joints/center")}
+        title="Move all joints to their start positions">Center</button>
+      <button class="drives" onClick=${() => act("joints/randomize")}
+        title="Move all joints to random positions within their limits">Randomize</button>
       <${Copy} />
       <${Poses} />
     </div>
@@ -82,15 +84,22 @@ export function JointsPanel() {
       ${wheels && html`<${TurnRate} />`}
       ${
         many &&
-        html`<input type="search" class="search" placeholder="Search joints" aria-label="Search joints" ref=${box}
+        html`<input type="search" class="search" placeholder="Search joints"
+          aria-label="Search joints" ref=${box}
         onMouseDown=${focusWhole} onFocus=${(/** @type {Change} */ e) => e.target.select()}
         onInput=${(/** @type {Change} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`
       }
       <${FoldAll} />
     </div>
-    <div class="list" onPointerOver=${(/** @type {Press} */ e) => hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
+    <div class="list"
+      onPointerOver=${(/** @type {Press} */ e) =>
+        hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
         onPointerLeave=${() => hovered.set("")}>
-      ${!found && html`<p class="empty" role="status">No joint has ${words.map((word) => `'${word}'`).join(" and ")} in its name</p>`}
+      ${
+        !found &&
+        html`<p class="empty"
+        role="status">No joint has ${words.map((word) => `'${word}'`).join(" and ")} in its name</p>`
+      }
       <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />
     </div>
     <${OverLimit} />
@@ -131,7 +140,8 @@ function Copy() {
     act("joints/copy", [name]);
   };
   return html`<span class="split">
-    <button title=${`Copy the joint values: ${FORMS[last]}`} onClick=${() => copy(last)}>Copy</button>
+    <button title=${`Copy the joint values: ${FORMS[last]}`}
+      onClick=${() => copy(last)}>Copy</button>
     <${Popup} name="Copy as" role="menu" label=${html`<${Icon} name="down" />`}>${(
       /** @type {() => void} */ close,
     ) =>
@@ -155,7 +165,8 @@ function TurnRate() {
   const row = useRow("joints/rate");
   if (!row) return null;
   const why = refusals.get(row.id);
-  return html`<label class="rate" title=${row.help}>Turn rate <${NumberCell} row=${row} tab=${0} room=${NARROW} /></label>
+  return html`<label class="rate" title=${row.help}>Turn rate <${NumberCell} row=${row} tab=${0}
+    room=${NARROW} /></label>
     ${why && html`<${ValidationMessage} text=${why} />`}`;
 }
 
@@ -167,7 +178,8 @@ function FoldAll() {
   const open = groups.some(isOpen);
   const label = open ? "Fold all groups" : "Unfold all groups";
   return html`<button class="flat" title=${label} aria-label=${label}
-    onClick=${() => groups.forEach((id) => fold(id, !open))}><${Icon} name=${open ? "foldAll" : "unfoldAll"} /></button>`;
+    onClick=${() => groups.forEach((id) => fold(id, !open))}>
+      <${Icon} name=${open ? "foldAll" : "unfoldAll"} /></button>`;
 }
 
 /** Which joints are over a limit; the page cannot set them so, but a file or a program can. */
@@ -176,7 +188,8 @@ function OverLimit() {
   if (!over.length) return null;
   const named = over.slice(0, 3).join(", ");
   const more = over.length > 3 ? ` and ${over.length - 3} more` : "";
-  return html`<p class="over" role="status"><${Icon} name="warn" /> Over ${over.length === 1 ? "its limit" : "their limits"}: ${named}${more}</p>`;
+  return html`<p class="over" role="status"><${Icon} name="warn"
+    /> Over ${over.length === 1 ? "its limit" : "their limits"}: ${named}${more}</p>`;
 }
 
 /** What is known of the joint under the mouse, or of the selected one. */
@@ -188,6 +201,7 @@ function Help() {
     row?.kind === "slider" &&
     html`<b>${row.name}</b><br />
     ${row.help}<br />
-    ${row.follows ? `position ${formula(row)}; ` : ""}${row.wheel ? "turns without limits" : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
+    ${row.follows ? `position ${formula(row)}; ` : ""}
+      ${row.wheel ? "turns without limits" : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
   }</div>`;
 }

@@ -10,7 +10,8 @@ import { useData, useRow } from "../state.js";
 
 export function Poses() {
   if (!useData("poses/names")) return null;
-  return html`<${Popup} name="Poses" role="dialog" label=${html`Poses <${Icon} name="down" />`} title="Named poses: choose, save, remove">
+  return html`<${Popup} name="Poses" role="dialog" label=${html`Poses <${Icon} name="down" />`}
+    title="Named poses: choose, save, remove">
     ${(/** @type {() => void} */ close) => html`<${Form} close=${close} />`}<//>`;
 }
 
@@ -52,14 +53,18 @@ function Form({ close }) {
         act("poses/use", [name]);
         close();
       }}>${name}</button>
-      <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`} onClick=${() => remove(name)}><${Icon} name="trash" /></button>
+      <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`}
+        onClick=${() => remove(name)}><${Icon} name="trash" /></button>
     </div>`,
     )}
     ${!names.length && html`<p class="empty">No poses saved yet</p>`}
     <form onSubmit=${save}>
-      <input class="search" ref=${field} aria-label="Name of the pose" placeholder="Name of this pose" maxlength="60"
-        autocomplete="off" spellcheck=${false} onInput=${(/** @type {Change} */ e) => setTyped(e.target.value)} />
-      <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}</button>
+      <input class="search" ref=${field} aria-label="Name of the pose"
+        placeholder="Name of this pose" maxlength="60"
+        autocomplete="off" spellcheck=${false}
+          onInput=${(/** @type {Change} */ e) => setTyped(e.target.value)} />
+      <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}
+      </button>
     </form>
     ${why && html`<p class="validation" role="alert">${why}</p>`}
     <p class="place">${place}</p>

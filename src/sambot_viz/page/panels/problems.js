@@ -28,7 +28,8 @@ export function ProblemsPanel() {
 export function ProblemCount({ shown, show, byItself }) {
   const count = useData("problems/count");
   useOpening(count, { shown, show, byItself });
-  return html`<button class="problem-count" aria-expanded=${String(shown)} title=${`${shown ? "Hide" : "Show"} the problems`}
+  return html`<button class="problem-count" aria-expanded=${String(shown)}
+    title=${`${shown ? "Hide" : "Show"} the problems`}
       onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} /></button>`;
 }
 
@@ -39,7 +40,8 @@ export function ProblemCount({ shown, show, byItself }) {
 export function ProblemCorner({ show }) {
   const all = counted(useData("problems/count"));
   if (!all.length) return null;
-  return html`<button class="problem-count corner" title="Show the panels and the problems" onClick=${show}><${Numbers} of=${all} /></button>`;
+  return html`<button class="problem-count corner" title="Show the panels and the problems"
+    onClick=${show}><${Numbers} of=${all} /></button>`;
 }
 
 /** The kinds of problems that there are. @param {any} count */
@@ -58,7 +60,8 @@ function Numbers({ of }) {
     of.length
       ? of.map(
           ({ name, level, number }) =>
-            html`<span key=${name} class=${`l-${level}`} aria-hidden="true"><${Icon} name=${level} /> ${number}</span>`,
+            html`<span key=${name} class=${`l-${level}`} aria-hidden="true">
+              <${Icon} name=${level} /> ${number}</span>`,
         )
       : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`
   }

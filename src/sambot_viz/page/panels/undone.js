@@ -8,7 +8,9 @@ const PANEL = "displays";
 /** How long the rows of the displays may take after those of this browser [ms]. */
 const PATIENCE = 10000;
 
-/** Select the display when its row is there; the focus goes to it only from another row or from nothing.
+/**
+ * Select the display when its row is there; the focus goes to it only from another row, or
+ * from nothing.
  * @param {string} id */
 function go(id) {
   const at = document.activeElement;

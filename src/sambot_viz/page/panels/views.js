@@ -42,14 +42,19 @@ export function ViewsPanel() {
     <header class="title">Views</header>
     <div class="above">
       <span aria-hidden="true">Type:</span> ${type && html`<${ValueCell} row=${type} tab=${0} />`}
-      <button title="Zero (Z): reset the view to its default" onClick=${() => act("tools/zero")}>Zero</button>
+      <button title="Zero (Z): reset the view to its default"
+        onClick=${() => act("tools/zero")}>Zero</button>
     </div>
-    <${Tree} panel="views" label="Views" onKey=${key} onDouble=${double} renaming=${renaming} rename=${rename} />
+    <${Tree} panel="views" label="Views" onKey=${key} onDouble=${double} renaming=${renaming}
+      rename=${rename} />
     <div class="buttons">
       <${Save} />
-      <button disabled=${!saved} title="Go to the selected view (Enter)" onClick=${() => saved && use(saved)}>Go to</button>
-      <button class="drives" disabled=${!saved} title="Remove the selected view (Delete)" onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
-      <button class="drives" disabled=${!saved} title="Rename the selected view (F2)" onClick=${() => saved && rename(saved.id, null)}>Rename</button>
+      <button disabled=${!saved} title="Go to the selected view (Enter)"
+        onClick=${() => saved && use(saved)}>Go to</button>
+      <button class="drives" disabled=${!saved} title="Remove the selected view (Delete)"
+        onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
+      <button class="drives" disabled=${!saved} title="Rename the selected view (F2)"
+        onClick=${() => saved && rename(saved.id, null)}>Rename</button>
     </div>
   </section>`;
 }

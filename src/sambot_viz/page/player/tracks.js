@@ -1,7 +1,9 @@
 // @ts-check
 /* What moves in a page that is a file: of each node, the values it has had. */
 
-/** @typedef {{type: string, prop: string, name: string, first: any, times: number[], values: any[], now: number}} Track
+/**
+ * @typedef {{type: string, prop: string, name: string, first: any, times: number[],
+ *   values: any[], now: number}} Track
  *   type: of viser's message, empty for a node itself
  *   first: the value before the first of the times [ms]
  *   now: the number of the value that is shown; -1 for the first one, -2 when none is */

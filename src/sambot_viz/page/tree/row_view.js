@@ -59,8 +59,13 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
   };
   const cells = wide
     ? html`<${Wide} row=${row} twist=${twist} tab=${tab} />`
-    : html`<${Name} row=${row} twist=${twist} twice=${twice} rename=${renaming && api.current.rename} />
-      ${!alone(row) && html`<span class="value" role="gridcell" onDblClick=${twice}><${ValueCell} row=${row} tab=${tab} /></span>`}`;
+    : html`<${Name} row=${row} twist=${twist} twice=${twice}
+      rename=${renaming && api.current.rename} />
+      ${
+        !alone(row) &&
+        html`<span class="value" role="gridcell" onDblClick=${twice}>
+        <${ValueCell} row=${row} tab=${tab} /></span>`
+      }`;
   const help = api.current.hover && !wide && row.kind !== "slider" ? row.help : undefined;
   return html`<div class=${rowClass(row)} role="row" data-row=${id} tabindex=${tab} title=${help}
       aria-level=${depth + 1} aria-expanded=${opens ? String(open) : undefined}

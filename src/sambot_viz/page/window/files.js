@@ -11,7 +11,10 @@ import { SaveImage } from "../dialogs/save_image.js";
 import { tell } from "./notices.js";
 import { folds, selected, unfolded, useData } from "../state.js";
 
-/** @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}} FileState */
+/**
+ * @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}}
+ *   FileState
+ */
 
 /** @returns {FileState} */
 const state = () => rows.data("file/state") || {};
@@ -76,7 +79,8 @@ export function FileName() {
       ? "This config comes with the program; saving asks for a new name."
       : "";
   const title = `${name || "no file yet"}: ${modified ? "unsaved changes." : "no changes."} ${where}`;
-  return html`<span class="file-name" title=${title}><bdi>${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
+  return html`<span class="file-name" title=${title}><bdi>
+    ${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
 }
 
 /** The keys of the file menu, which also act while a text is typed. */

@@ -32,6 +32,7 @@ export function Top({ panels, hideAll }) {
     if (scrollWidth > clientWidth && step < STEPS.length - 1) setTried({ width, step: step + 1 });
   });
   return html`<div class=${`top ${STEPS[step]}`} ref=${element}>
-    <${MenuBar} panels=${panels} hideAll=${hideAll} small=${step >= 2} /><${Toolbar} /><${FileName} />
+    <${MenuBar} panels=${panels} hideAll=${hideAll} small=${step >= 2} /><${Toolbar} />
+    <${FileName} />
   </div>`;
 }

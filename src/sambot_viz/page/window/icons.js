@@ -60,8 +60,11 @@ const DASHED = new Set(["Select"]);
 /** @param {{name?: string}} props */
 export function Icon({ name = "" }) {
   const path = PATHS[name] || (name ? "M4 4h8v8H4z" : "");
-  return html`<svg class=${`icon i-${name in PATHS ? name.replace(/ /g, "") : "other"}`} viewBox="0 0 16 16" aria-hidden="true">
-    <path d=${path} fill=${FILLED.has(name) ? "currentColor" : "none"} stroke="currentColor" stroke-width="1.4"
-      stroke-dasharray=${DASHED.has(name) ? "2 1.5" : undefined} stroke-linejoin="round" stroke-linecap="round" />
+  return html`<svg class=${`icon i-${name in PATHS ? name.replace(/ /g, "") : "other"}`}
+    viewBox="0 0 16 16" aria-hidden="true">
+    <path d=${path} fill=${FILLED.has(name) ? "currentColor" : "none"} stroke="currentColor"
+      stroke-width="1.4"
+      stroke-dasharray=${DASHED.has(name) ? "2 1.5" : undefined} stroke-linejoin="round"
+        stroke-linecap="round" />
   </svg>`;
 }

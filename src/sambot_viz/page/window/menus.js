@@ -14,7 +14,8 @@ import { useCommand, useData } from "../state.js";
 
 /**
  * An entry of a menu, or null for a line between entries.
- * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} | null} Entry
+ * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} |
+ *   null} Entry
  * @typedef {{name: string, entries: () => Entry[]}} MenuOf
  * @typedef {{name: string, title: string, shown: boolean, toggle: () => void}} PanelOf
  */
@@ -145,10 +146,12 @@ export function MenuBar({ panels, hideAll, small }) {
     setOpened(-1);
     entry?.does();
   };
-  return html`<div class="menubar" role="menubar" aria-label="Menus" ref=${element} onKeyDown=${key}>
+  return html`<div class="menubar" role="menubar" aria-label="Menus" ref=${element}
+    onKeyDown=${key}>
     ${bar.map(
       (menu, i) => html`<div class="menu-place" key=${menu.name}>
-      <button class="tool menu-head" role="menuitem" aria-haspopup="menu" aria-expanded=${String(opened === i)}
+      <button class="tool menu-head" role="menuitem" aria-haspopup="menu"
+        aria-expanded=${String(opened === i)}
         aria-label=${menu.name} tabindex=${i === stop ? 0 : -1}
         onClick=${() => {
           setStop(i);
@@ -161,7 +164,11 @@ export function MenuBar({ panels, hideAll, small }) {
           }
         }}
         >${small ? html`<${Icon} name="menu" />` : menu.name}</button>
-      ${opened === i && html`<${Menu} menu=${menu} choose=${choose} leave=${() => setOpened(-1)} />`}
+      ${
+        opened === i &&
+        html`<${Menu} menu=${menu} choose=${choose} leave=${() => setOpened(-1)}
+        />`
+      }
     </div>`,
     )}
   </div>`;
@@ -190,14 +197,17 @@ function Menu({ menu, choose, leave }) {
     ${menu.entries().map((entry, i) =>
       entry === null
         ? html`<div role="separator" key=${i}></div>`
-        : html`<div key=${entry.name} role=${entry.checked === undefined ? "menuitem" : "menuitemcheckbox"} tabindex="-1"
+        : html`<div key=${entry.name}
+          role=${entry.checked === undefined ? "menuitem" : "menuitemcheckbox"} tabindex="-1"
           aria-checked=${entry.checked === undefined ? undefined : String(entry.checked)}
-          aria-disabled=${entry.off ? "true" : undefined} aria-keyshortcuts=${entry.keys?.replace("Ctrl", "Control")}
+          aria-disabled=${entry.off ? "true" : undefined}
+            aria-keyshortcuts=${entry.keys?.replace("Ctrl", "Control")}
           onClick=${() => {
             if (!entry.off) choose(entry);
           }}
           onPointerMove=${(/** @type {Press} */ e) => e.currentTarget.focus()}>
-        <span class="tick">${entry.checked ? html`<${Icon} name="ok" />` : ""}</span><span class="entry">${entry.name}</span>
+        <span class="tick">${entry.checked ? html`<${Icon} name="ok" />` : ""}</span>
+        <span class="entry">${entry.name}</span>
         ${entry.keys && html`<kbd>${entry.keys}</kbd>`}</div>`,
     )}
   </div>`;

@@ -41,10 +41,9 @@ export function People() {
   if (!now) return null;
   const { state, me } = now;
   if (!state.copy && !state.presented && state.clients < 2) return null;
-  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)} label=${short(state, me)}>${(
-    /** @type {() => void} */ close,
-  ) =>
-    html`<div class="people">
+  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)}
+    label=${short(state, me)}>${(/** @type {() => void} */ close) =>
+      html`<div class="people">
       <p>${inWords(state, me)}</p>
       ${state.presented && html`<${Control} state=${state} me=${me} close=${close} />`}
       ${
@@ -52,7 +51,8 @@ export function People() {
           ? html`<button onClick=${() => location.assign("../")}>Back to the shared robot</button>`
           : !me.presenter &&
             html`<button onClick=${() => location.assign("copy/")}
-            title="Only you see what you change there. You can return at any time.">Make my own copy</button>`
+            title="Only you see what you change there. You can return at any time."
+            >Make my own copy</button>`
       }
     </div>`}<//>`;
 }
@@ -73,7 +73,8 @@ function short(state, me) {
 function inControl(state, me) {
   const others = me.control ? state.control.filter((name) => name !== me.name) : state.control;
   const who = me.control ? ["You", ...others] : others;
-  return `${who.length ? who.join(" and ") : "Nobody"} ${me.control || who.length > 1 ? "are" : "is"} in control`;
+  const verb = me.control || who.length > 1 ? "are" : "is";
+  return `${who.join(" and ") || "Nobody"} ${verb} in control`;
 }
 
 /** @param {State} state @param {Me} me */
@@ -89,7 +90,11 @@ function Control({ state, me, close }) {
   const name = useRef(null);
   if (me.presenter) {
     return html`<${AskList} requests=${state.requests} />
-      ${state.given && html`<button onClick=${() => act("role/take-back")}>Take back control</button>`}`;
+      ${
+        state.given &&
+        html`<button
+        onClick=${() => act("role/take-back")}>Take back control</button>`
+      }`;
   }
   if (me.control)
     return html`<button onClick=${() => act("role/release")}>Release control</button>`;
@@ -106,7 +111,8 @@ function Control({ state, me, close }) {
     e.preventDefault();
     ask();
   }}>
-    <label>Your name <input class="field" maxlength="40" placeholder=${me.name} ref=${name} defaultValue=${ownName.value} /></label>
+    <label>Your name <input class="field" maxlength="40" placeholder=${me.name} ref=${name}
+      defaultValue=${ownName.value} /></label>
     <button type="submit">Request control</button>
   </form>`;
 }
@@ -115,8 +121,10 @@ function Control({ state, me, close }) {
 function AskList({ requests }) {
   return html`${requests.map(
     ([id, name]) => html`<p class="ask" key=${id}>${`${name} requests control.`}
-    <button onClick=${() => act("role/give", [id])} aria-label=${`Give control to ${name}`}>Give control</button>
-    <button onClick=${() => act("role/decline", [id])} aria-label=${`Not now, ${name}`}>Not now</button></p>`,
+    <button onClick=${() => act("role/give", [id])}
+      aria-label=${`Give control to ${name}`}>Give control</button>
+    <button onClick=${() => act("role/decline", [id])}
+      aria-label=${`Not now, ${name}`}>Not now</button></p>`,
   )}`;
 }
 
@@ -124,5 +132,6 @@ function AskList({ requests }) {
 export function Asking() {
   const now = usePeople();
   const asks = now?.me.presenter ? now.state.requests : [];
-  return html`<div class="asking" role="status" aria-live="polite"><${AskList} requests=${asks} /></div>`;
+  return html`<div class="asking" role="status" aria-live="polite"><${AskList} requests=${asks} />
+    </div>`;
 }

@@ -62,9 +62,14 @@ export function Popup({ label, name, role, title, children }) {
     event.stopPropagation();
   };
   return html`<span class="popup">
-    <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${name} title=${title}
+    <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${name}
+      title=${title}
       onClick=${() => setOpen(!open)}>${label}</button>
-    ${open && html`<div class="popped" tabindex="-1" ref=${panel} role=${role} aria-label=${name} onKeyDown=${key}>${children(close)}</div>`}
+    ${
+      open &&
+      html`<div class="popped" tabindex="-1" ref=${panel} role=${role} aria-label=${name}
+      onKeyDown=${key}>${children(close)}</div>`
+    }
   </span>`;
 }
 

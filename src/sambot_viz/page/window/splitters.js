@@ -100,8 +100,11 @@ export function Splitter({ side, label }) {
   const icon =
     across &&
     html`<button class="tuck" tabindex="-1" aria-label=${hide} title=${hide}
-    onClick=${() => hidden.set({ ...hidden.value, [side]: true })}><${Icon} name=${side === "left" ? "fold" : "unfold"} /></button>`;
-  return html`<div class=${`splitter ${across ? "across" : "down"} ${side}`}><div class="grip" role="separator" tabindex="0" aria-label=${label}
-    aria-orientation=${across ? "vertical" : "horizontal"} aria-valuenow=${sizes[side]} aria-valuemin=${SMALLEST} aria-valuemax=${Math.round(most())}
+    onClick=${() => hidden.set({ ...hidden.value, [side]: true })}>
+      <${Icon} name=${side === "left" ? "fold" : "unfold"} /></button>`;
+  return html`<div class=${`splitter ${across ? "across" : "down"} ${side}`}>
+    <div class="grip" role="separator" tabindex="0" aria-label=${label}
+    aria-orientation=${across ? "vertical" : "horizontal"} aria-valuenow=${sizes[side]}
+      aria-valuemin=${SMALLEST} aria-valuemax=${Math.round(most())}
     onPointerDown=${drag} onKeyDown=${key}></div>${icon}</div>`;
 }

@@ -48,7 +48,8 @@ function Said() {
     const timer = setTimeout(() => notice.set(null), said.level === "error" ? REFUSED : SAID);
     return () => clearTimeout(timer);
   }, [said]);
-  return html`<span class=${`notice l-${said?.level || "none"}`} role="alert" title=${said?.text || ""}>${said?.text || ""}</span>`;
+  return html`<span class=${`notice l-${said?.level || "none"}`} role="alert"
+    title=${said?.text || ""}>${said?.text || ""}</span>`;
 }
 
 function Progress() {
@@ -71,5 +72,6 @@ function FramesPerSecond() {
     }, 1000);
     return () => clearInterval(timer);
   }, []);
-  return html`<span class="fps" title="Frames per second; nothing is drawn while nothing moves">${drawn > 1 ? `${drawn} fps` : "idle"}</span>`;
+  return html`<span class="fps" title="Frames per second; nothing is drawn while nothing moves">
+    ${drawn > 1 ? `${drawn} fps` : "idle"}</span>`;
 }

@@ -23,14 +23,17 @@ export function Toolbar() {
   return html`<header class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
     ${tools.map((tool) => html`<${ToolButton} key=${tool.name} tool=${tool} />`)}
     <span class="rule"></span>
-    <${Button} icon="focus" name="Focus" keys="F" help="Look at the selection, or at the whole robot if nothing is selected."
+    <${Button} icon="focus" name="Focus" keys="F"
+      help="Look at the selection, or at the whole robot if nothing is selected."
       onClick=${() => act("tools/focus", [null, null])} />
-    <${Button} icon="zero" name="Zero" keys="Z" help="Reset the view to its default." onClick=${() => act("tools/zero")} />
+    <${Button} icon="zero" name="Zero" keys="Z" help="Reset the view to its default."
+      onClick=${() => act("tools/zero")} />
     <span class="gap"></span>
     <${EditButton} id="undo" keys="Ctrl+Z" />
     <${EditButton} id="redo" keys="Ctrl+Shift+Z" />
     <${FullScreen} />
-    <${Button} icon="hide" name="Hide panels" keys="H" help="The view fills the window; H shows the panels again." bare
+    <${Button} icon="hide" name="Hide panels" keys="H"
+      help="The view fills the window; H shows the panels again." bare
       onClick=${togglePanels} />
   </header>`;
 }
@@ -49,14 +52,19 @@ function move(event) {
 function ToolButton({ tool: { name, key, help, current } }) {
   return html`<button class="tool" aria-label=${name} aria-pressed=${String(current)}
     aria-keyshortcuts=${key.toUpperCase()} title=${`${name} (${key.toUpperCase()}): ${help}`}
-    onClick=${() => act("tools/choose", [name])}><${Icon} name=${name} /> <span class="word">${name}</span></button>`;
+    onClick=${() => act("tools/choose", [name])}><${Icon} name=${name} /> <span class="word">${name}
+      </span></button>`;
 }
 
-/** @param {{icon: string, name: string, keys: string, help: string, bare?: boolean, onClick: () => void}} props
+/**
+ * @param {{icon: string, name: string, keys: string, help: string, bare?: boolean,
+ *   onClick: () => void}} props
  *   bare: without its word, and on a phone only in the menu */
 function Button({ icon, name, keys, help, bare, onClick }) {
-  return html`<button class=${bare ? "tool rare" : "tool view-button"} aria-label=${name} aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
-    onClick=${onClick}><${Icon} name=${icon} />${!bare && html` <span class="word">${name}</span>`}</button>`;
+  return html`<button class=${bare ? "tool rare" : "tool view-button"} aria-label=${name}
+    aria-keyshortcuts=${keys} title=${`${name} (${keys}): ${help}`}
+    onClick=${onClick}><${Icon} name=${icon} />${!bare && html` <span class="word">${name}</span>`}
+      </button>`;
 }
 
 /** @param {{id: "undo" | "redo", keys: string}} props */
@@ -64,8 +72,10 @@ function EditButton({ id, keys }) {
   const can = useCommand(`edit/${id}`),
     label = useData("edit/labels")?.[id],
     name = EDITS[id];
-  return html`<button class="tool rare" disabled=${!can} title=${label ? `${name}: ${label} (${keys})` : `${name} (${keys})`} aria-label=${name}
-    aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(`edit/${id}`)}><${Icon} name=${id} /></button>`;
+  return html`<button class="tool rare" disabled=${!can}
+    title=${label ? `${name}: ${label} (${keys})` : `${name} (${keys})`} aria-label=${name}
+    aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(`edit/${id}`)}>
+      <${Icon} name=${id} /></button>`;
 }
 
 export function toggleFullScreen() {
@@ -81,5 +91,6 @@ function FullScreen() {
     return () => document.removeEventListener("fullscreenchange", changed);
   }, []);
   return html`<button class="tool" aria-label="Full screen" aria-pressed=${String(full)}
-    title="Full screen: use the whole screen; Esc leaves it" onClick=${toggleFullScreen}><${Icon} name="full" /></button>`;
+    title="Full screen: use the whole screen; Esc leaves it" onClick=${toggleFullScreen}>
+      <${Icon} name="full" /></button>`;
 }

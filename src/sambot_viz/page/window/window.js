@@ -113,7 +113,10 @@ export function Window() {
   /** @type {Ref} */
   const view = useRef(null);
   useEffect(() => placeView(view.current), []);
-  const style = `--left:${size.left}px;--right:${size.right}px;--side:${size.side}px;--bottom:${size.bottom}px`;
+  const style = Object.entries(size)
+    .map(([side, px]) => `--${side}:${px}px`)
+    .join(";");
+  const listed = form === "wide" ? away.problems === false : tab.value === "problems" && !away.side;
   return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
     ${!away.all && html`<${Top} panels=${panelList} hideAll=${togglePanels} />`}
     ${form === "wide" && !away.all && html`<${Left} />`}
@@ -128,7 +131,11 @@ export function Window() {
     }
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
-    ${!away.all && html`<${StatusBar} problems=${{ shown: form === "wide" ? away.problems === false : tab.value === "problems" && !away.side, show: showProblems, byItself: form === "wide" }} />`}
+    ${
+      !away.all &&
+      html`<${StatusBar}
+      problems=${{ shown: listed, show: showProblems, byItself: form === "wide" }} />`
+    }
     <${Connection} />
     <${Asking} />
     <${Dialogs} />
@@ -179,7 +186,8 @@ function Right() {
   if (away.right || !current) return html`<${Tab} side="right" />`;
   return html`<aside class="right">
     <${Tabs} names=${names} of=${TABS} current=${current} />
-    <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}><${TABS[current].content} /></div>
+    <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}>
+    <${TABS[current].content} /></div>
     <${Splitter} side="right" label="Width of the right panels" />
   </aside>`;
 }
@@ -196,7 +204,8 @@ function Sheet() {
   if (beside && away.side) return html`<${Tab} side="side" />`;
   return html`<aside class="sheet">
     <${Tabs} names=${names} of=${of} current=${current} />
-    <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}><${of[current].content} /></div>
+    <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}>
+    <${of[current].content} /></div>
     ${beside && html`<${Splitter} side="side" label="Width of the panels" />`}
   </aside>`;
 }
@@ -245,11 +254,12 @@ function Tabs({ names, of, current }) {
   }, []);
   return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key} onScroll=${fade}>
     ${names.map(
-      (
-        name,
-      ) => html`<button role="tab" key=${name} data-tab=${name} aria-selected=${String(name === current)}
-      aria-controls=${name === current ? "panel-right" : undefined} tabindex=${name === current ? 0 : -1}
-      aria-label=${of[name].title} onClick=${() => tab.set(name)}>${(of !== TABS && of[name].short) || of[name].title}</button>`,
+      (name) => html`<button role="tab" key=${name} data-tab=${name}
+        aria-selected=${String(name === current)}
+      aria-controls=${name === current ? "panel-right" : undefined}
+        tabindex=${name === current ? 0 : -1}
+      aria-label=${of[name].title} onClick=${() => tab.set(name)}>
+        ${(of !== TABS && of[name].short) || of[name].title}</button>`,
     )}
   </div>`;
 }
@@ -261,7 +271,8 @@ function Bottom() {
   return html`<section class="panel bottom" aria-label="Problems">
     <${Splitter} side="bottom" label="Height of Problems" />
     <header class="title">Problems
-      <button class="flat" aria-label="Close Problems" title="Close" onClick=${() => hidden.set({ ...away, problems: true })}><${Icon} name="close" /></button>
+      <button class="flat" aria-label="Close Problems" title="Close"
+        onClick=${() => hidden.set({ ...away, problems: true })}><${Icon} name="close" /></button>
     </header>
     <${ProblemsPanel} />
   </section>`;
@@ -271,7 +282,8 @@ function Bottom() {
 function Tab({ side }) {
   const words = side === "side" ? "Show the panels" : `Show the ${side} panels`;
   return html`<button class=${`unfold ${side}`} title=${words} aria-label=${words}
-    onClick=${() => unfoldSide(side)}><${Icon} name=${side === "left" ? "unfold" : "fold"} /></button>`;
+    onClick=${() => unfoldSide(side)}><${Icon} name=${side === "left" ? "unfold" : "fold"} />
+      </button>`;
 }
 
 /**
