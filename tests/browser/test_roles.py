@@ -1,4 +1,4 @@
-"""A class in real pages: one drives, the others watch, ask, and go on by themselves."""
+"""A class in real pages: presenter, viewers, requests for control, private copies."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def slider_is_off(user: User) -> bool:
     return bool(user.row("Joints", LEFT).one("slider").state("disabled"))
 
 
-def test_a_guest_asks_is_given_the_wheel_drives_and_loses_it(
+def test_a_viewer_requests_control_gets_it_and_loses_it(
     viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
 ) -> None:
     asking, driving = guest.user, teacher.user
@@ -75,7 +75,7 @@ def test_a_guest_asks_is_given_the_wheel_drives_and_loses_it(
     driving.until(lambda: not driving.see().all("dialog", "People"))
 
 
-def test_who_watches_turns_the_view_and_is_told_what_needs_the_wheel(
+def test_a_viewer_turns_the_view_and_is_told_what_needs_control(
     guest: ViewerPage, teacher: ViewerPage
 ) -> None:
     user = guest.user
@@ -95,7 +95,7 @@ def test_who_watches_turns_the_view_and_is_told_what_needs_the_wheel(
     assert not slider_is_off(teacher.user)
 
 
-def test_a_copy_of_ones_own_and_back(
+def test_a_private_copy_and_back(
     viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
 ) -> None:
     user = guest.user

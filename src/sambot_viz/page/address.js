@@ -7,7 +7,7 @@
  * gone again when the page is there (rviz_look.js). This runs before viser, not as a module. */
 
 // What `permalink.js` opens: viser would drop it.
-window.sambotLink = location.hash;
+window.sambotPermalink = location.hash;
 if (location.hash) history.replaceState(null, "", location.pathname + location.search);
 
 if (location.pathname !== "/" && location.pathname.endsWith("/")) {

@@ -8,7 +8,7 @@ import { followConnection } from "./wire/connection.js";
 import { togglePanels } from "./window/splitters.js";
 import { followFile } from "./window/files.js";
 import { listenToKeys } from "./window/keys.js";
-import { followLinks } from "./wire/permalink.js";
+import { followPermalinks } from "./wire/permalink.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
 import { followRole } from "./window/people.js";
@@ -35,7 +35,7 @@ const start = () => {
   followFile();
   followConnection();
   followRole();
-  followLinks();
+  followPermalinks();
   followScript();
   connect();
 };

@@ -14,7 +14,7 @@ interface Window {
   /** What the window tells the scripts that draw and move the view. */
   sambotViz?: { view?: { kind: string; focalSize: number; focalFixed: boolean } };
   /** What rviz_look.js has changed, for tests. */
-  sambotLink?: string;
+  sambotPermalink?: string;
   sambotVizLook?: Record<string, number>;
   /** The type of view that rviz_mouse.js follows, for tests. */
   sambotVizMouse?: { kind: string };

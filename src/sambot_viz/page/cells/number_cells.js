@@ -268,7 +268,7 @@ function Handle({ row, tab, held }) {
 function TurnButton({ row, tab }) {
   const turning = (useData("joints/turning") || []).includes(row.id);
   const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
-  return html`<button class="flat turn drives" aria-pressed=${String(turning)} aria-label=${label}
+  return html`<button class="flat turn needs-control" aria-pressed=${String(turning)} aria-label=${label}
     title=${label} tabindex=${tab}
     onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} />
       </button>`;

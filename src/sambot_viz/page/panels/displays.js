@@ -73,12 +73,12 @@ export function DisplaysPanel() {
       renaming=${renaming} rename=${rename} drag=${dragDisplay} />
     <div class="help" aria-live="polite">${row && html`<b>${row.name}</b> ${row.help || ""}`}</div>
     <div class="buttons">
-      <button class="drives" onClick=${add}>Add</button>
-      <button class="drives" disabled=${!display}
+      <button class="needs-control" onClick=${add}>Add</button>
+      <button class="needs-control" disabled=${!display}
         onClick=${() => display && duplicate(display)}>Duplicate</button>
-      <button class="drives" disabled=${!display}
+      <button class="needs-control" disabled=${!display}
         onClick=${() => display && remove(display)}>Remove</button>
-      <button class="drives" disabled=${!display}
+      <button class="needs-control" disabled=${!display}
         onClick=${() => display && rename(display.id, null)}>Rename</button>
     </div>
   </section>`;

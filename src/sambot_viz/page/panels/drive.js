@@ -63,7 +63,7 @@ export function DrivePanel() {
     <div class="pad" role="group" aria-label="Drive">
       ${Object.keys(WAYS).map((name) => html`<${HoldButton} key=${name} name=${name} />`)}
       <${Stop} />
-      <button class="home drives"
+      <button class="home needs-control"
         title="Move the robot back to the start, and reset its wheels and path"
           onClick=${() => act("drive/reset")}>Reset</button>
       <p class="keys">Hold a button, or press 8 2 4 6; 5 stops</p>

@@ -72,9 +72,9 @@ export function JointsPanel() {
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
-      <button class="drives" onClick=${() => act("joints/center")}
+      <button class="needs-control" onClick=${() => act("joints/center")}
         title="Move all joints to their start positions">Center</button>
-      <button class="drives" onClick=${() => act("joints/randomize")}
+      <button class="needs-control" onClick=${() => act("joints/randomize")}
         title="Move all joints to random positions within their limits">Randomize</button>
       <${Copy} />
       <${Poses} />

@@ -49,7 +49,7 @@ function Form({ close }) {
   return html`<div class="poses" ref=${list}>
     ${names.map(
       (name) => html`<div class="pose" key=${name}>
-      <button class="drives" title=${`Move the joints to '${name}'`} onClick=${() => {
+      <button class="needs-control" title=${`Move the joints to '${name}'`} onClick=${() => {
         act("poses/use", [name]);
         close();
       }}>${name}</button>
@@ -63,7 +63,7 @@ function Form({ close }) {
         placeholder="Name of this pose" maxlength="60"
         autocomplete="off" spellcheck=${false}
           onInput=${(/** @type {Change} */ e) => setTyped(e.target.value)} />
-      <button class="drives" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}
+      <button class="needs-control" type="submit" disabled=${!typed.trim()}>${exists ? "Replace" : "Save"}
       </button>
     </form>
     ${why && html`<p class="validation" role="alert">${why}</p>`}

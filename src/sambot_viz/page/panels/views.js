@@ -51,9 +51,9 @@ export function ViewsPanel() {
       <${Save} />
       <button disabled=${!saved} title="Go to the selected view (Enter)"
         onClick=${() => saved && use(saved)}>Go to</button>
-      <button class="drives" disabled=${!saved} title="Remove the selected view (Delete)"
+      <button class="needs-control" disabled=${!saved} title="Remove the selected view (Delete)"
         onClick=${() => saved && act("views/remove", [saved.id])}>Remove</button>
-      <button class="drives" disabled=${!saved} title="Rename the selected view (F2)"
+      <button class="needs-control" disabled=${!saved} title="Rename the selected view (F2)"
         onClick=${() => saved && rename(saved.id, null)}>Rename</button>
     </div>
   </section>`;
@@ -70,7 +70,7 @@ function Save() {
     before.current = null;
     reveal("views", made, false);
   });
-  return html`<button class="drives" title="Save the current view to the list" onClick=${() => {
+  return html`<button class="needs-control" title="Save the current view to the list" onClick=${() => {
     before.current = new Set(saved);
     act("views/save");
   }}>Save</button>`;

@@ -7,7 +7,7 @@ import { show } from "../dialogs/dialog.js";
 import { About, Keys } from "../dialogs/help.js";
 import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./files.js";
 import { Icon } from "./icons.js";
-import { copyLink } from "../wire/permalink.js";
+import { copyPermalink } from "../wire/permalink.js";
 import { menuKey } from "./menu.js";
 import { EDITS } from "./toolbar.js";
 import { useCommand, useData } from "../state.js";
@@ -56,7 +56,7 @@ const menus = (panels, hideAll) => [
       edit("undo", "Ctrl+Z"),
       edit("redo", "Ctrl+Shift+Z"),
       null,
-      { name: "Copy permalink", does: copyLink, off: !rows.can("permalink/copy") },
+      { name: "Copy permalink", does: copyPermalink, off: !rows.can("permalink/copy") },
     ],
   },
   {

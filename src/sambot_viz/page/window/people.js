@@ -22,7 +22,7 @@ export function followRole() {
     const me = /** @type {Me | undefined} */ (rows.data("role/me"));
     if (!me) return;
     rows.watch(!me.control);
-    document.body.classList.toggle("watching", !me.control);
+    document.body.classList.toggle("view-only", !me.control);
   };
   rows.listen("role/me", look);
   look();

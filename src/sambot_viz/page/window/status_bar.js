@@ -19,7 +19,7 @@ export function StatusBar({ problems }) {
   const tool = useData("tools/hint");
   const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.text) || "";
   return html`<footer class="statusbar" aria-label="Status bar">
-    <button class="drives" title="Reset (R): reload meshes and redraw"
+    <button class="needs-control" title="Reset (R): reload meshes and redraw"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <${ProblemCount} ...${problems} />
     <${Selected} />

@@ -1,5 +1,5 @@
 // @ts-check
-/* Links to what is seen: the joints, the view, the switches and the selection in the part of
+/* Permalinks: the joints, the view, the toggles and the selection in the part of
  * an address that no browser sends to a server. */
 
 import { act, rows } from "./channel.js";
@@ -11,7 +11,7 @@ const BEGIN = "view=";
 /** A robot that is not there after this time [ms] is not waited for. */
 const PATIENCE = 15_000;
 
-/** What a link says, from the address. @param {string} hash @returns {[string[], string[]]} */
+/** What a permalink says, from the address. @param {string} hash @returns {[string[], string[]]} */
 export function partsOf(hash) {
   const pairs = [...new URLSearchParams(hash.replace(/^#/, ""))];
   return [pairs.map(([name]) => name), pairs.map(([, value]) => value)];
@@ -28,13 +28,13 @@ export function addressOf(parts, { origin, pathname }) {
   return `${origin}${pathname}#${written.replace(/%(2F|3A|2C)/g, decodeURIComponent)}`;
 }
 
-/** Copy a link to what this browser sees. */
-export function copyLink() {
+/** Copy a permalink of what this browser shows. */
+export function copyPermalink() {
   act("permalink/copy");
 }
 
-/** Open links from now on: that of the page's own address, and those that come later. */
-export function followLinks() {
+/** Open permalinks from now on: that of the page's own address, and those that come later. */
+export function followPermalinks() {
   /** What is still to be opened. @type {string} */
   let waiting = "";
   let patient = false;
@@ -47,8 +47,8 @@ export function followLinks() {
     act("permalink/open", parts);
   };
   const take = () => {
-    const hash = window.sambotLink || location.hash;
-    window.sambotLink = undefined;
+    const hash = window.sambotPermalink || location.hash;
+    window.sambotPermalink = undefined;
     if (!hash.startsWith(`#${BEGIN}`)) return;
     waiting = hash;
     // A page that is loaded again shows what is there then.
@@ -65,7 +65,7 @@ export function followLinks() {
     const now = rows.data("permalink/made");
     if (!now || now.number === made) return;
     made = now.number;
-    void copy(addressOf(now.parts, location), "a link to this view");
+    void copy(addressOf(now.parts, location), "the permalink");
   });
   rows.listen("whole:browser", open);
   rows.listen("joints/untouched", open);
