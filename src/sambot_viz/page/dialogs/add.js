@@ -4,7 +4,7 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { rows } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
-import { makeDisplay } from "../panels/new_display.js";
+import { makeDisplay } from "../panels/selected_display.js";
 import { Dialog } from "./dialog.js";
 
 /** @typedef {{kind: string, help: string, why?: string}} Type */

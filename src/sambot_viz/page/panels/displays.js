@@ -7,10 +7,9 @@ import { AddDisplay } from "../dialogs/add.js";
 import { show } from "../dialogs/dialog.js";
 import { isOpen, selected, useRow } from "../state.js";
 import { reveal, Tree } from "../tree/tree.js";
-import { makeDisplay } from "./new_display.js";
+import { makeDisplay } from "./selected_display.js";
 import { dragDisplay } from "./display_drag.js";
 import { moveBy, neighbour, place } from "./display_order.js";
-import "./undone.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
