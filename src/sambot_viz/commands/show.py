@@ -28,6 +28,8 @@ commands:
                                draw the tree of frames
   sambot-viz snapshot MODEL -o FILE.png
                                write a picture of the 3D view
+  sambot-viz export MODEL -o FILE.html
+                               write the 3D view and a motion as one HTML file
   sambot-viz config FILE.rviz  report what of an RViz config is shown
 
 MODEL is a URDF or xacro file, whatever its ending, or a package folder; without

@@ -95,7 +95,7 @@ def explain(
 
 
 def joint_between(robot: Robot | None, parent: str, child: str) -> Joint | None:
-    """The robot's joint between two frames, if it is the robot that joins them."""
+    """Return the robot's joint between two frames, if the robot joins them."""
     for joint in robot.joints.values() if robot else ():
         if (joint.parent, joint.child) == (parent, child):
             return joint

@@ -170,7 +170,7 @@ class FrameTree(FrameHierarchy):
     # Asking
 
     def hop(self, child: str) -> Hop:
-        """The transform that holds a frame at its parent.
+        """Return the transform that holds a frame at its parent.
 
         Raises:
             FrameError: the frame does not exist or has no parent.
@@ -224,7 +224,7 @@ class FrameTree(FrameHierarchy):
         return min((e.stamp for e in (*below, *above) if not e.static), default=0.0)
 
     def chain(self, target: str, source: str) -> tuple[Hop, ...]:
-        """The steps from the source to the target, in walking order.
+        """Return the steps from the source to the target, in walking order.
 
         Raises:
             LookupRefused: as `lookup`.

@@ -74,16 +74,16 @@ class FrameHierarchy:
         return len(self._children)
 
     def parent(self, frame: str) -> str | None:
-        """The parent of a frame, or None for a root or an unknown frame."""
+        """Return the parent of a frame, or None for a root or an unknown frame."""
         edge = self._edges.get(plain_name(frame))
         return edge.parent if edge else None
 
     def children(self, frame: str) -> tuple[str, ...]:
-        """The children of a frame in the order in which they became known."""
+        """Return the children of a frame in the order in which they became known."""
         return tuple(self._children.get(plain_name(frame), ()))
 
     def root_of(self, frame: str) -> str:
-        """The root of the tree that a frame belongs to.
+        """Return the root of the tree that a frame belongs to.
 
         Raises:
             LookupRefused: the frame does not exist.
@@ -184,5 +184,5 @@ class FrameHierarchy:
 
 
 def plain_name(name: str) -> str:
-    """A frame name without the one leading slash that tf2 strips."""
+    """Return a frame name without the one leading slash that tf2 strips."""
     return name[1:] if name.startswith("/") else name

@@ -263,7 +263,7 @@ def _rotated(q: Xyzw, v: Vector3) -> Vector3:
 
 
 def _product(a: Pose, b: Pose) -> Pose:
-    """The pose of c in a, from those of b in a and of c in b."""
+    """Return the pose of c in a, from those of b in a and of c in b."""
     (x, y, z), (dx, dy, dz) = a[0], _rotated(a[1], b[0])
     return (x + dx, y + dy, z + dz), xyzw_product(a[1], b[1])
 

@@ -14,7 +14,7 @@ from sambot_viz.robot.model import Robot
 def robot_frames(
     robot: Robot, positions: Mapping[str, float] | None = None, *, prefix: str = ""
 ) -> FrameTree:
-    """A new tree with the frames of a robot.
+    """Return a new tree with the frames of a robot.
 
     Fixed and planar joints are static, the moving ones change. A floating joint gives
     no transform, so that its descendants are a tree of their own.

@@ -84,7 +84,7 @@ class Transform:
 
     @classmethod
     def identity(cls) -> Transform:
-        """The pose of a frame in itself."""
+        """Return the pose of a frame in itself."""
         return _IDENTITY
 
     @classmethod
@@ -133,7 +133,7 @@ class Transform:
 
     @cached_property
     def translation(self) -> npt.NDArray[np.float64]:
-        """Where the child's origin is in the parent, (3,) [m], read-only."""
+        """The child's origin in the parent, (3,) [m], read-only."""
         return self.matrix[:3, 3]
 
     @cached_property
@@ -161,7 +161,7 @@ class Transform:
         return (math.atan2(r21, r22), pitch, math.atan2(r10, r00))
 
     def inverse(self) -> Transform:
-        """The pose of the parent in the child, T_child_parent."""
+        """Return the pose of the parent in the child, T_child_parent."""
         return Transform.trusted(inverse_matrix(self.matrix))
 
     def __matmul__(self, other: Transform) -> Transform:

@@ -16,7 +16,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.text import text
 
 NO_DATA = "No tf data received"
-"""What view_frames draws without frames."""
+"""The drawing of view_frames without frames."""
 
 
 class EdgeJson(TypedDict):
@@ -41,7 +41,7 @@ class TreeJson(TypedDict):
 
 
 def tree_json(tree: FrameTree, robot: Robot | None = None) -> TreeJson:
-    """The tree as plain data, all numbers exact.
+    """Return the tree as plain data, all numbers exact.
 
     Args:
         tree: the frames.
@@ -69,7 +69,7 @@ def _edge_json(hop: Hop, robot: Robot | None) -> EdgeJson:
 
 
 def tree_dot(tree: FrameTree, robot: Robot | None = None) -> str:
-    """The tree in Graphviz' language; ``dot -Tpdf`` draws it.
+    """Return the tree in Graphviz' language; ``dot -Tpdf`` draws it.
 
     Args:
         tree: the frames.
@@ -88,7 +88,7 @@ def tree_dot(tree: FrameTree, robot: Robot | None = None) -> str:
 
 
 def edge_lines(hop: Hop, robot: Robot | None) -> tuple[str, ...]:
-    """What is written at an edge: joint, type, xyz [m], rpy [rad]."""
+    """Return the text at an edge: joint, type, xyz [m], rpy [rad]."""
     joint = joint_between(robot, hop.parent, hop.child)
     if joint is not None:
         head = (joint.name, joint.type)

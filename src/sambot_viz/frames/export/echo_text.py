@@ -11,7 +11,7 @@ EchoJson = dict[str, "list[float] | list[list[float]]"]
 
 
 def format_echo(transform: Transform, time: float = 0.0) -> str:
-    """The block that tf2_echo prints once per period, in its form since Humble.
+    """Return the block that tf2_echo prints once per period, in its form since Humble.
 
     Three decimals, minus zeros included, as the real tool has them; unlike there, the
     angles at a pitch of ±90° are right.
@@ -47,7 +47,7 @@ def format_echo(transform: Transform, time: float = 0.0) -> str:
 
 
 def echo_json(transform: Transform) -> EchoJson:
-    """The transform as plain lists, exact: translation [m], rotation, rpy [rad]."""
+    """Return the transform as exact lists: translation [m], rotation, rpy [rad]."""
     return {
         "translation": transform.translation.tolist(),
         "rotation_xyzw": transform.rotation_xyzw.tolist(),

@@ -145,6 +145,6 @@ def _joint_class(lines: tuple[str, ...], index: int) -> str:
 
 
 def _text_width(value: str) -> float:
-    """The width of a text in the picture, wide characters counted twice."""
+    """Return the width of a text in the picture, wide characters counted twice."""
     wide = sum(unicodedata.east_asian_width(c) in "WF" for c in text(value))
     return (len(text(value)) + wide) * _CHARACTER + 8

@@ -70,7 +70,7 @@ def tidy_tree(
 def _top_down(
     roots: Sequence[str], children: Callable[[str], Sequence[str]]
 ) -> list[str]:
-    """All nodes, parents before children; without recursion, for long chains."""
+    """Return all nodes, parents before children; without recursion, for long chains."""
     order: list[str] = []
     waiting = list(roots)
     while waiting:
