@@ -55,11 +55,14 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
         # The token is taken out of the address by a redirect, which keeps the link.
         assert "?token=" in other.url
         mark = link.partition("#")[2]
-        same, elsewhere = open_viewer(link), open_viewer(f"{other.url}#{mark}")
         # The programs end before the pages.
-        for page in (viewer, same, elsewhere):
+        viewer.expects_errors = True
+        pages: list[ViewerPage] = []
+        for address, server in ((link, viz), (f"{other.url}#{mark}", other)):
+            page = open_viewer(address)
+            pages.append(page)
             page.expects_errors = True
-        for page, server in ((same, viz), (elsewhere, other)):
+            # A notice goes after some seconds: the next page is opened later.
             page.user.reads("Opened the link")
             page.user.until(lambda s=server: s.joint_positions[LEFT] == 0.75)
             page.user.until(
@@ -72,6 +75,7 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
             assert "#" not in address and "token" not in address
         # In a page that is open already, the address may be replaced.
         other.set_joint_positions({LEFT: 0.0, RIGHT: 1.0})
+        elsewhere = pages[-1]
         elsewhere.page.evaluate(f"void (location.hash = {mark!r})")
         elsewhere.user.until(
             lambda: dict(other.joint_positions) == {LEFT: 0.75, RIGHT: 0.0}

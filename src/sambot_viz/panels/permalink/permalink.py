@@ -1,4 +1,4 @@
-"""What one browser shows, as a link that shows the same elsewhere.
+"""Make permalinks of what one client shows, and open them.
 
 A link has the names and values of what differs from the start, as a form that is sent
 has them. Every value is checked as if a user had set it.
@@ -37,7 +37,7 @@ from sambot_viz.views.registry import VIEWS
 
 
 class PermalinkPanel(Panel):
-    """Makes links, and shows what a link says.
+    """Makes permalinks, and shows what they say.
 
     Args:
         session: what is shown.
@@ -76,7 +76,7 @@ class PermalinkPanel(Panel):
         self._remake(self)
 
     def _parts(self) -> Iterator[Pair]:
-        """The names and values of a link; the last one shows that none is missing."""
+        """Yield names and values; the last one shows that none is missing."""
         view = self._browser.view.view
         yield "view", view.kind.rpartition("/")[2]
         for row in property_rows(view.config, CURRENT, lambda path, value: None):

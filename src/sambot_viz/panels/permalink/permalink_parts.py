@@ -1,4 +1,4 @@
-"""A link as names and values: reading one, and writing values short and exact."""
+"""Read permalinks, which are names and values, and write values short and exact."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sambot_viz.text import text
 
 VERSION = "1"
 MOST_NAMED = 4
-"""So many names of what a link has and this robot has not are said."""
+"""At most so many names that this robot does not have are listed."""
 ON, OFF = "1", "0"
 
 Pair = tuple[str, str]
@@ -21,7 +21,7 @@ Pair = tuple[str, str]
 
 @dataclass
 class PermalinkParts:
-    """What a link says, and what of it cannot be shown here.
+    """The contents of a permalink, and what of it cannot be shown here.
 
     Attributes:
         kind: the type of the view, such as "Orbit".
@@ -76,12 +76,12 @@ class PermalinkParts:
         return link
 
     def refuse(self, why: str) -> None:
-        """A value cannot be, or something cannot be done here."""
+        """Note a value that is refused, or something that cannot be done here."""
         if why not in self.refused:
             self.refused.append(why)
 
     def answer(self) -> Answer:
-        """What a user reads: all is as in the link, or what is not."""
+        """Return what a user reads: all is as in the link, or what is not."""
         said = [self.missing.sentence(), *self.refused[:MOST_NAMED]]
         if self.kept:
             said.append(f"joints and displays stay as they are: {VIEW_ONLY}")
@@ -114,13 +114,13 @@ class PermalinkParts:
 
 
 class Missing(dict[str, list[str]]):
-    """Kind of thing → the names of those that are not there."""
+    """Kind of item → the names that do not exist here."""
 
     def __missing__(self, kind: str) -> list[str]:
         return []
 
     def sentence(self) -> str:
-        """What is not there, in words."""
+        """Return in words what does not exist."""
         parts: list[str] = []
         for kind, names in self.items():
             shown = [f"'{text(name, 60)}'" for name in names[:MOST_NAMED]]
@@ -132,7 +132,7 @@ class Missing(dict[str, list[str]]):
 
 
 def written(value: Json) -> str:
-    """A value of a row as a text of a link."""
+    """Return a value of a row as a text of a permalink."""
     if isinstance(value, bool):
         return ON if value else OFF
     if isinstance(value, list | tuple):
@@ -141,7 +141,7 @@ def written(value: Json) -> str:
 
 
 def short(row: Row, position: float) -> str:
-    """A position with few digits, if that is inside the limits too."""
+    """Return a position with few digits, if it is inside the limits then too."""
     rounded = f"{position:.6g}"
     low, high = row.least, row.most
     inside = (low is None or low <= float(rounded)) and (
@@ -151,7 +151,7 @@ def short(row: Row, position: float) -> str:
 
 
 def read(row: Row, given: str) -> Json:
-    """A text of a link as the value of a row; the gate checks it."""
+    """Return a text of a permalink as the value of a row, to be validated."""
     if row.kind == "bool":
         return {ON: True, OFF: False}.get(given, given)
     if row.kind in ("int", "float"):
@@ -162,7 +162,7 @@ def read(row: Row, given: str) -> Json:
 
 
 def number(given: str) -> Json:
-    """A number, or the text itself, which no row for numbers takes."""
+    """Return a number, or the text itself, which no row for numbers takes."""
     try:
         return float(given)
     except ValueError:
