@@ -177,12 +177,12 @@ def check_token(token: str, flag: str = "--token") -> str:
         )
     if not _TOKEN.fullmatch(token):
         raise UsageError(
-            f"{flag} '{token}': letters, digits and . _ ~ - may be in it; leave the "
-            "value out, and one is made"
+            f"{flag} '{token}': only letters, digits and . _ ~ - are allowed; leave "
+            "the value out to have one generated"
         )
     if len(token) < SHORTEST_TOKEN:
         raise UsageError(
             f"{flag} '{token}' is too easy to guess; give at least {SHORTEST_TOKEN} "
-            "characters, or leave the value out, and one is made"
+            "characters, or leave the value out to have one generated"
         )
     return token

@@ -189,7 +189,7 @@ def problem_in_words(problem: Problem, color: bool = False) -> str:
 
 
 def _sentence(problem: Problem, message: str, color: bool) -> str:
-    """Place, severity and code of a problem with a message, and the hint."""
+    """Write place, severity and code of a problem with a message, and the hint."""
     paint, bold, end = (_COLORS[problem.severity], _BOLD, _END) if color else _PLAIN
     place = f"{bold}{problem.place}:{end} " if problem.place else ""
     hint = f"; {problem.hint}" if problem.hint else ""
@@ -242,7 +242,7 @@ def _commands(groups: Iterable[ProblemGroup], model: object) -> str:
 
 
 def _group_in_words(group: ProblemGroup, color: bool) -> str:
-    """Several problems in one line, at the place of the first; one in full."""
+    """Write several problems in one line, at the place of the first; one in full."""
     if len(group.problems) == 1:
         return problem_in_words(group.first, color)
     return _sentence(group.first, group.message, color)

@@ -36,5 +36,5 @@ def text(value: object, limit: int = 400) -> str:
 
 
 def html_text(value: object, limit: int = 2000) -> str:
-    """Like `text`, with HTML's special characters escaped, for `gui.add_html`."""
+    """Escape HTML's special characters too, for `gui.add_html`."""
     return html.escape(text(value, limit), quote=True)

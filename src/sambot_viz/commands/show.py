@@ -186,7 +186,7 @@ def _invite(url: str, presenter_url: str | None) -> None:
 
 
 def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> None:
-    """Ctrl-C and a service manager's stop end the program quietly.
+    """End the program quietly on Ctrl-C and a service manager's stop.
 
     Args:
         stop: is set then.

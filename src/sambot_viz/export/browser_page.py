@@ -39,7 +39,7 @@ class BrowserPage:
     def __init__(
         self, devtools: DevTools, context: str, session: str, timeout: float
     ) -> None:
-        """Only for `create`."""
+        """Make the object; only for `create`."""
         self._devtools = devtools
         self._context = context
         self._session = session

@@ -1,4 +1,4 @@
-"""Which Chromium or Chrome this machine has. Nothing here downloads one."""
+"""Find the Chromium or Chrome of this machine. Nothing here downloads one."""
 
 from __future__ import annotations
 

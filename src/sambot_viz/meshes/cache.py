@@ -40,7 +40,7 @@ class MeshCache:
     def __init__(
         self, *, longest_side: int = LONGEST_SIDE, largest: int = LARGEST
     ) -> None:
-        """Limits for everything read through this cache.
+        """Set the limits for everything read through this cache.
 
         Args:
             longest_side: textures are made this small [pixels].

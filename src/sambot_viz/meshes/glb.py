@@ -30,7 +30,7 @@ _last: weakref.WeakKeyDictionary[MeshPart, tuple[tuple[Rgba | None, float], byte
 
 
 def shared_glb(part: MeshPart, rgba: Rgba | None, alpha: float) -> bytes:
-    """`to_glb` of one part; who asks for what was asked for last gets the same object.
+    """Return `to_glb` of one part; the same object for the look asked for last.
 
     So do all browsers of a class with a robot each.
     """

@@ -96,7 +96,7 @@ class NamedFiles:
             self.used.append(path)
 
     def _candidates(self, name: str) -> Iterator[tuple[Path, bool]]:
-        """Paths to try, and whether it is the one that the name itself says."""
+        """Yield paths to try; True for those that the name itself says."""
         plain = name.strip().removeprefix("file://")
         folder = self._mesh.parent
         for text in dict.fromkeys((plain, unquote(plain))):

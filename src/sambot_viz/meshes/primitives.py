@@ -135,7 +135,7 @@ def _disc_uv(ring: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 
 def _shape(polygons: list[_Polygon]) -> Primitive:
-    """Planar convex polygons → arrays, each polygon as a fan of triangles."""
+    """Turn planar convex polygons into arrays, each polygon as a fan of triangles."""
     vertices: list[npt.NDArray[np.float64]] = []
     normals: list[npt.NDArray[np.float64]] = []
     faces: list[list[int]] = []

@@ -46,7 +46,7 @@ class TextureStore:
     """
 
     def __init__(self, longest_side: int = LONGEST_SIDE) -> None:
-        """`longest_side`: the cap [pixels]; larger images are made smaller."""
+        """Set the cap `longest_side` [pixels]; larger images are made smaller."""
         self.longest_side = longest_side
         self._lock = threading.Lock()
         self._by_content: WeakValueDictionary[bytes, Texture] = WeakValueDictionary()

@@ -14,7 +14,7 @@ _DECIMAL = _WHOLE + b".eE"
 
 
 def parse_floats(text: bytes) -> npt.NDArray[np.float32] | None:
-    """Numbers separated by blanks, or None when something else is among them."""
+    """Read numbers separated by blanks; None when something else is among them."""
     try:
         # Numpy's own reader is quicker, but older releases only warn about what
         # they do not understand ("nan" included).
@@ -26,7 +26,7 @@ def parse_floats(text: bytes) -> npt.NDArray[np.float32] | None:
 
 
 def parse_ints(text: bytes) -> npt.NDArray[np.int64] | None:
-    """Whole numbers separated by blanks, or None when something else is among them."""
+    """Read whole numbers separated by blanks; None when others are among them."""
     if text.translate(None, _WHOLE):
         return None
     try:

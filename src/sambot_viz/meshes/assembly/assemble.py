@@ -188,7 +188,7 @@ def _weld(piece: Submesh) -> MeshPart:
 
 
 def _kinds(piece: Submesh, used: npt.NDArray[np.bool_]) -> tuple[Ints, Ints]:
-    """Among the used vertices: the first of each kind, and the kind of each."""
+    """Return the first of each kind of used vertices, and the kind of each."""
     # Adding zero makes minus zero the same as zero.
     columns = [piece.vertices[used].astype(np.float32) + np.float32(0)]
     if piece.normals is not None:

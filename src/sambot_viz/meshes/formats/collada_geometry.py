@@ -224,7 +224,7 @@ def _fans(element: ET.Element, stride: int) -> _Corners | None:
 def _unrolled(
     element: ET.Element, stride: int, corner: Callable[[int], tuple[int, int, int]]
 ) -> _Corners | None:
-    """Strips and fans as single triangles."""
+    """Turn strips and fans into single triangles."""
     triangles: list[_Int64 | None] = []
     for p in element.findall("p"):
         rows = _rows(p.text, stride)
@@ -244,7 +244,7 @@ def _many(outlines: list[_Int64 | None], stride: int) -> _Corners | None:
 
 
 def _rows(text: str | None, stride: int) -> _Int64 | None:
-    """(corners, stride): the indices of each corner."""
+    """Return the indices of each corner, (corners, stride)."""
     values = parse_ints((text or "").encode())
     if values is None:
         return None

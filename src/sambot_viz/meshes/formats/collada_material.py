@@ -21,7 +21,7 @@ class Materials:
         self._looks: dict[int, MeshMaterial] = {}
 
     def bindings(self, instance: ET.Element | None) -> dict[str, str]:
-        """Material symbol → material reference of an <instance_geometry>."""
+        """Map the material symbols of an <instance_geometry> to references."""
         if instance is None:
             return {}
         return {

@@ -129,7 +129,7 @@ def _text(line: bytes) -> str:
 
 
 def _table(lines: list[bytes], width: int, source: MeshSource) -> Floats:
-    """(rows, width): the first numbers of every line."""
+    """Read the first numbers of every line, (rows, width)."""
     if not lines:
         return np.empty((0, width), dtype=np.float32)
     columns = len(lines[0].split())
@@ -200,7 +200,7 @@ def _fill(
 
 
 def _corners(text: bytes, count: int) -> npt.NDArray[np.int64] | None:
-    """(count, 3): position, uv and normal of each corner as written."""
+    """Read position, uv and normal of each corner as written, (count, 3)."""
     text = text.replace(b"//", b"/0/")
     slashes = text.count(b"/")
     table = np.full((count, 3), _MISSING, dtype=np.int64)
