@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.packages.package_index import Lookup
+from sambot_viz.robot.xacro.child.exchange import (
+    ChildAnswer,
+    ExpandedAnswer,
+    FailureAnswer,
+)
 from sambot_viz.robot.xacro.unexpanded import missing_prefix
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element
@@ -126,7 +130,7 @@ class ExpandedModel:
     problems: tuple[Problem, ...]
 
 
-def read_result(answer: Mapping[str, Any], file: str) -> ExpandedModel:
+def read_result(answer: ChildAnswer, file: str) -> ExpandedModel:
     """Read what the child process sent.
 
     Args:
@@ -137,46 +141,50 @@ def read_result(answer: Mapping[str, Any], file: str) -> ExpandedModel:
         ExpansionError: xacro failed, or its output is not XML.
         ExpansionXmlError: the model or an included file is not XML.
     """
-    if "failure" in answer:
+    if answer["failure"] is not None:
         raise ExpansionError(_failure(answer["failure"]))
-    if "xml_fault" in answer:
-        message, line, column, code = answer["xml_fault"]
-        fault = XmlFault(message, line, column, answer["text"], code)
-        raise ExpansionXmlError(answer["file"], fault, tuple(answer["files"]))
-    problems = [_warning(*entry) for entry in answer["warnings"]]
+    if answer["not_xml"] is not None:
+        found = answer["not_xml"]
+        fault = XmlFault(
+            found["message"],
+            found["line"],
+            found["column"],
+            found["text"],
+            found["code"],
+        )
+        raise ExpansionXmlError(found["file"], fault, tuple(found["files"]))
+    if answer["expanded"] is None:
+        raise ExpansionError(XacroFailure("Crash", "an empty answer", file))
+    expanded = answer["expanded"]
+    problems = [_warning(*entry) for entry in expanded["warnings"]]
     problems += [
-        missing_prefix(tag, is_macro, Place(*place))
-        for tag, is_macro, *place in answer["unprefixed"]
+        missing_prefix(tag, is_macro, Place(place, line, column))
+        for tag, is_macro, place, line, column in expanded["unprefixed"]
     ]
-    names: list[str] = answer["names"]
-    root, wrong_name = _tree(answer["nodes"], dict(enumerate(names)))
-    if wrong_name or _FORBIDDEN.search(answer["xml"]):
+    root, wrong_name = _tree(expanded)
+    if wrong_name or _FORBIDDEN.search(expanded["xml"]):
         raise ExpansionError(_not_xml(root, file))
-    files = tuple(Path(name) for name in answer["files"])
-    return ExpandedModel(answer["xml"], root, files, tuple(dict.fromkeys(problems)))
+    files = tuple(map(Path, expanded["files"]))
+    return ExpandedModel(expanded["xml"], root, files, tuple(dict.fromkeys(problems)))
 
 
-def _tree(
-    nodes: Sequence[Sequence[Any]], files: Mapping[int, str]
-) -> tuple[Element, bool]:
-    """The elements, and whether one of their names is not allowed in XML.
-
-    Each entry of `nodes` is: tag, attributes, text, number of children, file number,
-    line, column, and for an element that came through a macro call the file number
-    and line of the outermost call.
-    """
+def _tree(expanded: ExpandedAnswer) -> tuple[Element, bool]:
+    """The elements, and whether one of their names is not allowed in XML."""
     top = Element("", {}, Place("", 0))
     names: set[str] = set()
     waiting = [(top, 1)]
-    for tag, attributes, text, count, file, line, column, *call in nodes:
+    files = expanded["names"]
+    for node, place in zip(expanded["nodes"], expanded["places"], strict=True):
+        tag, attributes, text, count = node
+        file, line, column, call_file, call_line = place
         while len(waiting[-1][0].children) == waiting[-1][1]:
             waiting.pop()
         parent = waiting[-1][0]
         element = Element(tag, attributes, Place(files[file], line, column), text=text)
         element.parent = None if parent is top else parent
         parent.children.append(element)
-        if call:
-            element.call = Place(files[call[0]], call[1])
+        if call_file >= 0:
+            element.call = Place(files[call_file], call_line)
         names.add(tag)
         names.update(attributes)
         for name, value in attributes.items():
@@ -205,7 +213,7 @@ def _failure_at(element: Element, text: str) -> XacroFailure:
     return XacroFailure("NotXml", text, place.file, place.line, place.column)
 
 
-def _failure(data: Mapping[str, Any]) -> XacroFailure:
+def _failure(data: FailureAnswer) -> XacroFailure:
     missing = data["missing_package"]
     return XacroFailure(
         kind=data["kind"],

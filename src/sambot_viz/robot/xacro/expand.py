@@ -17,8 +17,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from sambot_viz.robot.xacro.child.exchange import ChildAnswer, Job
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
     ExpansionError,
@@ -69,7 +69,7 @@ def expand_model(
         ExpansionError: xacro failed, or a limit ended it.
         ExpansionXmlError: the model or an included file is not XML.
     """
-    job = {
+    job: Job = {
         "file": file,
         "text": text,
         "folder": None if folder is None else str(folder),
@@ -104,7 +104,7 @@ def _import_path() -> list[str]:
     return list(dict.fromkeys(folders))
 
 
-def _run_child(job: Mapping[str, Any], limits: Limits) -> dict[str, Any]:
+def _run_child(job: Job, limits: Limits) -> ChildAnswer:
     own = {name: os.environ[name] for name in ("SYSTEMROOT",) if name in os.environ}
     order = json.dumps(job).encode()
     # The child reads EOF from this pipe when this process has died, and exits too.
@@ -163,5 +163,5 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         process.stdout.close()
 
 
-def _own_failure(kind: str, text: str, job: Mapping[str, Any]) -> ExpansionError:
-    return ExpansionError(XacroFailure(kind, text, str(job["file"])))
+def _own_failure(kind: str, text: str, job: Job) -> ExpansionError:
+    return ExpansionError(XacroFailure(kind, text, job["file"]))

@@ -13,7 +13,10 @@ import os
 import signal
 import sys
 import types
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.xacro.child.exchange import Job
 
 
 def limit_resources(megabytes: int, seconds: int) -> None:
@@ -94,7 +97,7 @@ def _wait_for_end() -> None:
 def main() -> None:
     """Read the job, expand, write the answer."""
     size = int(sys.stdin.buffer.read(16))
-    job: dict[str, Any] = json.loads(sys.stdin.buffer.read(size))
+    job: Job = json.loads(sys.stdin.buffer.read(size))
     end_with_parent()
     channel = keep_result_channel()
     limit_resources(job["megabytes"], job["seconds"])

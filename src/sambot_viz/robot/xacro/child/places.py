@@ -13,14 +13,12 @@ from collections.abc import Callable, Iterator
 from typing import Any
 from xml.dom import expatbuilder
 
+from sambot_viz.robot.xacro.child.exchange import Call, Node, NodePlace
 from sambot_viz.robot.xml.decode import XmlFault
 
 _minidom: Any = xml.dom.minidom
 _ELEMENT = _minidom.Node.ELEMENT_NODE
 _TEXTS = (_minidom.Node.TEXT_NODE, _minidom.Node.CDATA_SECTION_NODE)
-
-Call = tuple[str, str, int]
-"""Macro, and the file and line of the call."""
 
 
 class PlacedBuilder(expatbuilder.ExpatBuilderNS):
@@ -97,26 +95,26 @@ def elements(root: Any) -> Iterator[Any]:
         stack.extend(reversed(children))
 
 
-def packed(root: Any) -> tuple[list[list[Any]], list[str]]:
-    """The tree as plain lists for the parent process, see `child_result.py`.
+def packed(root: Any) -> tuple[list[Node], list[NodePlace], list[str]]:
+    """Return the tree as plain lists for the parent process, see `child_result.py`.
 
     Returns:
-        One list per element in document order: tag, attributes, text, number of
-        child elements, file number, line, column, and the file number and line of
-        the outermost macro call, if any; and the file names by number.
+        The elements in document order, their places, and the file names by number.
     """
     numbers: dict[str, int] = {}
-    nodes: list[list[Any]] = []
+    nodes: list[Node] = []
+    places: list[NodePlace] = []
     for node in elements(root):
         file, line, column = node.sambot_place
         texts = [child.data for child in node.childNodes if child.nodeType in _TEXTS]
         count = sum(child.nodeType == _ELEMENT for child in node.childNodes)
         attributes = {name: value for name, value in node.attributes.items()}
-        place = [numbers.setdefault(file, len(numbers)), line, column]
+        nodes.append((node.tagName, attributes, "".join(texts).strip(), count))
+        number = numbers.setdefault(file, len(numbers))
         calls: tuple[Call, ...] = getattr(node, "sambot_calls", ())
+        call_file, call_line = -1, -1
         if calls:
-            _, call_file, call_line = calls[0]
-            place += [numbers.setdefault(call_file, len(numbers)), call_line]
-        text = "".join(texts).strip()
-        nodes.append([node.tagName, attributes, text, count, *place])
-    return nodes, list(numbers)
+            call_file = numbers.setdefault(calls[0][1], len(numbers))
+            call_line = calls[0][2]
+        places.append((number, line, column, call_file, call_line))
+    return nodes, places, list(numbers)

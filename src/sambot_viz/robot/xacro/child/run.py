@@ -14,9 +14,18 @@ from pathlib import Path
 from typing import Any
 
 from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.xacro.child.exchange import (
+    Call,
+    ChildAnswer,
+    DefinitionRow,
+    ExpandedAnswer,
+    FailureAnswer,
+    Job,
+    UnprefixedRow,
+    WarningRow,
+)
 from sambot_viz.robot.xacro.child.package_files import XacroFiles
 from sambot_viz.robot.xacro.child.places import (
-    Call,
     PlaceKeeper,
     elements,
     packed,
@@ -35,7 +44,7 @@ class OutputLimit(Exception):
     """The expanded text is longer than allowed."""
 
 
-def run(job: dict[str, Any]) -> bytes:
+def run(job: Job) -> bytes:
     """Expand as the job says and give the answer as JSON.
 
     An exception that the model causes becomes a part of the answer.
@@ -44,37 +53,36 @@ def run(job: dict[str, Any]) -> bytes:
     # The trees are large and end with the process: collecting garbage is useless.
     gc.set_threshold(100_000)
     expansion = Expansion(job)
+    answer: ChildAnswer = {"expanded": None, "not_xml": None, "failure": None}
     try:
-        return _encoded(expansion.result())
+        answer["expanded"] = expansion.result()
     except XmlFault as fault:
-        return _encoded(
-            {
-                "xml_fault": [fault.message, fault.line, fault.column, fault.code],
-                "file": expansion.reading,
-                "text": fault.text,
-                "files": expansion.wanted,
-            }
-        )
+        answer["not_xml"] = {
+            "message": fault.message,
+            "line": fault.line,
+            "column": fault.column,
+            "code": fault.code,
+            "text": fault.text,
+            "file": expansion.reading,
+            "files": expansion.wanted,
+        }
     except Exception as error:
-        return _encoded({"failure": expansion.failure(error)})
-
-
-def _encoded(answer: dict[str, Any]) -> bytes:
+        answer["failure"] = expansion.failure(error)
     return json.dumps(answer, separators=(",", ":")).encode()
 
 
 class Expansion:
     """One run of xacro, patched to report."""
 
-    def __init__(self, job: dict[str, Any]) -> None:
+    def __init__(self, job: Job) -> None:
         self._job = job
         import_lazily("yaml")
         self._xacro: Any = importlib.import_module("xacro")
         self._places = PlaceKeeper()
         self._node: Any = None
         self._failed_at: tuple[Any, list[Call], list[str]] | None = None
-        self._definitions: dict[tuple[str, str], list[Any]] = {}
-        self._warnings: list[list[Any]] = []
+        self._definitions: dict[tuple[str, str], DefinitionRow] = {}
+        self._warnings: list[WarningRow] = []
         self._files: list[str] = []
         self._main_text: str | None = job["text"]
         self.reading = ""
@@ -87,7 +95,7 @@ class Expansion:
         """The files beside the model that were read or looked for, so far."""
         return list(dict.fromkeys([*self._files, *self._named]))
 
-    def result(self) -> dict[str, Any]:
+    def result(self) -> ExpandedAnswer:
         """Expand and describe the outcome.
 
         Raises:
@@ -95,42 +103,39 @@ class Expansion:
             Exception: whatever xacro or the model's expressions raise.
         """
         job = self._job
-        document = self._xacro.process_file(
-            job["file"], mappings=dict(job["arguments"])
-        )
+        arguments = dict(job["arguments"])
+        document = self._xacro.process_file(job["file"], mappings=arguments)
         text: str = document.toprettyxml(indent="  ")
         if len(text) > job["output_limit"]:
             raise OutputLimit(f"{len(text)} characters")
-        nodes, names = packed(document.documentElement)
+        nodes, places, names = packed(document.documentElement)
         return {
             "xml": text,
             "nodes": nodes,
+            "places": places,
             "names": names,
             "files": [name for name in self.wanted if os.path.isfile(name)],
             "warnings": self._warnings,
             "unprefixed": self._unprefixed(document.documentElement),
         }
 
-    def _unprefixed(self, root: Any) -> list[list[Any]]:
+    def _unprefixed(self, root: Any) -> list[UnprefixedRow]:
         """Elements that look like a macro call or a directive without its prefix."""
         macros = {name for kind, name in self._definitions if kind == "macro"}
         words = macros | _XACRO_WORDS
-        found: list[list[Any]] = []
-        for node in elements(root):
-            if node.tagName in words and node.parentNode is root:
-                found.append([node.tagName, node.tagName in macros, *node.sambot_place])
-        return found
+        inside = (node for node in elements(root) if node.parentNode is root)
+        found = [node for node in inside if node.tagName in words]
+        return [(n.tagName, n.tagName in macros, *n.sambot_place) for n in found]
 
-    def failure(self, error: BaseException) -> dict[str, Any]:
+    def failure(self, error: BaseException) -> FailureAnswer:
         """Describe an exception for `XacroFailure`."""
         node, calls, files = self._failed_at or (self._node, self._places.calls, [])
         cause, expressions = _unwrapped(error)
         place = getattr(node, "sambot_place", None)
-        stack = [
-            self._shown(f) for f in reversed(files or self._xacro.filestack or []) if f
-        ]
+        open_files = reversed(files or self._xacro.filestack or [])
+        stack = [self._shown(file) for file in open_files if file]
         macros = [
-            [m.body.getAttribute("name"), self._shown(m.history[-1][-1] or "")]
+            (m.body.getAttribute("name"), self._shown(m.history[-1][-1] or ""))
             for m in reversed(self._xacro.macrostack or [])
         ]
         return {
@@ -142,7 +147,7 @@ class Expansion:
             "expressions": expressions,
             "element": getattr(node, "tagName", None),
             "macros": macros,
-            "calls": [list(call) for call in reversed(calls)],
+            "calls": list(reversed(calls)),
             "includes": stack,
             "missing_package": getattr(cause, "missing_package", None),
             "definitions": list(self._definitions.values()),
@@ -162,13 +167,8 @@ class Expansion:
         x.reqd_attrs = self._touching(x.reqd_attrs)
         x.warning = x.error = self._warn
         x.message = x.print_location = _say_nothing
-        for name, function in (
-            ("warning", self._warn),
-            ("error", self._warn),
-            ("message", _say_nothing),
-            ("print_location", _say_nothing),
-        ):
-            x._global_symbols["xacro"][name] = function
+        for name in ("warning", "error", "message", "print_location"):
+            x._global_symbols["xacro"][name] = getattr(x, name)
         folder = Path(job["folder"]) if job["folder"] else None
         index = PackageIndex(folder, job["package_path"], job["environment"])
         XacroFiles(index, self._guard, self._warn, self._named).install(x)
@@ -195,9 +195,8 @@ class Expansion:
             data = Path(filename).read_bytes()
         except OSError as error:
             self._xacro.filestack.pop()
-            raise self._xacro.XacroException(
-                f"{error.strerror}: {filename}", exc=error
-            ) from error
+            text = f"{error.strerror}: {filename}"
+            raise self._xacro.XacroException(text, exc=error) from error
         self._files.append(os.path.abspath(filename))
         self.reading = self._shown(filename)
         return repaired_prolog(decode(data))
@@ -226,7 +225,7 @@ class Expansion:
 
     def _note_failure(self) -> None:
         if self._failed_at is None:
-            files: list[Any] = list(filter(None, self._xacro.filestack or []))
+            files: list[str] = list(filter(None, self._xacro.filestack or []))
             self._failed_at = (self._node, list(self._places.calls), files)
 
     def _touching(self, original: Callable[..., Any]) -> Callable[..., Any]:
@@ -253,7 +252,7 @@ class Expansion:
         name = node.getAttribute("name")
         file, line, _ = node.sambot_place
         params = node.getAttribute("params")
-        self._definitions[kind, name] = [kind, name, file, line, params]
+        self._definitions[kind, name] = (kind, name, file, line, params)
 
     def _macro_call(self, original: Callable[..., Any]) -> Callable[..., Any]:
         @functools.wraps(original)
@@ -275,8 +274,10 @@ class Expansion:
         return wrapper
 
     def _warn(self, *words: Any, **_options: Any) -> str:
-        place = getattr(self._node, "sambot_place", (self._job["file"], None, None))
-        self._warnings.append([" ".join(map(str, words)), *place])
+        file, line, column = getattr(
+            self._node, "sambot_place", (self._job["file"], None, None)
+        )
+        self._warnings.append((" ".join(map(str, words)), file, line, column))
         return ""
 
 

@@ -1,0 +1,88 @@
+"""What the parent process and the xacro child send each other, as JSON.
+
+Tuples arrive as lists, which are unpacked all the same.
+"""
+
+from __future__ import annotations
+
+from typing import TypedDict
+
+Node = tuple[str, dict[str, str], str, int]
+"""An element: tag, attributes, text, number of child elements."""
+NodePlace = tuple[int, int, int, int, int]
+"""Of an element: number of its file, line, column; number of the file and line of the
+outermost macro call that it came through, or -1 twice."""
+Call = tuple[str, str, int]
+"""A macro, and the file and line of its call."""
+DefinitionRow = tuple[str, str, str, int, str]
+"""Kind ("macro", "property", "arg"), name, file, line and parameters of a macro."""
+WarningRow = tuple[str, str, "int | None", "int | None"]
+"""What xacro says, and the file, line and column."""
+UnprefixedRow = tuple[str, bool, str, int, int]
+"""An element without its prefix: tag, whether a macro has that name, and the place."""
+
+
+class Job(TypedDict):
+    """What the child has to expand; see `expand_model`."""
+
+    file: str
+    text: str
+    folder: str | None
+    arguments: dict[str, str]
+    package_path: list[str]
+    environment: dict[str, str]
+    untrusted: bool
+    megabytes: int
+    seconds: int
+    output_limit: int
+    import_path: list[str]
+
+
+class ExpandedAnswer(TypedDict):
+    """The model that xacro has made: elements in document order, and what it said."""
+
+    xml: str
+    nodes: list[Node]
+    places: list[NodePlace]
+    names: list[str]
+    files: list[str]
+    warnings: list[WarningRow]
+    unprefixed: list[UnprefixedRow]
+
+
+class NotXmlAnswer(TypedDict):
+    """A file that is not XML: the fields of an `XmlFault`, and the files read."""
+
+    message: str
+    line: int
+    column: int
+    code: int
+    text: str
+    file: str
+    files: list[str]
+
+
+class FailureAnswer(TypedDict):
+    """The fields of `XacroFailure`."""
+
+    kind: str
+    text: str
+    file: str
+    line: int | None
+    column: int | None
+    expressions: list[str]
+    element: str | None
+    macros: list[tuple[str, str]]
+    calls: list[Call]
+    includes: list[str]
+    missing_package: tuple[str, list[str], list[str]] | None
+    definitions: list[DefinitionRow]
+    files: list[str]
+
+
+class ChildAnswer(TypedDict):
+    """What has become of a job: one of the three."""
+
+    expanded: ExpandedAnswer | None
+    not_xml: NotXmlAnswer | None
+    failure: FailureAnswer | None
