@@ -13,7 +13,7 @@ from sambot_viz.displays.robot_display import (
     ModelRequest,
     ModelResult,
 )
-from sambot_viz.displays.scene.path_line import PathLine
+from sambot_viz.displays.scene.ribbons import PathLine
 from sambot_viz.export.tracks import Tracks
 from sambot_viz.frames import Transform
 from sambot_viz.joints import JointState

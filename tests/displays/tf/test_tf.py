@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sambot_viz.displays.tf.frame_arrow import frame_arrow
+from sambot_viz.displays.tf.tf import frame_arrow
 
 
 def test_an_arrow_of_half_a_metre_has_a_head_of_ten_centimetres() -> None:

@@ -5,18 +5,21 @@ Sizes and colours are RViz's (docs/rviz-facts.md); no Alpha changes them.
 
 from __future__ import annotations
 
+import math
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import viser
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
-from sambot_viz.displays.robot_model.trail import Trail
 from sambot_viz.displays.scene.node_cache import Handle, any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.displays.scene.ribbons import Ribbon
 from sambot_viz.displays.scene.solids import (
     Arrow,
     add_arrows,
@@ -26,7 +29,7 @@ from sambot_viz.displays.scene.solids import (
     sphere,
 )
 from sambot_viz.displays.triangle_display import DrawnTriangles, Triangles
-from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
+from sambot_viz.geometry import Matrix, Vector3, rotation_from_xyzw, wxyz_from_matrix
 from sambot_viz.meshes.primitives import unit_box
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Inertial, Link, Robot
@@ -35,6 +38,10 @@ AXES_LENGTH, AXES_DIAMETER = 0.1, 0.01
 SHAFT, HEAD = (0.15, 0.05), (0.05, 0.08)
 """Length and diameter of the two parts of a joint's arrow [m]."""
 GREEN, RED = (0, 204, 0), (255, 0, 0)
+TRAIL_COLOR, TRAIL_WIDTH = (0, 128, 128), 0.01
+ELEMENT = 0.02
+"""Length of a piece of a trail [m]."""
+MOST_ELEMENTS = 100
 WITH_AXIS = frozenset({"continuous", "revolute", "prismatic", "planar"})
 
 
@@ -55,6 +62,33 @@ class Wanted:
     inertia: bool
 
 
+class _Trail:
+    """A ribbon through the places where a frame has been, in the fixed frame.
+
+    Args:
+        scene: where to draw.
+        name: node name.
+    """
+
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        self.ribbon = Ribbon(scene, name, TRAIL_COLOR, TRAIL_WIDTH)
+        self._corners: deque[Vector3] = deque(maxlen=MOST_ELEMENTS)
+        self._head: Vector3 | None = None
+
+    def follow(self, at: Vector3) -> None:
+        """Draw it to here; nothing is sent unless the frame has moved."""
+        if self._head is not None and math.dist(at, self._head) < 1e-6:
+            return
+        if not self._corners or math.dist(at, self._corners[-1]) >= ELEMENT:
+            self._corners.append(at)
+        self._head = at
+        points = [*self._corners]
+        if points[-1] != at:
+            points.append(at)
+        if len(points) > 1:
+            self.ribbon.draw(np.array(points, np.float32))
+
+
 class LinkOverlays:
     """The overlays of one RobotModel.
 
@@ -71,7 +105,7 @@ class LinkOverlays:
         self._key = key
         self._frame_of = frame_of
         self._overlays: dict[tuple[str, str], _Overlay] = {}
-        self._trails: dict[str, Trail] = {}
+        self._trails: dict[str, _Trail] = {}
         self._fixed = context.fixed_frame
 
     def draw(self, robot: Robot, entries: RobotEntries, wanted: Wanted) -> None:
@@ -100,7 +134,7 @@ class LinkOverlays:
         for overlay in [overlay for overlay in self._overlays if overlay not in keep]:
             remove_all(self._overlays.pop(overlay).handles)
         for name in [name for name in self._trails if name not in robot.links]:
-            self._trails.pop(name).remove()
+            self._trails.pop(name).ribbon.remove()
         self._fixed = self._context.fixed_frame
         self.moved()
 
@@ -125,21 +159,21 @@ class LinkOverlays:
         for overlay in self._overlays.values():
             remove_all(overlay.handles)
         for trail in self._trails.values():
-            trail.remove()
+            trail.ribbon.remove()
         self._overlays.clear()
         self._trails.clear()
 
     def _draw_trail(self, link: str, on: bool, visible: bool) -> None:
         trail = self._trails.get(link)
         if trail is not None and (not on or self._fixed != self._context.fixed_frame):
-            trail.remove()
+            trail.ribbon.remove()
             del self._trails[link]
             trail = None
         if on and trail is None:
             name = f"/{self._key}t{len(self._trails)}"
-            trail = self._trails[link] = Trail(self._context.scene, name)
+            trail = self._trails[link] = _Trail(self._context.scene, name)
         if trail is not None:
-            trail.show(visible)
+            trail.ribbon.show(visible)
 
     def _at(self, what: str, name: str, thing: Link | Joint) -> bool:
         """Draw one overlay at its node; False when there is nothing to draw."""

@@ -18,9 +18,14 @@ from sambot_viz.displays.robot_model.properties import (
     ROBOT_MODEL_PROPERTIES,
 )
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
-from sambot_viz.displays.robot_model.robot_source import FILE, OUTSIDE, RobotSource
-from sambot_viz.displays.robot_model.second_robot import publish_frames
-from sambot_viz.displays.robot_model.shape_nodes import ShapeLook, ShapeNode
+from sambot_viz.displays.robot_model.robot_source import (
+    FILE,
+    OUTSIDE,
+    RobotSource,
+    publish_frames,
+)
+from sambot_viz.displays.robot_model.shape_nodes import ShapeNode
+from sambot_viz.displays.robot_model.shape_solids import ShapeLook
 from sambot_viz.displays.status import Status
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TypedDict
 
 import viser
@@ -11,15 +10,20 @@ import viser
 from sambot_viz import viser_private
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_model.shape_solids import (
+    WHITE,
+    ShapeLook,
+    ShapePiece,
+    material_rgba,
+    rgb255,
     solids_of,
     stand_in,
     stand_in_edges,
     textured,
 )
-from sambot_viz.displays.scene.node_cache import Handle, any_gone, remove_all
+from sambot_viz.displays.scene.node_cache import any_gone, remove_all
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.session_assets import SessionAssets
-from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
+from sambot_viz.displays.scene.solids import Rgb, sphere
 from sambot_viz.displays.triangle_display import DrawnTriangles
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Rgba, Vector3, Wxyz, wxyz_from_matrix
@@ -31,65 +35,17 @@ from sambot_viz.robot.model import (
     Box,
     Capsule,
     Cylinder,
-    Material,
     MeshFile,
     Shape,
     Sphere,
 )
 
-DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
-"""What a link without a material is drawn in."""
-ERROR_WHITE: Rgb = (255, 255, 255)
 STAND_IN_COLOR: Rgb = (255, 140, 0)
-UNLIT = "toon3"
-"""The page script draws toon materials unlit; nothing else here uses one."""
-
-Painted = (
-    viser.BoxHandle | viser.CylinderHandle | viser.MeshHandle | viser.IcosphereHandle
-)
 
 
 class _Pose(TypedDict):
     wxyz: Wxyz
     position: Vector3
-
-
-@dataclass(frozen=True, slots=True)
-class ShapeLook:
-    """How a shape is drawn at the moment.
-
-    Attributes:
-        visible: drawn at all.
-        alpha: display alpha times link alpha; the material's own comes on top.
-        error: white, opaque and unlit, because its link has no transform.
-    """
-
-    visible: bool
-    alpha: float
-    error: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """One node, with the colour and alpha of its material.
-
-    Attributes:
-        handle: the node.
-        color: 0 to 255.
-        alpha: the material's.
-        textured: a GLB, whose alpha is fixed when it is sent.
-    """
-
-    handle: Handle
-    color: Rgb
-    alpha: float
-    textured: bool = False
-
-
-def rgb255(rgba: Rgba) -> Rgb:
-    """A colour of 0 to 1 as 0 to 255."""
-    red, green, blue = (min(255, max(0, int(c * 255 + 0.5))) for c in rgba[:3])
-    return (red, green, blue)
 
 
 class ShapeNode:
@@ -120,7 +76,7 @@ class ShapeNode:
         self._content: Content | None = None
         self._wanted: ShapeLook | None = None
         self._look: ShapeLook | None = None
-        self._pieces: list[_Piece] = []
+        self._pieces: list[ShapePiece] = []
         assets.register(self)
 
     def shows(self, shape: Shape, asset: Asset | None) -> bool:
@@ -146,9 +102,7 @@ class ShapeNode:
                 return
             self._create(look)
         for piece in self._pieces:
-            piece.handle.visible = look.visible
-            if isinstance(piece.handle, Painted):
-                _paint(piece.handle, piece, look)
+            piece.paint(look)
         self._look = look
 
     def draw_again(self) -> None:
@@ -237,7 +191,7 @@ class ShapeNode:
         if part is not None:
             self._add_part(self._name, part, WHITE, look, pose)
         else:
-            self._create_primitive(geometry, _rgba(material), pose)
+            self._create_primitive(geometry, material_rgba(material), pose)
 
     def _create_primitive(
         self, geometry: Box | Cylinder | Sphere | Capsule, rgba: Rgba, pose: _Pose
@@ -252,7 +206,7 @@ class ShapeNode:
                 receive_shadow=False,
                 **pose,
             )
-            self._pieces.append(_Piece(box, color, rgba[3]))
+            self._pieces.append(ShapePiece(box, color, rgba[3]))
             return
         if isinstance(geometry, Sphere):
             self._add_sphere(name, geometry.radius, rgba, pose)
@@ -268,7 +222,7 @@ class ShapeNode:
             receive_shadow=False,
             **pose,
         )
-        self._pieces.append(_Piece(cylinder, color, rgba[3]))
+        self._pieces.append(ShapePiece(cylinder, color, rgba[3]))
         if isinstance(geometry, Capsule):
             for end, z in (("t", geometry.length / 2), ("b", -geometry.length / 2)):
                 cap: _Pose = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, z)}
@@ -287,13 +241,13 @@ class ShapeNode:
             receive_shadow=False,
             **pose,
         )
-        self._pieces.append(_Piece(handle, color, rgba[3]))
+        self._pieces.append(ShapePiece(handle, color, rgba[3]))
 
     def _create_mesh(self, geometry: MeshFile, look: ShapeLook, pose: _Pose) -> None:
         if not isinstance(self._content, Mesh):
             self._add_stand_in(pose)
             return
-        rgba = _rgba(self._shape.material)
+        rgba = material_rgba(self._shape.material)
         for i, part in enumerate(self._content.parts):
             own = (
                 rgba if part.rgba is None else (*part.rgba[:3], part.rgba[3] * rgba[3])
@@ -327,7 +281,7 @@ class ShapeNode:
                 **pose,
             )
             viser_private.share_arrays(handle, vertices=part.vertices, faces=part.faces)
-        self._pieces.append(_Piece(handle, color, rgba[3], textured))
+        self._pieces.append(ShapePiece(handle, color, rgba[3], textured))
 
     def _add_stand_in(self, pose: _Pose) -> None:
         """A box of orange lines where the mesh should be."""
@@ -339,20 +293,4 @@ class ShapeNode:
             thickness_units="screen",
             **pose,
         )
-        self._pieces.append(_Piece(lines, STAND_IN_COLOR, 1.0))
-
-
-WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
-
-
-def _rgba(material: Material | None) -> Rgba:
-    """A material's colour; RViz's red without one, white under a texture."""
-    if material is None:
-        return DEFAULT_RED
-    return material.rgba or WHITE
-
-
-def _paint(handle: Painted, piece: _Piece, look: ShapeLook) -> None:
-    handle.color = ERROR_WHITE if look.error else piece.color
-    handle.opacity = None if look.error else opacity_of(look.alpha * piece.alpha)
-    handle.material = UNLIT if look.error else "standard"
+        self._pieces.append(ShapePiece(lines, STAND_IN_COLOR, 1.0))

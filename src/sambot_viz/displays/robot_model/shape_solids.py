@@ -1,22 +1,98 @@
-"""The triangles of one <visual> or <collision>, as they are drawn."""
+"""The triangles and the colours of one <visual> or <collision>, as they are drawn."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
+import viser
 
-from sambot_viz.displays.scene.solids import sphere
+from sambot_viz.displays.scene.node_cache import Handle
+from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
 from sambot_viz.displays.triangle_display import Triangles
-from sambot_viz.geometry import Matrix, Vector3
+from sambot_viz.geometry import Matrix, Rgba, Vector3
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
-from sambot_viz.robot.model import Box, Capsule, Cylinder, Geometry, MeshFile, Sphere
+from sambot_viz.robot.model import (
+    Box,
+    Capsule,
+    Cylinder,
+    Geometry,
+    Material,
+    MeshFile,
+    Sphere,
+)
 
+DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
+"""What a link without a material is drawn in."""
+ERROR_WHITE: Rgb = (255, 255, 255)
+UNLIT = "toon3"
+"""The page script draws toon materials unlit; nothing else here uses one."""
+
+Painted = (
+    viser.BoxHandle | viser.CylinderHandle | viser.MeshHandle | viser.IcosphereHandle
+)
+WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
 STAND_IN_SIZE = 0.1
 """Edge of the wire box drawn in place of a mesh that could not be read [m]."""
 Solid = tuple[Triangles, Matrix]
 """Triangles, and (4, 4) from them to the frame of the shape."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeLook:
+    """How a shape is drawn at the moment.
+
+    Attributes:
+        visible: drawn at all.
+        alpha: display alpha times link alpha; the material's own comes on top.
+        error: white, opaque and unlit, because its link has no transform.
+    """
+
+    visible: bool
+    alpha: float
+    error: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ShapePiece:
+    """One node, with the colour and alpha of its material.
+
+    Attributes:
+        handle: the node.
+        color: 0 to 255.
+        alpha: the material's.
+        textured: a GLB, whose alpha is fixed when it is sent.
+    """
+
+    handle: Handle
+    color: Rgb
+    alpha: float
+    textured: bool = False
+
+    def paint(self, look: ShapeLook) -> None:
+        """Give the node the colour and opacity of a look."""
+        self.handle.visible = look.visible
+        if isinstance(self.handle, Painted):
+            alpha = opacity_of(look.alpha * self.alpha)
+            self.handle.color = ERROR_WHITE if look.error else self.color
+            self.handle.opacity = None if look.error else alpha
+            self.handle.material = UNLIT if look.error else "standard"
+
+
+def rgb255(rgba: Rgba) -> Rgb:
+    """A colour of 0 to 1 as 0 to 255."""
+    red, green, blue = (min(255, max(0, int(c * 255 + 0.5))) for c in rgba[:3])
+    return (red, green, blue)
+
+
+def material_rgba(material: Material | None) -> Rgba:
+    """A material's colour; RViz's red without one, white under a texture."""
+    if material is None:
+        return DEFAULT_RED
+    return material.rgba or WHITE
 
 
 def solids_of(geometry: Geometry, content: Content | None) -> list[Solid]:

@@ -8,16 +8,9 @@ from typing import Any
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.entries import EntryList, numbers
 from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.displays.tf.properties import ALL_ENABLED, BOX, FRAME_PROPERTIES
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
-from sambot_viz.rviz import BoolProperty, DisplayConfig, EntryItem, Property
-
-ALL_ENABLED = "Frames/All Enabled"
-BOX = "Value"
-"""The property that shows or hides a frame."""
-
-FRAME_PROPERTIES: tuple[Property, ...] = (
-    BoolProperty(BOX, default=False, help="Show the frame and its arrow."),
-)
+from sambot_viz.rviz import DisplayConfig, EntryItem
 
 
 class FrameEntries:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
@@ -26,25 +27,21 @@ from sambot_viz.displays.scene.solids import (
     axes_triangles,
 )
 from sambot_viz.displays.status import Status
-from sambot_viz.displays.tf.frame_arrow import frame_arrow
-from sambot_viz.displays.tf.frame_rows import (
-    ALL_ENABLED,
-    FrameEntries,
-    frame_list,
-)
+from sambot_viz.displays.tf.frame_rows import FrameEntries, frame_list
+from sambot_viz.displays.tf.properties import ALL_ENABLED, TF_PROPERTIES
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
+from sambot_viz.geometry import Vector3
 from sambot_viz.rviz import (
-    BoolProperty,
     DisplayConfig,
-    FloatProperty,
-    GroupProperty,
-    KeptProperty,
     RegexProperty,
 )
 from sambot_viz.text import text
 
 AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
+HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
+SHORTEST_ARROW = 0.001
+"""Frames nearer than this have no arrow [m]."""
 EM_HEIGHT = 0.0889
 """Height of the em square of names, in a character cell of 0.1 m."""
 
@@ -68,63 +65,7 @@ class TfDisplay(TriangleDisplay):
 
     kind = "rviz_default_plugins/TF"
     help = "The frames and how they hang together."
-    properties = (
-        BoolProperty(
-            "Show Names", default=False, help="Write each frame's name below it."
-        ),
-        BoolProperty("Show Axes", default=True, help="Draw the axes of each frame."),
-        BoolProperty(
-            "Show Arrows",
-            default=True,
-            help="Draw an arrow from each frame to its parent.",
-        ),
-        FloatProperty(
-            "Marker Scale",
-            default=1.0,
-            help="Size of names, axes and arrows.",
-        ),
-        FloatProperty(
-            "Update Interval",
-            default=0.0,
-            minimum=0.0,
-            unit="s",
-            help="Seconds between updates; frames move at once here.",
-            support="approximate",
-        ),
-        FloatProperty(
-            "Frame Timeout",
-            default=15.0,
-            minimum=1.0,
-            unit="s",
-            help="Seconds after which RViz takes a silent frame out; frames here "
-            "never grow old.",
-            support="approximate",
-        ),
-        RegexProperty(
-            "Filter (whitelist)",
-            default="",
-            help="Show only frames whose name matches; empty shows all.",
-        ),
-        RegexProperty(
-            "Filter (blacklist)",
-            default="",
-            help="Hide frames whose name matches; empty hides none.",
-        ),
-        GroupProperty(
-            "Frames",
-            help="The frames, each with a box to show or hide it.",
-            children=(
-                BoolProperty(
-                    "All Enabled", default=True, help="Show or hide all frames."
-                ),
-            ),
-            open_keys=True,
-        ),
-        KeptProperty("Tree", note="RViz writes the tree of frames, and never reads it"),
-        KeptProperty(
-            "Marker Alpha", support="none", note="of ROS 1; RViz for ROS 2 ignores it"
-        ),
-    )
+    properties = TF_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
@@ -292,3 +233,29 @@ class TfDisplay(TriangleDisplay):
     @staticmethod
     def _drop(overlays: _FrameOverlays) -> None:
         remove_all(overlays.handles)
+
+
+def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
+    """Return the arrow from a frame to its parent, in the parent's coordinates.
+
+    Args:
+        at: origin of the frame in its parent [m].
+        scale: Marker Scale.
+
+    Returns:
+        None when the frames are too close for an arrow.
+    """
+    distance = math.sqrt(sum(c * c for c in at))
+    if distance <= SHORTEST_ARROW:
+        return None
+    head = HEAD_LENGTH * scale
+    if distance < head:
+        head *= distance
+    shaft = max(0.0, distance - head)
+    towards_parent = (-at[0], -at[1], -at[2])
+    return Arrow(
+        start=at,
+        direction=towards_parent,
+        shaft=(shaft, SHAFT_DIAMETER * scale),
+        head=(head, HEAD_DIAMETER * scale),
+    )

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from sambot_viz.displays.scene.path_line import PathLine
+from sambot_viz.displays.scene.ribbons import PathLine
 from sambot_viz.drive.differential import DifferentialDrive, PlanarPose, WheelPair
 from sambot_viz.drive.wheels import find_wheel_pair
 from sambot_viz.errors import FrameError, JointError, Problem
