@@ -28,9 +28,9 @@ from sambot_viz.meshes.mesh import mesh_error
 from sambot_viz.meshes.named_files import NamedFileError
 from sambot_viz.meshes.source import MeshSource
 
-_LINES, _TRIANGLES, _STRIP, _FAN = 1, 4, 5, 6
-_READ = (0, _LINES, _TRIANGLES, _STRIP)
-"""The kinds that trimesh reads; points and lines are not drawn."""
+_TRIANGLES, _FAN = 4, 6
+_READ = (0, 1, _TRIANGLES, 5)
+"""The kinds that trimesh reads: points, lines, triangles and strips of them."""
 _COMPRESSED = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
@@ -47,7 +47,7 @@ def read_gltf(source: MeshSource) -> list[Submesh]:
     """
     try:
         file = GltfFile(source)
-        unread = _compression(file) or _check_nodes(file) or _check_meshes(file)
+        unread = _check_nodes(file) or _check_meshes(file)
         if unread is None:
             loaded = call_trimesh(
                 "gltf",
@@ -72,16 +72,6 @@ def read_gltf(source: MeshSource) -> list[Submesh]:
     )
 
 
-def _compression(file: GltfFile) -> str | None:
-    """Return how a file is compressed."""
-    used = set(file.document.get("extensionsRequired", ()))
-    for mesh in file.document.get("meshes", ()):
-        for primitive in mesh["primitives"]:
-            used.update(primitive.get("extensions", ()))
-    methods = [method for name, method in _COMPRESSED.items() if name in used]
-    return f"is compressed with {methods[0]}" if methods else None
-
-
 def _check_nodes(file: GltfFile) -> str | None:
     """Refuse nodes that are no tree; return what of them would be lost."""
     nodes: list[Json] = file.document.get("nodes", [])
@@ -104,12 +94,16 @@ def _check_meshes(file: GltfFile) -> str | None:
     nodes, budget = file.document.get("nodes", []), file.source.budget
     names = [str(node.get("name")) for node in nodes]
     uses = Counter[int](node["mesh"] for node in nodes if "mesh" in node)
+    extensions = set(file.document.get("extensionsRequired", ()))
     for number, mesh in enumerate(file.document.get("meshes", ())):
         names += [str(mesh.get("name"))] * len(mesh["primitives"])
         # trimesh reads all meshes, drawn or not.
         times = max(1, uses.pop(number, 0))
         budget.spend_nodes(times * len(mesh["primitives"]))
         for primitive in mesh["primitives"]:
+            extensions.update(primitive.get("extensions", ()))
+            for name in extensions & _COMPRESSED.keys():
+                return f"is compressed with {_COMPRESSED[name]}"
             accessors = _accessors(file, primitive)
             if any("sparse" in each or "bufferView" not in each for each in accessors):
                 return "has sparse numbers"
