@@ -93,7 +93,7 @@ def check(
 
 
 def check_unloadable(error: RobotError) -> list[Problem]:
-    """What is wrong with a model that could not be loaded, in the order of `check`."""
+    """Return what is wrong with a model that did not load, in the order of `check`."""
     return _in_order(error.problems)
 
 

@@ -135,7 +135,7 @@ def _text(node: Node | None) -> str:
 
 
 def _place(file: str | None, node: Node | None) -> Place | str | None:
-    """Where a value is written; only the file when it is a default."""
+    """Return the place of a value; only the file when it is a default."""
     span = None if node is None else node.span
     if file is None or span is None:
         return file

@@ -70,7 +70,7 @@ def impossible_inertia(subject: Subject) -> Iterator[Problem]:
 
 
 def _why_impossible(inertial: Inertial) -> str:
-    """Why no real body has this mass and inertia, or "" (tolerances of 1 %)."""
+    """Say why no real body has this mass and inertia, or "" (tolerances of 1 %)."""
     if inertial.mass < 0:
         return f"the mass {number(inertial.mass)} is negative"
     diagonal = (inertial.ixx, inertial.iyy, inertial.izz)

@@ -214,7 +214,7 @@ def _unknown_package(
 
 
 def _alike(name: str, package: str) -> bool:
-    """Whether one package name looks like a misspelling of the other."""
+    """Tell whether one package name looks like a misspelling of the other."""
     first = re.split(r"[_\-]", name)[0] == re.split(r"[_\-]", package)[0]
     ratio = difflib.SequenceMatcher(None, name, package).ratio()
     return ratio > 0.8 or (first and ratio > 0.5)

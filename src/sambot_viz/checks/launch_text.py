@@ -105,7 +105,7 @@ def _text_that_stops_yaml(urdf: str) -> str | None:
 
 
 def _is_text_in_yaml(text: str) -> bool:
-    """Whether YAML reads it as one plain text, as launch then does."""
+    """Tell whether YAML reads it as one plain text, as launch then does."""
     try:
         return isinstance(yaml.load(text, Loader=_LOADER), str)
     except yaml.YAMLError:

@@ -169,7 +169,7 @@ def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
 
 
 def _advice(size: float, scale: Vector3) -> tuple[str, str] | None:
-    """What is probably wrong, and what to do about it."""
+    """Say what is probably wrong, and what to do about it."""
     if size > _TOO_LARGE:
         factors = " ".join(number(factor / 1000) for factor in scale)
         return (

@@ -18,7 +18,7 @@ _EXPRESSION = re.compile(r"\$\{[^}]*\}")
 
 
 def names_that_differ_in_case(subject: Subject) -> Iterator[Problem]:
-    """Two links, or two joints, such as "arm" and "Arm"."""
+    """Report two links, or two joints, such as "arm" and "Arm"."""
     yield from _case_among("link", subject.robot.links.values())
     yield from _case_among("joint", subject.robot.joints.values())
 
@@ -41,7 +41,7 @@ def _case_among(kind: str, named: Iterable[Link | Joint]) -> Iterator[Problem]:
 
 
 def names_with_spaces(subject: Subject) -> Iterator[Problem]:
-    """A link or joint such as "left wheel"."""
+    """Report a link or joint such as "left wheel"."""
     robot = subject.robot
     for item in (*robot.links.values(), *robot.joints.values()):
         if any(c.isspace() for c in item.name):
@@ -57,7 +57,7 @@ def names_with_spaces(subject: Subject) -> Iterator[Problem]:
 
 
 def unused_macros(subject: Subject) -> Iterator[Problem]:
-    """Xacro drops a macro that is never called, with its links and joints.
+    """Report macros that are never called, whose links and joints are missing.
 
     Only the main file is checked: a library may have more macros than a model needs.
     """

@@ -16,12 +16,12 @@ _LARGEST_LIMIT = 720.0
 
 
 def _is_round(value: float) -> bool:
-    """Whether it is a multiple of a half, as people write degrees."""
+    """Tell whether it is a multiple of a half, as people write degrees."""
     return abs(value * 2 - round(value * 2)) < 1e-9
 
 
 def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
-    """Limits of a revolute joint that only make sense in degrees.
+    """Report limits of a revolute joint that only make sense in degrees.
 
     Below 15 rad (2.4 turns) a round number is more likely a generous limit, and above
     720 it usually means "no limit".
@@ -76,7 +76,7 @@ def _rpy(origin: Origin, place: Place | None) -> Iterator[Problem]:
 
 
 def sizes_not_positive(subject: Subject) -> Iterator[Problem]:
-    """A shape with a length of zero or less; RViz draws nothing or the inside."""
+    """Report a length of zero or less; RViz draws nothing or the inside."""
     for link, shape in subject.shapes():
         what, values = _lengths(shape.geometry)
         mirrored = isinstance(shape.geometry, MeshFile)
@@ -108,7 +108,7 @@ def _lengths(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
 
 
 def invisible_materials(subject: Subject) -> Iterator[Problem]:
-    """A material whose opacity is 0; one finding per material."""
+    """Report materials whose opacity is 0, each once."""
     reported: set[str] = set()
     for link in subject.robot.links.values():
         for shape in link.visuals:

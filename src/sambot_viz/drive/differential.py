@@ -135,7 +135,7 @@ class DifferentialDrive:
 
     @property
     def trail(self) -> tuple[tuple[float, float], ...]:
-        """Where the point between the wheels was, x, y [m] in odom, oldest first."""
+        """The way of the point between the wheels, x, y [m] in odom, oldest first."""
         return tuple(self._trail)
 
     def wheel_speeds(self, v: float, w: float) -> tuple[float, float]:

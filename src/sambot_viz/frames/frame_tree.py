@@ -215,7 +215,7 @@ class FrameTree(FrameHierarchy):
         return True
 
     def latest_common_time(self, target: str, source: str) -> float:
-        """The oldest of the latest stamps in the chain [s]; 0.0 when all is static.
+        """Return the oldest of the latest stamps of a chain [s]; 0.0 for static ones.
 
         Raises:
             LookupRefused: as `lookup`.

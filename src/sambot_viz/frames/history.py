@@ -30,7 +30,7 @@ from sambot_viz.frames.transform import Transform
 from sambot_viz.geometry import Vector3, Xyzw, rotation_from_xyzw, xyzw_product
 
 DURATION = 10.0
-"""How long tf2's listeners keep a transform [s]."""
+"""The time for which tf2's listeners keep a transform [s]."""
 _DEEPEST = 1000
 """A longer way to the root is a ring for tf2."""
 _HERE: Pose = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))

@@ -37,7 +37,7 @@ _LENGTH_TOLERANCE = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """Where a frame was at one time.
+    """The pose and the parent of a frame at one time.
 
     Attributes:
         stamp: the time [ns].
@@ -54,7 +54,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """Why there is no sample at a time.
+    """The reason why there is no sample at a time.
 
     Attributes:
         kind: the time is before the first sample ("past"), after the last one

@@ -59,7 +59,7 @@ def find_followers(
 def _follow(
     joint: Joint, joints: Mapping[str, Joint]
 ) -> Follower | tuple[tuple[str, ...], Problem]:
-    """How a mimic joint follows; or the joints that keep it from that, and why."""
+    """Find how a mimic joint follows; or the joints that prevent it, and why."""
     chain = mimic_chain(joint, joints)
     for follower, leader in itertools.pairwise(chain.joints):
         if not leader.movable:

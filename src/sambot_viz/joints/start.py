@@ -11,7 +11,7 @@ from sambot_viz.robot.model import Robot
 
 @dataclass(frozen=True, slots=True)
 class StartPose:
-    """What ``--zeros``, ``--joint-state`` and ``--joint`` say, in this order.
+    """Return what ``--zeros``, ``--joint-state`` and ``--joint`` say, in this order.
 
     Attributes:
         zeros: joint → start value [rad or m], which Center goes back to.

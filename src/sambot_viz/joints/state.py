@@ -86,7 +86,7 @@ class JointState:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Why mimic joints cannot follow, or disagree with what was given."""
+        """The mimic joints that cannot follow, or disagree with what was given."""
         return self._problems
 
     # Their positions

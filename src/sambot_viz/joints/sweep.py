@@ -49,7 +49,7 @@ def sweep(state: JointState, period: float) -> Iterator[tuple[float, dict[str, f
 
 
 def _position(state: JointState, name: str, part: float) -> float:
-    """Where a joint is after a part of its own time, from 0 to 1."""
+    """Return the position of a joint after a part of its own time, from 0 to 1."""
     start, joint = state.positions[name], state.joints[name]
     if not 0.0 < part < 1.0:
         return start

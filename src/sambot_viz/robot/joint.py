@@ -76,7 +76,7 @@ class Joint:
 
     @property
     def movable(self) -> bool:
-        """Whether a position moves it (revolute, continuous, prismatic)."""
+        """True when a position moves it (revolute, continuous, prismatic)."""
         return self.type in MOVABLE_TYPES
 
     @property

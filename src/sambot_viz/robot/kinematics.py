@@ -21,7 +21,7 @@ _SPINNING = ("revolute", "continuous")
 
 
 class JointTree(Protocol):
-    """What the kinematics needs of a robot."""
+    """The parts of a robot that its kinematics needs."""
 
     @property
     def root(self) -> str:

@@ -70,7 +70,7 @@ def expand(
     package_path: Sequence[Path | str] = (),
     trusted: bool = True,
 ) -> str:
-    """The URDF text of a model, as the xacro command prints it.
+    """Return the URDF text of a model, as the xacro command prints it.
 
     Args:
         model: the file, or the XML text itself.

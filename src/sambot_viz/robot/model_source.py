@@ -153,7 +153,7 @@ def _nearest(path: Path) -> str:
 
 
 def first_xacro(document: Element) -> Element | None:
-    """The first element for which a document has to be expanded by xacro, or None.
+    """Find the first element for which a document needs xacro, or None.
 
     These are xacro's own elements and attributes, and a substitution where URDF needs
     a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
@@ -182,7 +182,7 @@ def _is_own(element: Element) -> bool:
 
 
 def only_names_files(document: Element) -> bool:
-    """Whether all substitutions of a document are in file names.
+    """Tell whether all substitutions of a document are in file names.
 
     Then it is a plain URDF for urdfdom, which does not open these files.
     """

@@ -10,7 +10,7 @@ from sambot_viz.robot.model import MeshFile, Robot, Shape
 
 
 def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset | None:
-    """The file of a shape, or None when it needs none, or has none on this machine.
+    """Return the file of a shape, None when it needs none or it is not here.
 
     Args:
         shape: a visual or a collision.
@@ -33,7 +33,7 @@ def shapes_of(robot: Robot) -> Iterator[Shape]:
 
 
 def assets_of(robot: Robot) -> Iterator[Asset]:
-    """The files of all shapes; one that is used twice comes twice."""
+    """Yield the files of all shapes; one that is used twice comes twice."""
     for shape in shapes_of(robot):
         asset = asset_of(shape, robot.file_roots)
         if asset is not None:
@@ -41,7 +41,7 @@ def assets_of(robot: Robot) -> Iterator[Asset]:
 
 
 def something_missing(robot: Robot) -> bool:
-    """Whether a mesh or a texture was not found on this machine."""
+    """Tell whether a mesh or a texture was not found on this machine."""
     for shape in shapes_of(robot):
         geometry, material = shape.geometry, shape.material
         if isinstance(geometry, MeshFile) and geometry.path is None:

@@ -75,11 +75,11 @@ class FileFinder:
             self.roots = tuple(root.resolve() for root in index.own_roots())
 
     def mesh(self, filename: str, element: Element) -> Path | None:
-        """The file of a <mesh>."""
+        """Find the file of a <mesh>."""
         return self._find("mesh", filename, element)
 
     def texture(self, filename: str, element: Element) -> Path | None:
-        """The file of a <texture>."""
+        """Find the file of a <texture>."""
         return self._find("texture", filename, element)
 
     def _find(self, kind: str, filename: str, element: Element) -> Path | None:
@@ -98,7 +98,7 @@ class FileFinder:
         return found.path
 
     def _is_outside(self, found: Resolution) -> bool:
-        """Whether an untrusted model may not name this file, even if it is missing."""
+        """Tell whether an untrusted model may not name this file, found or missing."""
         if self.roots is None:
             return False
         if found.path is not None:
@@ -145,7 +145,7 @@ class FileFinder:
 
 
 def _home_of(filename: str) -> str:
-    """What files of one package, or of one folder, have in common."""
+    """Name what files of one package, or of one folder, have in common."""
     scheme, separator, rest = filename.partition("://")
     if separator and scheme in ("package", "model"):
         return f"package {rest.partition('/')[0]}" if rest[:1] != "/" else "no package"

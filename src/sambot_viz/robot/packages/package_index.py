@@ -18,7 +18,7 @@ IGNORE_MARKS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 _SKIPPED = frozenset({"build", "log", "node_modules", "__pycache__", "site-packages"})
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 _PLAUSIBLE = re.compile(r"\w[\w.-]*")
-"""What can be the name of a package. A model may ask for any text, such as "/"."""
+"""A possible name of a package. A model may ask for any text, such as "/"."""
 _MAX_FOLDERS = 3000
 _MAX_DEPTH = 6
 _MAX_UP = 6
@@ -42,7 +42,7 @@ class Lookup:
 
 
 def package_name(folder: Path) -> str | None:
-    """The name that a package folder gives itself, or None when it is not a package.
+    """Return the name that a package folder gives itself, None for other folders.
 
     It is the ``<name>`` in package.xml, not the folder's name; packages with the older
     manifest.xml or with Gazebo's model.config are named by their folder.
@@ -105,7 +105,7 @@ class PackageIndex:
         return self._answers[name]
 
     def ancestors(self) -> Iterator[Path]:
-        """The model's folder and the folders above it, never a home or a root."""
+        """Yield the model's folder and those above it, never a home or a root."""
         if self._start is None:
             return
         yield self._start
@@ -115,7 +115,7 @@ class PackageIndex:
             yield folder
 
     def own_roots(self) -> list[Path]:
-        """The folders that belong to the model: its own, its package, the given."""
+        """Return the folders of the model: its own, its package, and those given."""
         roots = [*self._folders, *self._given.values()]
         if self._start is not None:
             roots.append(self._start)
@@ -256,12 +256,12 @@ def _worth_entering(entry: os.DirEntry[str]) -> bool:
 
 
 def _too_broad(folder: Path) -> bool:
-    """Whether a search below this folder would cover the whole machine."""
+    """Tell whether a search below this folder would cover the whole machine."""
     return len(folder.parts) <= 2 or folder in (Path.home(), Path.home().parent)
 
 
 def _workspace_root(folder: Path) -> bool:
-    """Whether the search ends here: a colcon workspace, or a checkout outside one."""
+    """Tell whether the search ends here: a workspace, or a checkout outside one."""
     if (folder / "src").is_dir() and (
         (folder / "install").is_dir() or (folder / "build").is_dir()
     ):

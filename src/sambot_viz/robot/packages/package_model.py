@@ -15,7 +15,7 @@ from pathlib import Path
 from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
 
 MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
-"""How models are called, the most likely ending first."""
+"""Endings of the names of models, the most likely one first."""
 
 _FOLDERS = ("urdf", "description", "robots", "robot", "model", "models", "xacro")
 _SKIPPED = frozenset({"build", "install", "log", "node_modules"})
@@ -35,7 +35,7 @@ _EXPRESSION = re.compile(r"\$[({][^)}]*[)}]")
 
 @dataclass(frozen=True, slots=True)
 class _ModelFile:
-    """What a look at the text of a file shows.
+    """Findings from a look at the text of a file.
 
     Attributes:
         path: the file.
@@ -141,7 +141,7 @@ def _look_at(path: Path) -> _ModelFile:
 
 
 def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:
-    """Whether an include means this file, as far as can be known without xacro."""
+    """Tell whether an include means this file, as far as is known without xacro."""
     tail = _EXPRESSION.split(include)[-1].lstrip("./")
     if f"/{path.as_posix()}".endswith(f"/{tail}"):
         return bool(tail)

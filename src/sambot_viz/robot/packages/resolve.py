@@ -19,14 +19,14 @@ from sambot_viz.robot.packages.package_index import PackageIndex
 Doubt = Literal[
     "letter-case", "other-machine", "other-layout", "path-only", "three-slashes"
 ]
-"""Why a name deserves a warning although a file was found: ROS would not find it."""
+"""The reason why ROS would not find a file that was found here by this name."""
 
 _MAX_FOLDERS = 2000
 
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """Where a file was found, or where it was looked for.
+    """The place of a file, or the places where it was looked for.
 
     Attributes:
         path: the file, or None.
@@ -153,7 +153,7 @@ class FileResolver:
 
 
 def other_letter_case(path: Path) -> Path | None:
-    """The one file whose path differs only in capital letters, or None."""
+    """Find the one file whose path differs only in capital letters, or None."""
     missing: list[str] = []
     folder = path
     while not folder.is_dir():
@@ -179,7 +179,7 @@ def _names(folder: Path) -> list[str]:
 def inside_package(
     root: Path, relative: PurePosixPath | Path, refused: Container[str]
 ) -> Path | None:
-    """A file whose path ends like `relative` somewhere below a package.
+    """Find a file whose path ends like `relative` somewhere below a package.
 
     A source tree need not be laid out like the installed package: what is installed
     as ros2_control/x.xacro may be description/ros2_control/x.xacro in the source tree.

@@ -264,7 +264,7 @@ def _has_shapes(link: Element) -> bool:
 
 
 def _later_shapes(link: Element, element: Element) -> str:
-    """What urdfdom reads after this shape, and loses with it."""
+    """Name what urdfdom reads after this shape, and loses with it."""
     visuals, collisions = link.find_all("visual"), link.find_all("collision")
     order = [*visuals, *collisions]
     rest = order[order.index(element) + 1 :]

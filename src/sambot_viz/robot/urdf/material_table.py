@@ -123,7 +123,7 @@ class MaterialTable:
         )
 
     def _defined(self, name: str, element: Element) -> Material | None:
-        """What the element itself defines, or None when it is only a reference."""
+        """Return what the element itself defines, or None for a mere reference."""
         color = element.find("color")
         texture = element.find("texture")
         rgba = self._rgba(name, color) if color is not None else None

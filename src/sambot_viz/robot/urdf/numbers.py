@@ -36,7 +36,7 @@ def read_number(text: str) -> float:
 
 
 def has_blank_behind(text: str) -> bool:
-    """Whether a single number ends with a blank, which urdfdom refuses."""
+    """Tell whether a single number ends with a blank, which urdfdom refuses."""
     return text != text.rstrip()
 
 

@@ -1,4 +1,4 @@
-"""What the xacro child process reports: the expanded model, or why there is none."""
+"""The report of the xacro child process: the expanded model, or why it failed."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class ExpansionXmlError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class ExpandedModel:
-    """What xacro made of a model.
+    """A model after xacro.
 
     Attributes:
         text: the URDF as the xacro command prints it.

@@ -39,7 +39,7 @@ class XmlFault(Exception):
 
 
 def decode(data: bytes) -> str:
-    """The text of an XML file: BOM, then declared encoding, then UTF-8.
+    """Decode an XML file: by BOM, then by declared encoding, then as UTF-8.
 
     Raises:
         XmlFault: the bytes are not in the encoding that the file declares.
@@ -72,7 +72,7 @@ def _decoded(data: bytes, encoding: str) -> str:
 
 
 def repaired_prolog(text: str) -> str:
-    """The text with a declaration that expat can read, every line in its place.
+    """Give a text a declaration that expat can read, every line in its place.
 
     Real files have ``<?xml version="0.0" ?>`` or ``<?xml?>``, which urdfdom accepts.
     Only the declaration's own text is replaced.
@@ -84,7 +84,7 @@ def repaired_prolog(text: str) -> str:
 
 
 def declared_as_utf8(text: str) -> str:
-    """The text with a declaration that fits when it is written as UTF-8."""
+    """Give a text the declaration that fits when it is written as UTF-8."""
     match = _DECLARATION.match(text)
     if match is None:
         return text

@@ -36,19 +36,19 @@ class Element:
     call: Place | None = None
 
     def find(self, tag: str) -> Element | None:
-        """The first child with that tag, or None."""
+        """Return the first child with that tag, or None."""
         return next((child for child in self.children if child.tag == tag), None)
 
     def find_all(self, tag: str) -> list[Element]:
-        """All children with that tag, in document order."""
+        """Return all children with that tag, in document order."""
         return [child for child in self.children if child.tag == tag]
 
     def get(self, name: str) -> str | None:
-        """The attribute's value, or None when it is absent."""
+        """Return the value of an attribute, or None when it is absent."""
         return self.attributes.get(name)
 
     def iter(self) -> Iterator[Element]:
-        """This element and all below it, in document order."""
+        """Yield this element and all below it, in document order."""
         stack: list[Element] = [self]
         while stack:
             element = stack.pop()
@@ -56,7 +56,7 @@ class Element:
             stack.extend(reversed(element.children))
 
     def line_of(self, attribute: str | None) -> int:
-        """Line of an attribute, or of the tag when that is all that is known."""
+        """Return the line of an attribute, or of the tag where no more is known."""
         if attribute is None:
             return self.place.line
         return self.attribute_lines.get(attribute, self.place.line)

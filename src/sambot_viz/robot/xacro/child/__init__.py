@@ -1,1 +1,1 @@
-"""What runs inside the xacro child process."""
+"""The modules of the xacro child process."""

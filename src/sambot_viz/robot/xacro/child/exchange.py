@@ -1,4 +1,4 @@
-"""What the parent process and the xacro child send each other, as JSON.
+"""Types of the JSON that the parent process and the xacro child exchange.
 
 Tuples arrive as lists, which are unpacked all the same.
 """
@@ -23,7 +23,7 @@ UnprefixedRow = tuple[str, bool, str, int, int]
 
 
 class Job(TypedDict):
-    """What the child has to expand; see `expand_model`."""
+    """The model to expand, and how; see `expand_model`."""
 
     file: str
     text: str
@@ -81,7 +81,7 @@ class FailureAnswer(TypedDict):
 
 
 class ChildAnswer(TypedDict):
-    """What has become of a job: one of the three."""
+    """The outcome of a job: one of the three."""
 
     expanded: ExpandedAnswer | None
     not_xml: NotXmlAnswer | None

@@ -28,7 +28,7 @@ _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (
     (r"Undefined substitution argument:?\s*(\w[\w.\-]*)", undefined_argument),
     (r"^ArgException.*?(\S+)$", undefined_argument),
 )
-"""What xacro reports about an unknown name, and what looks for the one meant."""
+"""Reports about an unknown name, and the function that finds the one meant."""
 
 _ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (

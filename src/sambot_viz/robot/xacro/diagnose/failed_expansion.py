@@ -67,7 +67,7 @@ class FailedExpansion:
         return (inner[1] if inner else text).strip()
 
     def expression_place(self) -> Place:
-        """Where the failed expression is written, else the element's place."""
+        """Find the place of the failed expression, else that of the element."""
         if not self.expression:
             return self.at
         pattern = r"\$[({]\s*(?:eval\s+)?" + re.escape(self.expression) + r"\s*[)}]"
@@ -99,7 +99,7 @@ class FailedExpansion:
 
     @property
     def searched(self) -> str:
-        """Where a package was looked for."""
+        """The places where a package was looked for."""
         package = self.failure.missing_package
         return ", ".join(package.searched[:6]) if package else "nowhere"
 
@@ -141,7 +141,7 @@ class FailedExpansion:
 
     @property
     def declared(self) -> str:
-        """Where the called macro is: " (declared on line 3)"."""
+        """The place of the called macro: " (declared on line 3)"."""
         macro = self._called_macro
         return f" (declared on {line_in(macro.place, self.at)})" if macro else ""
 

@@ -41,7 +41,7 @@ class NamedElement:
 
 
 def read_source(file: str | Path) -> SourceText | None:
-    """The text of a file, or None when it cannot be read or is huge."""
+    """Read the text of a file; None when it cannot be read or is huge."""
     try:
         path = Path(file)
         if path.stat().st_size > _LARGEST:
@@ -53,7 +53,7 @@ def read_source(file: str | Path) -> SourceText | None:
 
 
 def definitions_in(source: SourceText, file: str) -> Iterator[NamedElement]:
-    """Every property, macro and argument that a file defines, in document order."""
+    """Yield the properties, macros and arguments of a file, in document order."""
     inside: list[str] = []
     for token in source.tags:
         prefix, _, kind = token.name.rpartition(":")
@@ -74,7 +74,7 @@ def definitions_in(source: SourceText, file: str) -> Iterator[NamedElement]:
 
 
 def token_place(source: SourceText, file: str, token: Token) -> Place:
-    """Where a token begins."""
+    """Return the place where a token begins."""
     return Place(file, source.line(token.start), source.column(token.start))
 
 
@@ -89,24 +89,24 @@ class SourceSet:
 
     @classmethod
     def of(cls, files: Iterable[str]) -> SourceSet:
-        """The set of these files, each once, in this order."""
+        """Make the set of these files, each once, in this order."""
         return cls(tuple(dict.fromkeys(f for f in files if f)))
 
     def get(self, file: str) -> SourceText | None:
-        """The text of a file, read at most once."""
+        """Return the text of a file, read at most once."""
         if file not in self._read:
             self._read[file] = read_source(file)
         return self._read[file]
 
     def sources(self) -> Iterator[tuple[str, SourceText]]:
-        """All readable files with their names."""
+        """Yield all readable files with their names."""
         for file in self.files:
             source = self.get(file)
             if source is not None:
                 yield file, source
 
     def named(self, kind: str) -> list[NamedElement]:
-        """Everything of one kind that the files define."""
+        """Return everything of one kind that the files define."""
         return [
             definition
             for file, source in self.sources()
@@ -115,7 +115,7 @@ class SourceSet:
         ]
 
     def find(self, pattern: str, near: Place | None = None) -> Place | None:
-        """The first match of a pattern outside comments.
+        """Find the first match of a pattern outside comments.
 
         Args:
             pattern: a regular expression.
@@ -137,7 +137,7 @@ class SourceSet:
         return None
 
     def tag_at(self, place: Place, name: str) -> Token | None:
-        """The tag with that name that begins on that line, or None."""
+        """Return the tag with that name that begins on that line, or None."""
         source = self.get(place.file)
         if source is None:
             return None
@@ -153,14 +153,14 @@ class SourceSet:
         )
 
     def calls(self, name: str) -> Iterator[tuple[Place, Token]]:
-        """All opening tags with that name."""
+        """Yield all opening tags with that name."""
         for file, source in self.sources():
             for token in source.tags:
                 if token.name == name and not token.closes:
                     yield token_place(source, file, token), token
 
     def neighbours_with_macro(self, name: str) -> list[NamedElement]:
-        """Macros of that name in files beside or below the known ones."""
+        """Find macros of that name in files beside or below the known ones."""
         found: list[NamedElement] = []
         for folder in dict.fromkeys(Path(f).parent for f in self.files):
             for path in _xacro_files(folder):

@@ -33,7 +33,7 @@ _OTHER_FILES: tuple[tuple[str, str, str, str], ...] = (
         "give a URDF or xacro file: it begins with <robot name=…>",
     ),
 )
-"""How a file of another kind begins: pattern, code, message, hint."""
+"""The beginning of a file of another kind: pattern, code, message, hint."""
 
 
 def other_file_problem(text: str, file: str) -> Problem | None:
