@@ -37,9 +37,9 @@ def show(protocol: Connect) -> Iterator[Callable[..., list[str]]]:
             client = protocol(viz.viser.get_port())
             session = session_of(viz)
             client.wait_until(lambda: not reading(session), 30.0)
-            session.randomize_joints(1)
+            session.robot.randomize(1)
             client.settle(viz.viser, 30.0)
-            session.center_joints()
+            session.robot.center()
             client.settle(viz.viser, 30.0)
             messages = client.messages
             client.close()
@@ -54,7 +54,11 @@ def session_of(viz: Visualizer) -> Session:
 
 def reading(session: Session) -> bool:
     with session.lock:
-        rows = [r for display in session.displays for r in display.status.rows.values()]
+        rows = [
+            r
+            for display in session.scene.displays
+            for r in display.status.rows.values()
+        ]
     return any("still being read" in row.text for row in rows)
 
 

@@ -14,7 +14,6 @@ import viser
 
 from sambot_viz.errors import RobotError, ServerError
 from sambot_viz.export.page_file import ViewState, ask_page, page_file
-from sambot_viz.export.recorded_scene import SceneSnapshot
 from sambot_viz.files import write_atomically
 from sambot_viz.flags import keyword_help
 from sambot_viz.frames import Transform
@@ -32,7 +31,7 @@ from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 from sambot_viz.session.config_file import take_root
-from sambot_viz.session.frame_view import FrameView
+from sambot_viz.session.robot.frames import FrameView
 
 _P = ParamSpec("_P")
 
@@ -160,8 +159,8 @@ class Visualizer:
         if self._server.robot is None and self._stand_in is self._configs.current:
             self._fit_fixed_frame(self._configs.current, robot)
             for session in self._server.sessions():
-                with session.change(session.signals.config):
-                    self._fit_fixed_frame(session.config, robot)
+                with session.change(session.document.options):
+                    self._fit_fixed_frame(session.document.config, robot)
         self._server.show_robot(robot)
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
@@ -228,14 +227,14 @@ class Visualizer:
         """
         session = self._first()
         with session.lock:
-            joints = session.joints
+            joints = session.robot.joints
             return MappingProxyType({} if joints is None else joints.all_positions())
 
     @property
     def frames(self) -> FrameView:
         """The frames, for look-ups: ``viz.frames.lookup(target, source)``."""
         session = self._first()
-        return FrameView(session.tree, session.lock)
+        return FrameView(session.frames.tree, session.lock)
 
     def set_joint_positions(self, positions: Mapping[str, float]) -> None:
         """Move some joints, in every browser.
@@ -247,7 +246,7 @@ class Visualizer:
             JointError: an unknown joint, a mimic joint, or no finite number.
         """
         for session in self._server.sessions(copies=False):
-            session.set_joint_positions(positions)
+            session.robot.set_positions(positions)
 
     def set_static_transform(
         self,
@@ -269,7 +268,7 @@ class Visualizer:
         """
         transform = Transform.from_xyz_rpy(xyz, rpy)
         for session in self._server.sessions(copies=False):
-            session.add_frame(parent, child, transform)
+            session.frames.add(parent, child, transform)
 
     def export(self, path: Path | str, *, sweep: bool = True) -> None:
         """Write what is shown as one HTML file that needs no server.
@@ -284,9 +283,11 @@ class Visualizer:
             OSError: it cannot be written.
         """
         session = self._first()
-        shown = SceneSnapshot.by(session)
+        shown = session.copy()
         content = page_file(
-            shown, ViewState.at_first(session), "sweep" if sweep else "none"
+            shown,
+            ViewState.at_first(session.document_view, session.robot.model is not None),
+            "sweep" if sweep else "none",
         )
         write_atomically(Path(path), content)
 

@@ -9,7 +9,6 @@ from sambot_viz.checks import check
 from sambot_viz.checks.config_against_robot import check_config
 from sambot_viz.inputs import load_config
 from sambot_viz.robot import load_robot
-from sambot_viz.session.shown_problems import last_good_note, problems_of
 
 MODELS = {"mbot.rviz": "mbot.urdf.xacro", "urdf_config.rviz": "sam_bot.urdf.xacro"}
 
@@ -40,8 +39,8 @@ def test_the_page_starts_without_a_problem_and_without_a_changed_setting(
     with Visualizer(model, path) as viz:
         viz.server.wait_for_meshes(20)
         (session,) = viz.server.sessions()
-        assert problems_of(session) == []
-        assert last_good_note(session) == ""
-        assert {display.status.level for display in session.displays} == {"Ok"}
-        assert session.drawn.global_status().level == "Ok"
+        assert session.problems.shown.value.listed == ()
+        assert session.problems.shown.value.note == ""
+        assert {display.status.level for display in session.scene.displays} == {"Ok"}
+        assert session.scene.global_status().level == "Ok"
         assert not session.history.modified.value

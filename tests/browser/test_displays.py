@@ -13,7 +13,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Problem, Visualizer
 from sambot_viz.session import Session
-from sambot_viz.session.document.drawn_scene import walk
+from sambot_viz.session.scene.scene import walk
 
 pytestmark = pytest.mark.browser
 
@@ -75,7 +75,7 @@ def own(viz: Visualizer, open_viewer: Callable[..., ViewerPage]) -> Own:
 
 
 def names(session: Session) -> list[str]:
-    return [display.name for display in walk(session.config.displays)]
+    return [display.name for display in walk(session.document.config.displays)]
 
 
 def drag(user: User, name: str, to: str, part: float) -> None:
@@ -121,9 +121,11 @@ def test_what_is_half_typed_stays_in_the_hand_when_others_change_the_displays(
     user.unfold("Displays", "Robot")
     select(user, "Robot", "TF Prefix")
     user.type("ab")
-    session.worker.post(lambda: session.add_display("rviz_default_plugins/Axes"))
-    robot = session.config.displays[0]
-    session.worker.post(lambda: session.move_display(robot, 3, None))
+    session.worker.post(
+        lambda: session.display_edits.add_display("rviz_default_plugins/Axes")
+    )
+    robot = session.document.config.displays[0]
+    session.worker.post(lambda: session.display_edits.move_display(robot, 3, None))
     user.until(lambda: user.rows("Displays")[-1] == "Axes (2)")
     user.type("cd")
     user.keys("Enter")
@@ -137,7 +139,7 @@ def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
     user, session = own
     name = "Wheel axes here and there"
     box = user.box(user.row("Displays", "Grid").one("checkbox"))
-    session.rename_display(session.displays[0].config, name)
+    session.display_edits.rename_display(session.scene.displays[0].config, name)
     label = user.row("Displays", name).one("StaticText", name)
     assert not user.is_cut_off(label)
     # The boxes of short names stay in line.
@@ -168,7 +170,7 @@ def test_the_first_click_selects_and_the_next_one_edits(
     user.type("0.25")
     user.keys("Escape")
     user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
-    assert session.config.displays[1].get("Alpha") == 0.5
+    assert session.document.config.displays[1].get("Alpha") == 0.5
 
 
 def test_the_menu_of_a_row_is_used_by_keys(user: User, session: Session) -> None:
@@ -192,7 +194,7 @@ def test_a_part_of_a_vector_is_set_with_the_others(
     user.unfold("Displays", "Grid", "Offset")
     user.enter(user.row("Displays", "Grid", "Offset", "Y").one("textbox"), "2")
     user.enter(user.row("Displays", "Grid", "Offset", "Z").one("textbox"), "50 cm")
-    grid = session.config.displays[1]
+    grid = session.document.config.displays[1]
     user.until(lambda: grid.get("Offset") == (0.0, 2.0, 0.5))
     user.until(
         lambda: (

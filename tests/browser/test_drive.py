@@ -19,11 +19,11 @@ def test_the_sam_bot_drives_a_square_and_returns(
     viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:
     session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-    drive = session.motion.drive
+    drive = session.drive
     viewer = open_viewer(viz.url)
     viewer.wait_for_nodes(node_of(viz, "base_link"))
     drive.enter_odom()
-    session.set_global("Fixed Frame", "odom")
+    session.document.set_option("Fixed Frame", "odom")
     base = node_of(viz, "base_link")
     viewer.wait_for_nodes(base)
     start = viz.frames.lookup("odom", "base_link").matrix

@@ -15,7 +15,6 @@ from viewer_page import ViewerPage
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.page_file import ViewState, page_file
-from sambot_viz.export.recorded_scene import SceneSnapshot
 
 pytestmark = pytest.mark.browser
 LEFT_LINK = "drivewhl_l_link"
@@ -94,13 +93,13 @@ def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
         live.expects_errors = True
         live.wait_for_nodes(node_of(viz, LEFT_LINK))
         session = session_of(viz)
-        live.user.until(lambda: session.browsers)
-        (browser,) = session.browsers.values()
+        live.user.until(lambda: session.clients.all)
+        (browser,) = session.clients.all.values()
         for kind in ("TopDownOrtho", "XYOrbit"):
             browser.view.set_kind(f"rviz_default_plugins/{kind}")
             live.wait_for_frames()
             file = tmp_path / f"{kind}.html"
-            page = page_file(SceneSnapshot.by(session), ViewState.of(browser), "none")
+            page = page_file(session.copy(), ViewState.of(browser), "none")
             file.write_bytes(page)
             alone = open_file(file, 800, 600 + BAR)
             alone.user.until(lambda a=alone: differing(a, live) < 0.001)

@@ -182,7 +182,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     user.click("button", "Open")
     user.gone("dialog")
     user.until(lambda: title(user).startswith("other.rviz"))
-    assert session_of(viz).config.displays[0].name == "Floor"
+    assert session_of(viz).document.config.displays[0].name == "Floor"
     user.row("Displays", "Floor", "Cell Size")
     assert "Show Names" not in user.rows("Displays")
     user.until(lambda: distance(user) == "7")
@@ -194,7 +194,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     user.row("Displays", "Grid", "Cell Size")
     user.row("Displays", "TF", "Show Names")
     user.until(lambda: distance(user) == "3")
-    assert session_of(viz).config.global_options.get("Frame Rate") == 12
+    assert session_of(viz).document.config.global_options.get("Frame Rate") == 12
 
 
 def test_the_config_and_a_picture_are_downloaded_at_once(
@@ -236,7 +236,7 @@ def test_a_new_display_is_selected_unfolded_and_named(desk: Desk) -> None:
     assert row.state("selected") and row.state("expanded")
     user.until(lambda: user.can_see(user.row("Displays", "Wheel axes, main", "Radius")))
     user.row("Displays", "Grid", "Cell Size")
-    assert session_of(viz).config.displays[-1].name == "Wheel axes, main"
+    assert session_of(viz).document.config.displays[-1].name == "Wheel axes, main"
 
 
 def test_panels_are_hidden_and_shown_again_from_the_menu(desk: Desk) -> None:

@@ -86,14 +86,14 @@ def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height
     # The panels come after the robot and make the view narrower.
     viewer.wait_for("document.body.innerText.includes('Fixed Frame')")
     session = session_of(at_first)
-    (browser,) = session.browsers.values()
+    (browser,) = session.clients.all.values()
     width = "__viserMutable.canvas.width"
     end = time.monotonic() + patience(20.0)
     while browser.client.camera.image_width != viewer.page.evaluate(width):
         assert time.monotonic() < end
         viewer.wait_until_drawn()
     viewer.wait_until_drawn()
-    box = session.rays.robot_box()
+    box = session.picker.robot_box()
     assert box is not None
     places = [
         viewer.project("", place) for place in product(*np.transpose(box).tolist())

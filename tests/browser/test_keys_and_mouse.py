@@ -13,7 +13,7 @@ from user import User
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 pytestmark = pytest.mark.browser
 
@@ -37,7 +37,7 @@ def user(viewer: ViewerPage) -> User:
 
 
 @pytest.fixture
-def browser(desk: Desk) -> Browser:
+def browser(desk: Desk) -> Client:
     return desk.browser
 
 
@@ -72,7 +72,7 @@ def test_the_key_of_a_tool_acts_right_after_a_box_a_slider_or_a_button(
 
 
 def test_letters_in_a_text_field_stay_there(
-    user: User, viewer: ViewerPage, browser: Browser
+    user: User, viewer: ViewerPage, browser: Client
 ) -> None:
     user.keys("n")
     pressed(user, "Measure")
@@ -110,7 +110,7 @@ def test_h_and_a_button_hide_the_panels_and_a_button_brings_them_back(
 
 
 def test_the_mouse_is_reported_at_most_twenty_times_a_second_while_measure_wants_it(
-    user: User, viewer: ViewerPage, browser: Browser
+    user: User, viewer: ViewerPage, browser: Client
 ) -> None:
     user.keys("f")
     user.until(lambda: browser.view.values["Distance"] < 2.0)

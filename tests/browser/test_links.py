@@ -44,7 +44,7 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
         user = viewer.user
         user.enter(user.row("Joints", LEFT).one("textbox"), "0.75")
         user.click_on(user.row("Displays", "Grid").one("checkbox"))
-        (browser,) = session_of(viz).browsers.values()
+        (browser,) = session_of(viz).clients.all.values()
         browser.tools.select({Selectable("link", LEFT_LINK)}, None)
         user.reads(f"Selected: {LEFT_LINK}")
         viewer.wait_until_drawn()

@@ -17,8 +17,8 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.session import Session
-from sambot_viz.session.browser.tool_control import ToolControl
-from sambot_viz.session.browser.view import BrowserView
+from sambot_viz.session.clients.client_tools import ClientTools
+from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.session.signals import connect
 from sambot_viz.views.view import STEEPEST
 
@@ -87,15 +87,15 @@ def until(viewer: ViewerPage, holds: Callable[[], bool]) -> None:
         viewer.wait_for_frames()
 
 
-def tools_of(session: Session) -> ToolControl:
+def tools_of(session: Session) -> ClientTools:
     """Those of the only browser."""
-    (browser,) = session.browsers.values()
+    (browser,) = session.clients.all.values()
     return browser.tools
 
 
-def view_of(session: Session) -> BrowserView:
+def view_of(session: Session) -> ClientView:
     """That of the only browser."""
-    (browser,) = session.browsers.values()
+    (browser,) = session.clients.all.values()
     return browser.view
 
 
@@ -135,7 +135,7 @@ def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(desk: Desk) -> None:
     until(viewer, lambda: abs(value(session, "Distance") - 1.76) < 0.02)
     assert not session.history.modified.value
     view_of(session).store()
-    assert "Yaw: 1.1" in session.config.to_yaml()
+    assert "Yaw: 1.1" in session.document.config.to_yaml()
     viewer.page.keyboard.press("z")
     until(viewer, lambda: value(session, "Distance") == 10.0)
     viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 10) < 1e-3")
@@ -147,7 +147,7 @@ def test_moving_a_view_from_straight_above_keeps_its_yaw(desk: Desk) -> None:
     assert value(session, "Pitch") == STEEPEST
     viewer.wait_for("__viserMutable.cameraControl.polarAngle < 0.002")
     yaws: list[float] = []
-    (browser,) = session.browsers.values()
+    (browser,) = session.clients.all.values()
     end = connect([browser.view.changed], lambda: yaws.append(value(session, "Yaw")))
     for x, y in ((30, 0), (0, 30), (-30, -20)):
         viewer.page.mouse.drag(SKY, (SKY[0] + x, SKY[1] + y), button="middle")
@@ -211,11 +211,13 @@ def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
     viewer.wait_for_nodes(node_of(own, "drivewhl_l_link"))
     is_seen(viewer)
     tools, mouse = tools_of(session), viewer.page.mouse
-    session.set_global("Background Color", (255, 0, 255))
-    for display in session.displays:
+    session.document.set_option("Background Color", (255, 0, 255))
+    for display in session.scene.displays:
         if "Alpha" in display.config.properties:
             is_robot = display.kind.endswith("/RobotModel")
-            session.set_property(display, "Alpha", 1.0 if is_robot else 0.0)
+            session.display_edits.set_property(
+                display, "Alpha", 1.0 if is_robot else 0.0
+            )
     viewer.page.keyboard.press("s")
     chosen(session, viewer, "Select")
     until(viewer, lambda: bool((viewer.pixels()[5, 5, :3] == (255, 0, 255)).all()))
@@ -253,9 +255,9 @@ def test_from_above_every_zoom_shows_the_scene_on_its_background(
     own: Visualizer, open_viewer: Open
 ) -> None:
     session = session_of(own)
-    session.set_global("Background Color", (255, 255, 255))
+    session.document.set_option("Background Color", (255, 255, 255))
     viewer = open_viewer(own.url, width=900, height=300, resolution=1)
-    until(viewer, lambda: len(session.browsers) == 1)
+    until(viewer, lambda: len(session.clients.all) == 1)
     view_of(session).set_kind("rviz_default_plugins/TopDownOrtho")
     view_of(session).set("Scale", 10.0)
     viewer.wait_for("__viserMutable.camera.fov < 1")

@@ -36,7 +36,7 @@ def tf(show: Show) -> Callable[..., Session]:
 
 
 def display_of(session: Session) -> TfDisplay:
-    display = session.displays[0]
+    display = session.scene.displays[0]
     assert isinstance(display, TfDisplay)
     return display
 
@@ -45,7 +45,7 @@ def drawn(session: Session, nodes: Nodes) -> set[str]:
     """The frames that have axes."""
     found = nodes(session)
     key = display_of(session).key
-    paths = {f: session.context.nodes.path(f) for f in session.tree.frames}
+    paths = {f: session.scene.context.nodes.path(f) for f in session.frames.tree.frames}
     return {frame for frame, path in paths.items() if f"{path}/{key}a" in found}
 
 
@@ -83,9 +83,9 @@ def test_filters_are_searched_anywhere_in_the_name(
 def test_all_enabled_sets_the_frames_of_the_file_too(tf: Show, nodes: Nodes) -> None:
     session = tf("      Frames: {All Enabled: true, upper: {Value: false}}")
     display = display_of(session)
-    session.set_property(display, "Frames/All Enabled", False)
+    session.display_edits.set_property(display, "Frames/All Enabled", False)
     assert drawn(session, nodes) == set()
-    session.set_property(display, "Frames/All Enabled", True)
+    session.display_edits.set_property(display, "Frames/All Enabled", True)
     assert drawn(session, nodes) == {"base", "upper", "tool"}
 
 
@@ -106,7 +106,7 @@ def test_a_frame_of_another_tree_is_not_drawn_and_warned_of(
     tf: Show, nodes: Nodes
 ) -> None:
     session = tf()
-    session.add_frame("map", "odom", Transform.from_xyz_rpy((1, 0, 0)))
+    session.frames.add("map", "odom", Transform.from_xyz_rpy((1, 0, 0)))
     assert drawn(session, nodes) == {"base", "upper", "tool"}
     status = display_of(session).status
     assert status.level == "Warn"
@@ -119,6 +119,6 @@ def test_without_the_fixed_frame_no_heap_of_axes_is_drawn(
 ) -> None:
     session = tf(fixed="nowhere")
     assert drawn(session, nodes) == set()
-    assert session.drawn.global_status().text == "Frame [nowhere] does not exist"
-    session.set_global("Fixed Frame", "base")
+    assert session.scene.global_status().text == "Frame [nowhere] does not exist"
+    session.document.set_option("Fixed Frame", "base")
     assert drawn(session, nodes) == {"base", "upper", "tool"}

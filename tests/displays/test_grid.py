@@ -92,13 +92,17 @@ def test_the_status_reports_fewer_cells_and_the_file_keeps_its_count(
     grid: Show,
 ) -> None:
     session = grid("      Plane Cell Count: 1000000000")
-    assert session.displays[0].status.rows["Cells"].level == "Warn"
-    assert "Plane Cell Count: 1000000000" in session.config.to_yaml()
-    session.set_property(session.displays[0], "Plane Cell Count", 10)
-    assert set(session.displays[0].status.rows) == {"Transform"}
-    session.set_property(session.displays[0], "Plane Cell Count", 2**31 - 1)
-    assert session.displays[0].config.get("Plane Cell Count") == 2**31 - 1
-    assert "Cells" in session.displays[0].status.rows
+    assert session.scene.displays[0].status.rows["Cells"].level == "Warn"
+    assert "Plane Cell Count: 1000000000" in session.document.config.to_yaml()
+    session.display_edits.set_property(
+        session.scene.displays[0], "Plane Cell Count", 10
+    )
+    assert set(session.scene.displays[0].status.rows) == {"Transform"}
+    session.display_edits.set_property(
+        session.scene.displays[0], "Plane Cell Count", 2**31 - 1
+    )
+    assert session.scene.displays[0].config.get("Plane Cell Count") == 2**31 - 1
+    assert "Cells" in session.scene.displays[0].status.rows
 
 
 def test_a_grid_and_axes_that_have_not_changed_are_not_sent_again(
@@ -106,16 +110,16 @@ def test_a_grid_and_axes_that_have_not_changed_are_not_sent_again(
 ) -> None:
     session = grid()
     before = nodes(session)
-    session.refresh()
-    session.add_frame("base", "laser", Transform.identity())
-    session.set_global("Background Color", (255, 255, 255))
+    session.scene.refresh()
+    session.frames.add("base", "laser", Transform.identity())
+    session.document.set_option("Background Color", (255, 255, 255))
     after = nodes(session)
     assert len(before) > 1
     assert all(after[name] is handle for name, handle in before.items())
-    session.set_property(session.displays[0], "Alpha", 0.25)
+    session.display_edits.set_property(session.scene.displays[0], "Alpha", 0.25)
     changed = nodes(session)
     assert [n for n in before if changed[n] is not before[n]] == [
-        name for name in before if name.endswith(session.displays[0].key)
+        name for name in before if name.endswith(session.scene.displays[0].key)
     ]
 
 
@@ -124,7 +128,7 @@ def test_ribbons_are_drawn_again_for_another_background(
 ) -> None:
     session = grid("      Line Style: Billboards")
     before = nodes(session)
-    session.set_global("Background Color", (255, 255, 255))
+    session.document.set_option("Background Color", (255, 255, 255))
     assert any(nodes(session)[name] is not before[name] for name in before)
 
 
@@ -132,10 +136,10 @@ def test_a_grid_in_an_unknown_frame_is_not_drawn_and_says_so(
     grid: Show, nodes: Nodes
 ) -> None:
     session = grid("      Reference Frame: nowhere")
-    display = session.displays[0]
+    display = session.scene.displays[0]
     status = display.status.rows["Transform"]
     assert status.text == "Could not transform from [nowhere] to [base]"
     assert not any(name.endswith(display.key) for name in nodes(session))
-    session.set_property(display, "Reference Frame", "upper")
+    session.display_edits.set_property(display, "Reference Frame", "upper")
     assert display.status.rows["Transform"].text == "Ok"
     assert any(name.endswith(display.key) for name in nodes(session))

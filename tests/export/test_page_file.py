@@ -35,7 +35,7 @@ def test_while_a_page_is_made_the_loop_and_the_session_are_free(
         session, loop = session_of(viz), viz.viser.get_event_loop()
         for _ in range(2):
             protocol(viz.viser.get_port()).settle(viz.viser)
-        browsers = list(session.browsers.values())
+        browsers = list(session.clients.all.values())
         assert len(browsers) == 2
         asked = [
             asyncio.run_coroutine_threadsafe(
@@ -65,7 +65,7 @@ def test_a_page_that_is_too_large_is_not_sent(
         client = protocol(viz.viser.get_port())
         client.settle(viz.viser)
         session = session_of(viz)
-        (browser,) = session.browsers.values()
+        (browser,) = session.clients.all.values()
         made = asyncio.run_coroutine_threadsafe(
             pages.ask_page(session, browser, "none")(), viz.viser.get_event_loop()
         )

@@ -137,12 +137,12 @@ def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image
     try:
         server.show_robot(robot)
         session = server.sessions()[0]
-        assert session.joints is not None
-        free = session.joints.free
+        assert session.robot.joints is not None
+        free = session.robot.joints.free
         positions = case["joint_positions"].items()
-        session.set_joint_positions({n: v for n, v in positions if n in free})
+        session.robot.set_positions({n: v for n, v in positions if n in free})
         size = case["camera"]["image_width"], case["camera"]["image_height"]
-        view = session.camera
+        view = session.document_view.camera
         return snapshot(server, chromium, *size, view).astype(np.int16)
     finally:
         server.stop()

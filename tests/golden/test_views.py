@@ -54,7 +54,9 @@ def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> Non
         server.show_robot(load_robot(DATA / "view_robot.urdf"))
         session = server.shared
         assert session is not None
-        picture = snapshot(server, chromium, width, height, session.camera)
+        picture = snapshot(
+            server, chromium, width, height, session.document_view.camera
+        )
     finally:
         server.stop()
     difference = np.abs(picture.astype(np.int16) - golden).max(axis=2)

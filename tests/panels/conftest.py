@@ -11,24 +11,24 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 
 @pytest.fixture
 def join(
     viz: Visualizer, session: Session, protocol: Callable[..., ProtocolClient]
-) -> Callable[[], Browser]:
+) -> Callable[[], Client]:
     """Open the page in one more browser."""
 
-    def open_page() -> Browser:
-        before = set(session.browsers)
+    def open_page() -> Client:
+        before = set(session.clients.all)
         protocol(urlsplit(viz.url).port or 0).settle(viser_server(viz))
-        (new,) = session.browsers.keys() - before
-        return session.browsers[new]
+        (new,) = session.clients.all.keys() - before
+        return session.clients.all[new]
 
     return open_page
 
 
 @pytest.fixture
-def browser(join: Callable[[], Browser]) -> Browser:
+def browser(join: Callable[[], Client]) -> Client:
     return join()

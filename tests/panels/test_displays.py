@@ -137,7 +137,7 @@ def test_the_tree_is_rvizs(displays: Displays) -> None:
 
 def test_a_value_is_set_and_drawn_from(displays: Displays, session: Session) -> None:
     displays.change("Robot", "Alpha", to=0.5)
-    assert session.displays[0].config.get("Alpha") == 0.5
+    assert session.scene.displays[0].config.get("Alpha") == 0.5
     assert displays.named("Robot", "Alpha").value == 0.5
 
 
@@ -156,7 +156,7 @@ def test_a_colour_is_taken_as_people_write_it(
     displays: Displays, session: Session, typed: object, colour: object
 ) -> None:
     displays.change("Global Options", "Background Color", to=typed)
-    assert session.context.background == colour
+    assert session.scene.context.background == colour
 
 
 @pytest.mark.parametrize(
@@ -171,7 +171,7 @@ def test_a_wrong_colour_is_refused_with_a_reason(
 ) -> None:
     with pytest.raises(SambotVizError, match="Background Color"):
         displays.change("Global Options", "Background Color", to=typed)
-    assert session.context.background == (48, 48, 48)
+    assert session.scene.context.background == (48, 48, 48)
 
 
 def test_a_vector_says_what_its_parts_are_called(displays: Displays) -> None:
@@ -272,7 +272,7 @@ def test_links_are_listed_when_they_are_unfolded(displays: Displays) -> None:
 def test_a_link_is_switched_off_alone(displays: Displays, session: Session) -> None:
     displays.unfold("Robot", "Links")
     displays.change("Robot", "Links", "arm/tip", to=False)
-    robot = session.displays[0].config
+    robot = session.scene.displays[0].config
     assert robot.dynamic(("Links", "arm/tip")) == {"Value": "false"}
     assert displays.named("Robot", "Links", "base").value is True
     displays.change("Robot", "Links", "arm/tip", to=True)
@@ -282,7 +282,7 @@ def test_a_link_is_switched_off_alone(displays: Displays, session: Session) -> N
 def test_a_frame_is_switched_off_alone(displays: Displays, session: Session) -> None:
     displays.unfold("Frames of it", "Frames")
     displays.change("Frames of it", "Frames", "arm/tip", to=False)
-    frames = session.displays[1].config.dynamic("Frames")
+    frames = session.scene.displays[1].config.dynamic("Frames")
     assert frames["arm/tip"] == {"Value": "false"}
 
 
@@ -292,8 +292,8 @@ def test_positions_follow_a_joint(displays: Displays, session: Session) -> None:
     shown = displays.named("Robot", "Links", "arm/tip", "Orientation")
     assert displays.panel.values()[shown.id] == "0; 0; 0; 1"
     moved = threading.Event()
-    connect([session.signals.joints], moved.set)
-    session.set_joint_positions({"turn": 3.0})
+    connect([session.robot.positions], moved.set)
+    session.robot.set_positions({"turn": 3.0})
     assert moved.wait(10)
     assert displays.panel.values()[shown.id] != "0; 0; 0; 1"
 
@@ -364,7 +364,7 @@ def test_a_display_that_is_not_shown_says_so_and_can_be_arranged(
     displays.act("duplicate", "My radar", "mark")
     displays.act("move", "My radar", displays.named("Ground").id, 0)
     assert displays.below("Ground") == ["My radar", "Floor"]
-    assert session.config.to_yaml().count("Gain: 3") == 2
+    assert session.document.config.to_yaml().count("Gain: 3") == 2
 
 
 def test_a_removed_display_comes_back_as_the_same_row(

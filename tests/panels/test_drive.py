@@ -17,8 +17,8 @@ from sambot_viz.frames import Transform
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.robot.drive_control import DriveControl
+from sambot_viz.session.clients.client import Client
+from sambot_viz.session.robot.drive import Drive
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 IN_ODOM = Answer("The fixed frame is odom now, to show the motion; Undo puts it back")
@@ -32,20 +32,20 @@ def panel(session: Session) -> Iterator[DrivePanel]:
 
 
 @pytest.fixture
-def drive(session: Session) -> DriveControl:
-    return session.motion.drive
+def drive(session: Session) -> Drive:
+    return session.drive
 
 
 def send(panel: DrivePanel, row_id: str, value: Any) -> Any:
     return edit(panel, row_id, value)
 
 
-def speeds(drive: DriveControl) -> tuple[float, float]:
+def speeds(drive: Drive) -> tuple[float, float]:
     return drive.v, drive.w
 
 
 def test_speeds_are_set_one_by_one_within_their_limits(
-    panel: DrivePanel, drive: DriveControl
+    panel: DrivePanel, drive: Drive
 ) -> None:
     edit(panel, "drive/linear", 0.3)
     edit(panel, "drive/angular", -1)
@@ -59,7 +59,7 @@ def test_speeds_are_set_one_by_one_within_their_limits(
 
 
 def test_a_button_that_is_held_drives_until_it_is_let_go(
-    panel: DrivePanel, session: Session, drive: DriveControl
+    panel: DrivePanel, session: Session, drive: Drive
 ) -> None:
     for _ in range(5):
         edit(panel, "drive/hold", [0.5, 0])
@@ -71,7 +71,7 @@ def test_a_button_that_is_held_drives_until_it_is_let_go(
 
 
 def test_a_held_button_drives_no_faster_than_the_limits(
-    panel: DrivePanel, drive: DriveControl
+    panel: DrivePanel, drive: Drive
 ) -> None:
     edit(panel, "drive/hold", [50, -50])
     assert speeds(drive) == (1, -2)
@@ -88,7 +88,7 @@ def test_a_held_button_drives_no_faster_than_the_limits(
     ],
 )
 def test_the_keys_of_a_number_pad_change_the_speeds(
-    panel: DrivePanel, drive: DriveControl, keys: str, expected: tuple[float, float]
+    panel: DrivePanel, drive: Drive, keys: str, expected: tuple[float, float]
 ) -> None:
     for key in keys:
         edit(panel, "drive/press", [key])
@@ -109,7 +109,7 @@ def test_another_key_is_refused(panel: DrivePanel) -> None:
 
 
 def test_stop_and_reset_put_robot_wheels_and_path_back(
-    panel: DrivePanel, session: Session, drive: DriveControl, viz: Visualizer
+    panel: DrivePanel, session: Session, drive: Drive, viz: Visualizer
 ) -> None:
     edit(panel, "drive/linear", 0.5)
     session.motion.advance(1.0)
@@ -127,32 +127,34 @@ def test_stop_and_reset_put_robot_wheels_and_path_back(
 
 
 def test_driving_fixes_a_frame_that_the_robot_moves_in(
-    panel: DrivePanel, session: Session, browser: Browser
+    panel: DrivePanel, session: Session, browser: Client
 ) -> None:
-    assert session.context.fixed_frame == "base_link"
+    assert session.scene.context.fixed_frame == "base_link"
     browser.view.set("Distance", 2.0)
     with session.history.acting(browser.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) == IN_ODOM
-    assert session.context.fixed_frame == "odom"
+    assert session.scene.context.fixed_frame == "odom"
     assert browser.view.values["Distance"] > 2
     with session.history.acting(browser.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) is None
     session.history.undo(browser.client_id)
-    assert session.context.fixed_frame == "base_link"
+    assert session.scene.context.fixed_frame == "base_link"
 
 
 def test_a_fixed_frame_in_the_world_stays(panel: DrivePanel, session: Session) -> None:
-    session.motion.drive.enter_odom()
-    session.add_frame("map", "odom", Transform.from_xyz_rpy((1.0, 0.0, 0.0), (0, 0, 0)))
-    session.set_global("Fixed Frame", "map")
+    session.drive.enter_odom()
+    session.frames.add(
+        "map", "odom", Transform.from_xyz_rpy((1.0, 0.0, 0.0), (0, 0, 0))
+    )
+    session.document.set_option("Fixed Frame", "map")
     assert send(panel, "drive/linear", 0.1) is None
-    assert session.context.fixed_frame == "map"
+    assert session.scene.context.fixed_frame == "map"
 
 
 def test_a_robot_that_is_attached_to_another_frame_is_not_driven(
     panel: DrivePanel, session: Session
 ) -> None:
-    session.add_frame("map", "base_link", Transform.from_xyz_rpy((0, 0, 0), (0, 0, 0)))
+    session.frames.add("map", "base_link", Transform.from_xyz_rpy((0, 0, 0), (0, 0, 0)))
     with pytest.raises(FrameError, match="attached to 'map' already"):
         edit(panel, "drive/linear", 0.1)
 

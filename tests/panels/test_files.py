@@ -38,7 +38,7 @@ class Page:
     def __init__(self, viz: Visualizer, session: Session, disk: bool = True) -> None:
         self.sentences: list[str] = []
         self.unfolded: set[str] = set()
-        (browser,) = session.browsers.values()
+        (browser,) = session.clients.all.values()
         files = files_of(viz) if disk else None
         self.panel = FilesPanel(
             session,
@@ -79,7 +79,7 @@ def viz(folder: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
 def client(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> ProtocolClient:
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
-    client.wait_until(lambda: bool(session_of(viz).browsers))
+    client.wait_until(lambda: bool(session_of(viz).clients.all))
     return client
 
 
@@ -155,7 +155,7 @@ def test_a_file_that_cannot_be_written_is_reported_and_nothing_is_lost(
     page: Page, folder: Path, viz: Visualizer
 ) -> None:
     (folder / "taken.rviz").mkdir()
-    session_of(viz).set_global("Frame Rate", 7)
+    session_of(viz).document.set_option("Frame Rate", 7)
     with pytest.raises(UsageError, match="Nothing is lost") as refused:
         page.act("file/save-as", "taken", True, [])
     assert str(folder) in str(refused.value)
@@ -168,7 +168,7 @@ def test_saving_takes_the_mark_for_unsaved_changes_away(
     page: Page, folder: Path, viz: Visualizer
 ) -> None:
     assert not page.value("file/state").get("modified")
-    session_of(viz).set_global("Frame Rate", 7)
+    session_of(viz).document.set_option("Frame Rate", 7)
     page.remade(page.panel)
     assert page.value("file/state")["modified"]
     page.act("file/save", ["d1", "d1/Offset"])
@@ -186,7 +186,7 @@ def test_opening_offers_the_files_of_the_folder_and_takes_no_other(
     with pytest.raises(UsageError, match="no file"):
         page.act("file/open", "notes.txt")
     page.act("file/open", "other.rviz")
-    assert [d.name for d in session_of(viz).config.displays] == ["Ground"]
+    assert [d.name for d in session_of(viz).document.config.displays] == ["Ground"]
     assert page.value("file/state")["name"] == "other.rviz"
     assert not page.value("file/state").get("modified")
 
@@ -238,9 +238,11 @@ def test_the_config_of_the_program_is_opened_again_and_fits_the_robot(
         page.act("file/list")
         page.act("file/open", page.value("file/names")[-1])
         assert names_in(bundled.config_path()) == [
-            display.name for display in session_of(viz).config.displays
+            display.name for display in session_of(viz).document.config.displays
         ]
-        assert session_of(viz).config.global_options.get("Fixed Frame") == "trunk"
+        assert (
+            session_of(viz).document.config.global_options.get("Fixed Frame") == "trunk"
+        )
         assert page.sentences[-1] == "ok: Opened urdf_config.rviz of the program"
         with pytest.raises(UsageError, match="save it as"):
             page.act("file/save", [])
@@ -252,20 +254,20 @@ def test_a_broken_file_is_not_opened_and_the_reason_has_its_line(
     (folder / "bad.rviz").write_text("Panels: [\n", "utf-8")
     with pytest.raises(UsageError, match=r"bad.rviz cannot be opened: line \d"):
         page.act("file/open", "bad.rviz")
-    assert [d.name for d in session_of(viz).config.displays] == ["Floor"]
+    assert [d.name for d in session_of(viz).document.config.displays] == ["Floor"]
 
 
 def test_saving_and_downloading_take_the_view_of_the_browser(
     page: Page, client: ProtocolClient, folder: Path, viz: Visualizer
 ) -> None:
-    (browser,) = session_of(viz).browsers.values()
+    (browser,) = session_of(viz).clients.all.values()
     browser.view.set("Distance", 4.5)
     mark = client.mark()
     page.act("file/download")
     client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
     (part,) = (m for m in client.since(mark) if m.type == "FileTransferPart")
     assert b"Distance: 4.5" in part.fields["content"]
-    assert session_of(viz).config.view.get("Distance") != 4.5
+    assert session_of(viz).document.config.view.get("Distance") != 4.5
     page.act("file/save", [])
     assert load_config(folder / "mine.rviz").view.get("Distance") == 4.5
 
@@ -303,7 +305,7 @@ def test_the_file_that_was_saved_or_opened_last_is_followed(
     with Visualizer(config=folder / "mine.rviz", port=0, watch=True) as viz:
         client = protocol(viz.viser.get_port())
         session = session_of(viz)
-        client.wait_until(lambda: bool(session.browsers))
+        client.wait_until(lambda: bool(session.clients.all))
         page = Page(viz, session)
         page.act(
             f"file/{how}", *(["new", False, []] if how == "save-as" else ["other.rviz"])
@@ -311,12 +313,12 @@ def test_the_file_that_was_saved_or_opened_last_is_followed(
         name = page.value("file/state")["name"]
         (folder / name).write_text(CONFIG.replace("Floor", "Changed"), "utf-8")
         client.wait_until(
-            lambda: [d.name for d in session.config.displays] == ["Changed"]
+            lambda: [d.name for d in session.document.config.displays] == ["Changed"]
         )
         (folder / "mine.rviz").write_text(CONFIG.replace("Floor", "Old"), "utf-8")
         (folder / name).write_text(CONFIG.replace("Floor", "Again"), "utf-8")
         client.wait_until(
-            lambda: [d.name for d in session.config.displays] == ["Again"]
+            lambda: [d.name for d in session.document.config.displays] == ["Again"]
         )
 
 
@@ -337,7 +339,7 @@ def test_a_bundled_config_is_saved_beside_the_model_or_where_the_program_works(
         with Visualizer(given, config=config, port=0) as viz:
             client = protocol(viz.viser.get_port())
             session = session_of(viz)
-            client.wait_until(lambda session=session: bool(session.browsers))
+            client.wait_until(lambda session=session: bool(session.clients.all))
             page = Page(viz, session)
             assert page.value("file/state")["folder"] == str(folder)
             with pytest.raises(UsageError, match="no file of its own"):

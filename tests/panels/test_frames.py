@@ -168,7 +168,7 @@ def test_a_wrong_entry_is_refused_with_the_reason(
 def test_a_frame_that_drive_moves_has_its_parent(
     panel: FramesPanel, session: Session
 ) -> None:
-    session.add_frame("odom", "base_link", Transform.identity(), static=False)
+    session.frames.add("odom", "base_link", Transform.identity(), static=False)
     with pytest.raises(UsageError, match="Drive already holds 'base_link' in 'odom'"):
         edit(panel, "frames/add", [0, 0, 0, 0, 0, 0, "map", "base_link"])
 

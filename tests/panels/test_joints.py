@@ -139,7 +139,7 @@ def test_a_click_starts_a_wheel_and_another_one_stops_it(
     panel: JointsPanel, session: Session
 ) -> None:
     heard: list[int] = []
-    connect([session.signals.motion], lambda: heard.append(1))
+    connect([session.motion.turning], lambda: heard.append(1))
     edit(panel, "joints/turn", [f"j/{LEFT}"])
     assert turning(panel) == [f"j/{LEFT}"]
     edit(panel, "joints/turn", [f"j/{LEFT}"])

@@ -15,12 +15,11 @@ from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.document.switches import switches
+from sambot_viz.session.clients.client import Client
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 Pairs = list[list[str]]
-Join = Callable[[], Browser]
+Join = Callable[[], Client]
 ORBIT = [["view", "Orbit"], ["view.Distance", "3"]]
 END = [["v", "1"]]
 
@@ -28,7 +27,7 @@ END = [["v", "1"]]
 class Links:
     """The links of one browser: what it copies, and what it is told."""
 
-    def __init__(self, session: Session, browser: Browser, joints: bool = True) -> None:
+    def __init__(self, session: Session, browser: Client, joints: bool = True) -> None:
         self.session, self.browser = session, browser
         panel = JointsPanel(session, lambda panel: None)
         self.panel = PermalinkPanel(
@@ -58,28 +57,28 @@ class Links:
 
 
 @pytest.fixture
-def links(session: Session, browser: Browser) -> Links:
+def links(session: Session, browser: Client) -> Links:
     return Links(session, browser)
 
 
 def state(links: Links) -> dict[str, Any]:
     session, view = links.session, links.browser.view
-    assert session.joints is not None
+    assert session.robot.joints is not None
     return {
-        "joints": dict(session.joints.positions),
+        "joints": dict(session.robot.joints.positions),
         "kind": view.view.kind,
         "view": dict(view.values),
-        "switches": {name: switch.on for name, switch in switches(session).items()},
+        "switches": {name: switch.on for name, switch in session.toggles.all().items()},
         "selection": list(links.browser.tools.selection),
-        "fixed": session.context.fixed_frame,
+        "fixed": session.scene.context.fixed_frame,
     }
 
 
 def change(links: Links) -> None:
     """Move, turn, switch and select something."""
     session, browser = links.session, links.browser
-    session.set_global("Fixed Frame", "base_footprint")
-    session.set_joint_positions({LEFT: 1.25})
+    session.document.set_option("Fixed Frame", "base_footprint")
+    session.robot.set_positions({LEFT: 1.25})
     browser.view.set_kind("rviz_default_plugins/XYOrbit")
     browser.view.set("Distance", 2.5)
     browser.view.set("Focal Point", (0.5, -0.25, 0.0))
@@ -89,7 +88,7 @@ def change(links: Links) -> None:
         "RobotModel/Links/=base_link": False,
     }
     for name, on in wanted.items():
-        switches(session)[name].set(on)
+        session.toggles.all()[name].set(on)
     browser.tools.select(
         {Selectable("link", "base_link"), Selectable("frame", "front_caster")}, None
     )
@@ -128,10 +127,10 @@ def test_a_link_shows_the_same_in_another_program(
         client = protocol(other.viser.get_port())
         client.settle(other.viser)
         session = session_of(other)
-        client.wait_until(lambda: bool(session.browsers))
-        (browser,) = session.browsers.values()
+        client.wait_until(lambda: bool(session.clients.all))
+        (browser,) = session.clients.all.values()
         there = Links(session, browser)
-        session.set_joint_positions({RIGHT: 0.5})
+        session.robot.set_positions({RIGHT: 0.5})
         assert there.open(parts) == "Opened the link"
         assert state(there) == wanted
 
@@ -142,10 +141,10 @@ def test_a_link_brings_its_own_program_back_and_is_one_step_to_undo(
     change(links)
     parts, wanted = links.copy(), state(links)
     session = links.session
-    session.center_joints()
-    session.set_joint_positions({RIGHT: 1.0})
-    switches(session)["Grid/Enabled"].set(True)
-    switches(session)["TF/Show Arrows"].set(False)
+    session.robot.center()
+    session.robot.set_positions({RIGHT: 1.0})
+    session.toggles.all()["Grid/Enabled"].set(True)
+    session.toggles.all()["TF/Show Arrows"].set(False)
     links.browser.tools.select(set(), None)
     before = state(links)
     assert links.open(parts) == "Opened the link"
@@ -199,8 +198,8 @@ def test_values_that_cannot_be_are_named_and_the_rest_is_shown(links: Links) -> 
 def test_a_link_of_another_robot_says_what_is_not_here_and_changes_only_what_it_names(
     links: Links,
 ) -> None:
-    links.session.set_joint_positions({LEFT: 1.0})
-    switches(links.session)["TF/Show Names"].set(False)
+    links.session.robot.set_positions({LEFT: 1.0})
+    links.session.toggles.all()["TF/Show Names"].set(False)
     before = state(links)
     names = [f"joint_{n}" for n in range(6)]
     said = links.open(
@@ -243,13 +242,13 @@ def test_a_position_at_a_limit_stays_inside_it(
         client = protocol(viz.viser.get_port())
         client.settle(viz.viser)
         session = session_of(viz)
-        client.wait_until(lambda: bool(session.browsers))
-        (browser,) = session.browsers.values()
+        client.wait_until(lambda: bool(session.clients.all))
+        (browser,) = session.clients.all.values()
         links = Links(session, browser)
-        session.set_joint_positions({"elbow": 1.5707963})
+        session.robot.set_positions({"elbow": 1.5707963})
         parts = links.copy()
         assert ["j.elbow", "1.5707963"] in parts
-        session.set_joint_positions({"elbow": 0.1234567})
+        session.robot.set_positions({"elbow": 0.1234567})
         assert ["j.elbow", "0.123457"] in links.copy()
         assert links.open(parts) == "Opened the link"
         assert dict(viz.joint_positions) == {"elbow": 1.5707963}
@@ -257,13 +256,13 @@ def test_a_position_at_a_limit_stays_inside_it(
 
 def test_two_displays_of_one_name_are_two_in_a_link(links: Links) -> None:
     session = links.session
-    (grid, *_) = session.config.displays
-    copy = session.duplicate_display(grid)
-    session.rename_display(copy, grid.name)
-    switches(session)["Grid*2/Enabled"].set(False)
+    (grid, *_) = session.document.config.displays
+    copy = session.display_edits.duplicate_display(grid)
+    session.display_edits.rename_display(copy, grid.name)
+    session.toggles.all()["Grid*2/Enabled"].set(False)
     parts = links.copy()
     assert ["show.Grid*2/Enabled", "0"] in parts
-    switches(session)["Grid*2/Enabled"].set(True)
+    session.toggles.all()["Grid*2/Enabled"].set(True)
     assert links.open(parts) == "Opened the link"
     assert grid.enabled and not copy.enabled
 
@@ -275,8 +274,8 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
         client = protocol(viz.viser.get_port())
         client.settle(viz.viser)
         session = session_of(viz)
-        client.wait_until(lambda: bool(session.browsers))
-        (browser,) = session.browsers.values()
+        client.wait_until(lambda: bool(session.clients.all))
+        (browser,) = session.clients.all.values()
         links = Links(session, browser)
         assert all(command.client_local for command in links.panel.commands())
         only_view = [*ORBIT, *END]
@@ -292,10 +291,10 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
 
 
 def test_a_page_without_the_joints_panel_shows_the_view_and_moves_no_joint(
-    session: Session, browser: Browser
+    session: Session, browser: Client
 ) -> None:
     links = Links(session, browser, joints=False)
-    session.set_joint_positions({LEFT: 1.0})
+    session.robot.set_positions({LEFT: 1.0})
     said = links.open([*ORBIT, [f"j.{LEFT}", "0.5"], [f"j.{RIGHT}", "1"], *END])
     assert said.endswith("not all of it: this page has no panel that moves joints")
     assert state(links)["joints"] == {LEFT: 1.0, RIGHT: 0.0}
@@ -305,8 +304,8 @@ def test_a_page_without_the_joints_panel_shows_the_view_and_moves_no_joint(
 def test_another_config_begins_with_its_own_switches(
     links: Links, session: Session
 ) -> None:
-    config = session.config.copy()
-    switches(session)["Grid/Enabled"].set(False)
+    config = session.document.config.copy()
+    session.toggles.all()["Grid/Enabled"].set(False)
     config.displays[0].set_enabled(False)
-    session.set_config(config)
+    session.document.replace(config)
     assert not [name for name, _ in links.copy() if name.startswith("show.")]

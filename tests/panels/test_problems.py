@@ -26,7 +26,7 @@ def remade() -> list[Panel]:
 
 @pytest.fixture
 def panel(session: Session, remade: list[Panel]) -> ProblemsPanel:
-    return ProblemsPanel(session, remade.append)
+    return ProblemsPanel(session.problems, remade.append)
 
 
 def listed(panel: ProblemsPanel) -> list[Row]:

@@ -11,7 +11,7 @@ from sambot_viz import Visualizer, load_robot
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.panels.selection import SHOWN, SelectionPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 POST = """<robot name="post">
   <link name="foot">
@@ -27,7 +27,7 @@ RIGHT = Selectable("link", "drivewhl_r_link")
 
 
 @pytest.fixture
-def panel(session: Session, browser: Browser) -> SelectionPanel:
+def panel(session: Session, browser: Client) -> SelectionPanel:
     return SelectionPanel(session, browser, lambda _: None)
 
 
@@ -40,7 +40,7 @@ def test_nothing_is_selected_at_first(panel: SelectionPanel) -> None:
     assert "Choose Select" in row.value
 
 
-def test_a_link_has_its_facts(panel: SelectionPanel, browser: Browser) -> None:
+def test_a_link_has_its_facts(panel: SelectionPanel, browser: Client) -> None:
     browser.tools.select({LEFT}, None)
     found = facts(panel)
     assert found["Position"] == "-0.12; 0.18; -0.05 m"
@@ -52,7 +52,7 @@ def test_a_link_has_its_facts(panel: SelectionPanel, browser: Browser) -> None:
 
 
 def test_a_motion_changes_the_values_only(
-    panel: SelectionPanel, browser: Browser, viz: Visualizer, session: Session
+    panel: SelectionPanel, browser: Client, viz: Visualizer, session: Session
 ) -> None:
     browser.tools.select({LEFT}, None)
     before = rows_of(panel)
@@ -65,7 +65,7 @@ def test_a_motion_changes_the_values_only(
 
 
 def test_poses_are_shown_in_a_chosen_frame(
-    panel: SelectionPanel, browser: Browser
+    panel: SelectionPanel, browser: Client
 ) -> None:
     browser.tools.select({LEFT}, None)
     edit(panel, "selection/frame", "drivewhl_l_link")
@@ -74,7 +74,7 @@ def test_poses_are_shown_in_a_chosen_frame(
     assert "nowhere" in facts(panel)["Pose"]
 
 
-def test_two_items_are_so_far_apart(panel: SelectionPanel, browser: Browser) -> None:
+def test_two_items_are_so_far_apart(panel: SelectionPanel, browser: Client) -> None:
     browser.tools.select({LEFT, RIGHT}, None)
     found = facts(panel)
     assert found["Distance"].startswith("0.36 m, from ")
@@ -83,7 +83,7 @@ def test_two_items_are_so_far_apart(panel: SelectionPanel, browser: Browser) -> 
     assert "Distance" not in facts(panel)
 
 
-def test_three_items_come_folded(panel: SelectionPanel, browser: Browser) -> None:
+def test_three_items_come_folded(panel: SelectionPanel, browser: Client) -> None:
     browser.tools.select({LEFT, RIGHT}, None)
     heads = [row for row in panel.rows() if row.kind == "group"]
     assert [row.expanded for row in heads] == [True, True]
@@ -93,7 +93,7 @@ def test_three_items_come_folded(panel: SelectionPanel, browser: Browser) -> Non
 
 
 def test_a_long_selection_says_how_many_more_there_are(
-    panel: SelectionPanel, browser: Browser
+    panel: SelectionPanel, browser: Client
 ) -> None:
     many = {Selectable("frame", f"f{number}") for number in range(SHOWN + 2)}
     browser.tools.select(many, None)
@@ -101,7 +101,7 @@ def test_a_long_selection_says_how_many_more_there_are(
 
 
 def test_the_body_has_a_mass_and_children(
-    panel: SelectionPanel, browser: Browser, session: Session, tmp_path: Path
+    panel: SelectionPanel, browser: Client, session: Session, tmp_path: Path
 ) -> None:
     model = tmp_path / "post.urdf"
     model.write_text(POST, "utf-8")

@@ -6,9 +6,9 @@ from panel_rows import data_of
 
 from sambot_viz.panels.session_info import StatusBarPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 
-def test_nothing_is_being_read_at_rest(session: Session, browser: Browser) -> None:
-    assert session.context.assets.wait(30.0)
-    assert data_of(StatusBarPanel(session))["statusbar/progress"] is None
+def test_nothing_is_being_read_at_rest(session: Session, browser: Client) -> None:
+    assert session.scene.context.assets.wait(30.0)
+    assert data_of(StatusBarPanel(session.scene))["statusbar/progress"] is None

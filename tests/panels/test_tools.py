@@ -9,13 +9,13 @@ from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 TOOLS = ("Interact", "Move Camera", "Select", "Focus Camera", "Measure")
 
 
 @pytest.fixture
-def panel(session: Session, browser: Browser) -> ToolsPanel:
+def panel(session: Session, browser: Client) -> ToolsPanel:
     return ToolsPanel(session, browser)
 
 
@@ -70,7 +70,7 @@ def test_fingers_have_a_hint_of_their_own(panel: ToolsPanel) -> None:
     assert hint["touch"].startswith("One finger")
 
 
-def test_what_is_selected_is_named(panel: ToolsPanel, browser: Browser) -> None:
+def test_what_is_selected_is_named(panel: ToolsPanel, browser: Client) -> None:
     assert data_of(panel)["tools/selected"] == []
     browser.tools.select({Selectable("link", "base_link")}, None)
     assert data_of(panel)["tools/selected"] == ["base_link"]
@@ -81,7 +81,7 @@ def test_there_is_no_such_tool(panel: ToolsPanel) -> None:
         edit(panel, "tools/press", ["Paint"])
 
 
-def test_the_colour_of_measure_is_a_row(session: Session, browser: Browser) -> None:
+def test_the_colour_of_measure_is_a_row(session: Session, browser: Client) -> None:
     panel = ToolPropertiesPanel(session, browser)
     rows = rows_of(panel)
     assert rows["tool_properties/Measure"].name == "Measure"

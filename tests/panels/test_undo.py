@@ -12,7 +12,7 @@ from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 GRID = "rviz_default_plugins/Grid"
 
@@ -23,7 +23,7 @@ def displays(session: Session) -> DisplaysPanel:
 
 
 @pytest.fixture
-def panel(session: Session, browser: Browser, displays: DisplaysPanel) -> UndoPanel:
+def panel(session: Session, browser: Client, displays: DisplaysPanel) -> UndoPanel:
     return UndoPanel(session, browser, displays)
 
 
@@ -33,13 +33,13 @@ def touched(panel: UndoPanel) -> Any:
 
 
 def test_the_display_that_undo_or_redo_touches_is_named(
-    panel: UndoPanel, session: Session, browser: Browser, displays: DisplaysPanel
+    panel: UndoPanel, session: Session, browser: Client, displays: DisplaysPanel
 ) -> None:
-    first = session.config.displays[0]
+    first = session.document.config.displays[0]
     changes: tuple[Callable[[], object], ...] = (
-        lambda: session.rename_display(first, "Other"),
-        lambda: session.move_display(first, 1, None),
-        lambda: session.remove_display(first),
+        lambda: session.display_edits.rename_display(first, "Other"),
+        lambda: session.display_edits.move_display(first, 1, None),
+        lambda: session.display_edits.remove_display(first),
     )
     for change in changes:
         with session.history.acting(browser.client_id):
@@ -51,11 +51,13 @@ def test_the_display_that_undo_or_redo_touches_is_named(
 
 
 def test_a_display_that_is_not_there_after_it_is_not_named(
-    panel: UndoPanel, session: Session, browser: Browser, displays: DisplaysPanel
+    panel: UndoPanel, session: Session, browser: Client, displays: DisplaysPanel
 ) -> None:
     makers: tuple[Callable[[], Any], ...] = (
-        lambda: session.add_display(GRID),
-        lambda: session.duplicate_display(session.config.displays[0]),
+        lambda: session.display_edits.add_display(GRID),
+        lambda: session.display_edits.duplicate_display(
+            session.document.config.displays[0]
+        ),
     )
     for make in makers:
         with session.history.acting(browser.client_id):
@@ -67,11 +69,13 @@ def test_a_display_that_is_not_there_after_it_is_not_named(
 
 
 def test_each_undo_is_told_from_the_one_before(
-    panel: UndoPanel, session: Session, browser: Browser
+    panel: UndoPanel, session: Session, browser: Client
 ) -> None:
     for name in ("One", "Two"):
         with session.history.acting(browser.client_id):
-            session.rename_display(session.config.displays[0], name)
+            session.display_edits.rename_display(
+                session.document.config.displays[0], name
+            )
     edit(panel, "edit/undo", None)
     before = data_of(panel)["edit/touched"]
     edit(panel, "edit/undo", None)
@@ -80,10 +84,10 @@ def test_each_undo_is_told_from_the_one_before(
 
 
 def test_undo_and_redo_say_what_they_did(
-    panel: UndoPanel, session: Session, browser: Browser
+    panel: UndoPanel, session: Session, browser: Client
 ) -> None:
     with session.history.acting(browser.client_id):
-        session.set_global("Frame Rate", 10)
+        session.document.set_option("Frame Rate", 10)
     for row_id, said in (
         ("edit/undo", "Undone: Global Options: Frame Rate"),
         ("edit/redo", "Redone: Global Options: Frame Rate"),
@@ -94,17 +98,17 @@ def test_undo_and_redo_say_what_they_did(
 def test_other_edits_and_other_browsers_name_nothing(
     panel: UndoPanel,
     session: Session,
-    browser: Browser,
+    browser: Client,
     displays: DisplaysPanel,
-    join: Callable[[], Browser],
+    join: Callable[[], Client],
 ) -> None:
     with session.history.acting(browser.client_id):
-        session.set_global("Frame Rate", 10)
-        session.rename_display(session.config.displays[0], "One")
+        session.document.set_option("Frame Rate", 10)
+        session.display_edits.rename_display(session.document.config.displays[0], "One")
     other = UndoPanel(session, join(), displays)
     edit(panel, "edit/undo", None)
     assert touched(other) is None
     with session.history.acting(browser.client_id):
-        session.set_global("Frame Rate", 10)
+        session.document.set_option("Frame Rate", 10)
     edit(panel, "edit/undo", None)
     assert touched(panel) is None

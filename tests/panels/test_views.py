@@ -13,13 +13,13 @@ from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 ORBIT, ABOVE = "Orbit (rviz_default_plugins)", "TopDownOrtho (rviz_default_plugins)"
 
 
 @pytest.fixture
-def panel(session: Session, browser: Browser) -> ViewsPanel:
+def panel(session: Session, browser: Client) -> ViewsPanel:
     return ViewsPanel(session, browser)
 
 
@@ -51,7 +51,7 @@ def test_another_type_has_its_own_numbers(panel: ViewsPanel) -> None:
 
 
 def test_zero_goes_back_to_where_rviz_begins(
-    panel: ViewsPanel, browser: Browser
+    panel: ViewsPanel, browser: Client
 ) -> None:
     edit(panel, "view/Distance", 2.5)
     browser.view.zero()
@@ -59,7 +59,7 @@ def test_zero_goes_back_to_where_rviz_begins(
 
 
 def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
-    panel: ViewsPanel, session: Session, browser: Browser
+    panel: ViewsPanel, session: Session, browser: Client
 ) -> None:
     wanted = {
         "view/Target Frame": "base_link",
@@ -121,13 +121,13 @@ def test_the_page_is_told_what_its_mouse_has_to_know(panel: ViewsPanel) -> None:
 
 
 def test_an_unknown_type_is_shown_as_orbit_and_says_so(
-    session: Session, browser: Browser, panel: ViewsPanel, tmp_path: Path
+    session: Session, browser: Client, panel: ViewsPanel, tmp_path: Path
 ) -> None:
     assert "view/:unknown" not in rows_of(panel)
     path = tmp_path / "spiral.rviz"
     text = bundled.config_path().read_text("utf-8")
     path.write_text(text.replace("rviz_default_plugins/Orbit", "a/Spiral"), "utf-8")
-    session.set_config(load_config(path))
+    session.document.replace(load_config(path))
     browser.view.show()
     rows = rows_of(panel)
     assert "not known here" in rows["view/:unknown"].value
@@ -138,9 +138,9 @@ def test_an_unknown_type_is_shown_as_orbit_and_says_so(
 
 def test_with_follow_the_presenter_the_others_see_what_one_does(
     session: Session,
-    browser: Browser,
+    browser: Client,
     panel: ViewsPanel,
-    join: Callable[[], Browser],
+    join: Callable[[], Client],
 ) -> None:
     other = ViewsPanel(session, join())
     edit(panel, "view/Distance", 5.0)

@@ -193,10 +193,10 @@ def test_a_model_in_a_config_that_a_browser_has_saved_is_not_trusted(
             client.settle(viz.viser)
         assert client.shown(*MODEL) == str(opened / "code.xacro")
         viz.server.wait_for_meshes(20.0)
-        assert "second/RUN" not in session_of(viz).tree.frames
+        assert "second/RUN" not in session_of(viz).frames.tree.frames
     with Visualizer(opened / "robot.urdf", opened / "saved.rviz", port=0) as viz:
         viz.server.wait_for_meshes(20.0)
-        assert "second/RUN" in session_of(viz).tree.frames
+        assert "second/RUN" in session_of(viz).frames.tree.frames
 
 
 def test_a_copy_trusts_no_model_that_a_browser_has_named(
@@ -209,7 +209,7 @@ def test_a_copy_trusts_no_model_that_a_browser_has_named(
         copy.wait_until(lambda: "file/state" in copy.rows)
         assert copy.shown(*MODEL) == str(opened / "code.xacro")
         viz.server.wait_for_meshes(20.0)
-        assert "second/RUN" not in viz.server.sessions()[1].tree.frames
+        assert "second/RUN" not in viz.server.sessions()[1].frames.tree.frames
 
 
 def test_the_config_of_the_program_opens_no_other_folder(

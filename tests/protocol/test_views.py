@@ -15,7 +15,7 @@ from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
-from sambot_viz.session.browser.view import BrowserView
+from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.views.camera import FIELD_OF_VIEW
 
 FRESH = (3.0, 3.0, 3.0)
@@ -46,9 +46,9 @@ def viz(config: Callable[..., Path], make_viz: Callable[..., Visualizer]) -> Vis
     return make_viz(config=config(Distance=4.0, Yaw=0.0, Pitch=0.0))
 
 
-def views_of(viz: Visualizer) -> list[BrowserView]:
+def views_of(viz: Visualizer) -> list[ClientView]:
     """Those of all browsers, the first one first."""
-    return [browser.view for browser in session_of(viz).browsers.values()]
+    return [browser.view for browser in session_of(viz).clients.all.values()]
 
 
 Protocol = Callable[..., ProtocolClient]
@@ -94,7 +94,7 @@ def test_a_page_that_comes_back_from_above_stays_above(
     assert kept.view.kind == "rviz_default_plugins/TopDownOrtho"
     assert kept.values["Scale"] == pytest.approx(55.0, rel=1e-3)
     assert kept.values["X"] == pytest.approx(1.5, abs=1e-3)
-    assert session_of(viz).config.view.kind == ORBIT
+    assert session_of(viz).document.config.view.kind == ORBIT
 
 
 def test_the_echo_of_a_camera_is_no_move_but_a_mouse_is(
@@ -132,7 +132,7 @@ def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(
     first.settle(viser_server(viz))
     second.settle(viser_server(viz))
     assert told(second) == []
-    session_of(viz).signals.follow.set(True)
+    session_of(viz).clients.follow_presenter.set(True)
     report(first, (0.0, 3.0, 0.0))
     second.wait_until(lambda: told(second) != [])
     assert told(second)[-1] == pytest.approx([0, 3, 0], abs=1e-5)
@@ -195,7 +195,7 @@ def test_a_type_nobody_knows_is_shown_as_orbit_and_kept(
         assert not view.supported
         report(client, (0.0, 5.0, 0.0))
         client.settle(viser_server(viz))
-        document = session_of(viz).config
+        document = session_of(viz).document.config
         view.store()
         assert not document.modified
         view.set_kind("rviz_default_plugins/XYOrbit")
@@ -236,18 +236,18 @@ def test_saved_views_are_copies_that_can_be_named_and_removed(
     viz: Visualizer, protocol: Protocol
 ) -> None:
     join(viz, protocol, FRESH)
-    (view,), config = views_of(viz), session_of(viz).config
+    (view,), config = views_of(viz), session_of(viz).document.config
     saved = view.save()
     assert saved.name == "Orbit"
     view.set("Distance", 9.0)
-    view.rename(saved, "  near ")
-    view.rename(saved, "   ")
+    view.saved.rename(saved, "  near ")
+    view.saved.rename(saved, "   ")
     assert [view.name for view in config.saved_views] == ["near"]
     view.use(saved)
     assert view.values["Distance"] == 4.0
     view.zero()
     assert (view.values["Distance"], saved.get("Distance")) == (10.0, 4.0)
-    view.remove(saved)
+    view.saved.remove(saved)
     assert config.saved_views == ()
 
 

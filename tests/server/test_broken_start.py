@@ -18,7 +18,6 @@ from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.session import Session
-from sambot_viz.session.shown_problems import last_good_note, problems_of
 from sambot_viz.session.signals import connect
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
@@ -55,7 +54,7 @@ class Shown:
 
     @property
     def codes(self) -> list[str]:
-        return [problem.code for problem in problems_of(self.session)]
+        return [problem.code for problem in self.session.problems.shown.value.listed]
 
     @property
     def config_codes(self) -> list[str]:
@@ -121,17 +120,19 @@ def test_a_broken_model_is_shown_by_its_problem_and_by_its_robot_once_it_is_fixe
     model.write_text(broken)
     with showing(model, joint_positions={"j": 0.5}) as shown:
         assert code in shown.codes
-        assert shown.session.robot is None
-        assert "appears as soon as it is fixed" in last_good_note(shown.session)
+        assert shown.session.robot.model is None
+        assert (
+            "appears as soon as it is fixed" in shown.session.problems.shown.value.note
+        )
 
         (tmp_path / fix).parent.mkdir(exist_ok=True)
         (tmp_path / fix).write_text(content)
 
-        shown.wait_for(lambda: shown.session.robot is not None)
+        shown.wait_for(lambda: shown.session.robot.model is not None)
         shown.wait_for(lambda: code not in shown.codes)
-        assert last_good_note(shown.session) == ""
+        assert shown.session.problems.shown.value.note == ""
         assert dict(shown.viz.joint_positions) == {"j": 0.5}
-        assert shown.session.context.fixed_frame == "hull"
+        assert shown.session.scene.context.fixed_frame == "hull"
         assert not shown.session.history.modified.value
 
 
@@ -149,7 +150,7 @@ def test_a_file_included_by_an_included_one_is_followed_before_the_first_robot(
         assert shown.codes == ["xacro-undefined-name"]
         prop = '<xacro:property name="x" value="1"/>'
         (tmp_path / "b.xacro").write_text(part(prop + JOINT))
-        shown.wait_for(lambda: shown.session.robot is not None)
+        shown.wait_for(lambda: shown.session.robot.model is not None)
 
 
 def test_the_broken_model_of_a_package_folder_is_followed(tmp_path: Path) -> None:
@@ -161,7 +162,7 @@ def test_the_broken_model_of_a_package_folder_is_followed(tmp_path: Path) -> Non
     with showing(package) as shown:
         assert shown.codes == ["xml-root-not-closed"]
         model.write_text(GOOD)
-        shown.wait_for(lambda: shown.session.robot is not None)
+        shown.wait_for(lambda: shown.session.robot.model is not None)
 
 
 def test_a_save_between_opening_and_following_is_not_missed(tmp_path: Path) -> None:
@@ -172,7 +173,7 @@ def test_a_save_between_opening_and_following_is_not_missed(tmp_path: Path) -> N
     model.write_text(GOOD)
     shown = Shown(inputs, [])
     with shown.viz:
-        shown.wait_for(lambda: shown.session.robot is not None)
+        shown.wait_for(lambda: shown.session.robot.model is not None)
 
 
 def test_what_is_wrong_is_reported_when_it_changes(tmp_path: Path) -> None:
@@ -182,7 +183,7 @@ def test_what_is_wrong_is_reported_when_it_changes(tmp_path: Path) -> None:
         model.write_text(GOOD.replace("</robot>", ""))
         shown.wait_for(lambda: shown.codes == ["xml-root-not-closed"])
         model.write_text(GOOD)
-        shown.wait_for(lambda: shown.session.robot is not None)
+        shown.wait_for(lambda: shown.session.robot.model is not None)
         shown.viz.stop()
         codes = [[problem.code for problem in each] for each in shown.reports]
         assert codes == [["xml-root-not-closed"], []]
@@ -197,7 +198,7 @@ def test_a_start_position_that_does_not_fit_the_fixed_model_is_a_problem(
         model.write_text(GOOD)
         shown.wait_for(lambda: shown.codes == ["start-position-refused"])
         model.write_text(GOOD.replace('"j"', '"k"'))
-        shown.wait_for(lambda: shown.session.robot is not None)
+        shown.wait_for(lambda: shown.session.robot.model is not None)
         shown.wait_for(lambda: shown.codes == [])
 
 
@@ -212,7 +213,7 @@ def test_a_private_session_that_is_open_gets_the_robot_in_its_own_frame(
         client.wait_until(lambda: "no joint has it" in str(client.messages))
         model.write_text(GOOD)
         client.wait_until(lambda: client.types()["LabelMessage"] == 2)
-        assert viz.server.sessions()[0].context.fixed_frame == "hull"
+        assert viz.server.sessions()[0].scene.context.fixed_frame == "hull"
 
 
 def test_a_broken_config_gives_the_default_displays_and_cannot_be_written_over(
@@ -224,16 +225,16 @@ def test_a_broken_config_gives_the_default_displays_and_cannot_be_written_over(
     with showing(model, config) as shown:
         session = shown.session
         assert shown.config_codes
-        assert "its displays appear as soon as" in last_good_note(session)
-        assert len(session.displays) == 3
-        assert session.context.fixed_frame == "hull"
-        assert session.config.file == str(bundled.config_path())
+        assert "its displays appear as soon as" in session.problems.shown.value.note
+        assert len(session.scene.displays) == 3
+        assert session.scene.context.fixed_frame == "hull"
+        assert session.document.config.file == str(bundled.config_path())
 
         text = bundled.config_path().read_text()
         config.write_text(text.replace("base_link", "arm"))
 
-        shown.wait_for(lambda: session.context.fixed_frame == "arm")
-        assert session.config.file == str(config)
+        shown.wait_for(lambda: session.scene.context.fixed_frame == "arm")
+        assert session.document.config.file == str(config)
         shown.wait_for(lambda: not shown.config_codes)
 
 
@@ -242,11 +243,11 @@ def test_what_was_changed_in_the_default_displays_is_kept(tmp_path: Path) -> Non
     model.write_text(GOOD)
     config.write_text("{")
     with showing(model, config) as shown:
-        shown.session.set_global("Frame Rate", 12)
+        shown.session.document.set_option("Frame Rate", 12)
         config.write_text(bundled.config_path().read_text())
         shown.wait_for(lambda: "config-changes-kept" in shown.codes)
-        assert shown.session.config.file == str(bundled.config_path())
-        assert shown.session.config.global_options.get("Frame Rate") == 12
+        assert shown.session.document.config.file == str(bundled.config_path())
+        assert shown.session.document.config.global_options.get("Frame Rate") == 12
 
 
 def test_both_files_may_be_broken(tmp_path: Path) -> None:
@@ -255,11 +256,11 @@ def test_both_files_may_be_broken(tmp_path: Path) -> None:
     config.write_text("{")
     with showing(model, config) as shown:
         model.write_text(GOOD)
-        shown.wait_for(lambda: shown.session.robot is not None)
-        assert shown.session.context.fixed_frame == "hull"
+        shown.wait_for(lambda: shown.session.robot.model is not None)
+        assert shown.session.scene.context.fixed_frame == "hull"
         text = bundled.config_path().read_text()
         config.write_text(text.replace("base_link", "arm"))
-        shown.wait_for(lambda: shown.session.context.fixed_frame == "arm")
+        shown.wait_for(lambda: shown.session.scene.context.fixed_frame == "arm")
         shown.wait_for(lambda: not shown.config_codes)
 
 

@@ -28,7 +28,7 @@ def copy(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
     session = session_of(viz)
     viz.set_joint_positions({LEFT: 1.0})
     viz.set_static_transform("base_link", "lidar", xyz=(0.1, 0.0, 0.2))
-    session.set_enabled(session.config.displays[0], False)
+    session.display_edits.set_enabled(session.document.config.displays[0], False)
     client = protocol(viz.viser.get_port(), path="/copy")
     client.wait_until(lambda: len(viz.server.sessions()) == 2)
     client.wait_until(lambda: "role/me" in client.rows)
@@ -44,8 +44,8 @@ def own(viz: Visualizer) -> Session:
 def test_a_copy_begins_as_the_class_is(viz: Visualizer, copy: ProtocolClient) -> None:
     shared, private = viz.server.sessions()
     assert copy.shown("joints", LEFT) == 1.0
-    assert private.config.to_yaml() == shared.config.to_yaml()
-    assert dict(private.added.all) == dict(shared.added.all)
+    assert private.document.config.to_yaml() == shared.document.config.to_yaml()
+    assert dict(private.frames.added) == dict(shared.frames.added)
     assert copy.row("people/state")["value"]["copy"] is True
     assert copy.row("role/me")["value"]["control"] is True
 
@@ -75,15 +75,15 @@ def test_what_is_done_in_a_copy_stays_there(
     grid = copy.row_named("displays", "RobotModel")["id"]
     copy.edit(grid, False)
     copy.settle(viser_server(viz))
-    assert own(viz).joints is not None
-    assert own(viz).joints.positions[LEFT] == -1.0
+    assert own(viz).robot.joints is not None
+    assert own(viz).robot.joints.positions[LEFT] == -1.0
     assert viz.joint_positions[LEFT] == 1.0
     shared, private = viz.server.sessions()
-    assert private.config.to_yaml() != shared.config.to_yaml()
+    assert private.document.config.to_yaml() != shared.document.config.to_yaml()
     copy.act("edit/undo")
     copy.act("edit/undo")
     copy.settle(viser_server(viz))
-    assert own(viz).joints.positions[LEFT] == 1.0
+    assert own(viz).robot.joints.positions[LEFT] == 1.0
 
 
 def test_a_copy_has_no_disk(viz: Visualizer, copy: ProtocolClient) -> None:
@@ -98,7 +98,7 @@ def test_a_program_moves_the_robot_of_the_class_only(
     viz.set_static_transform("base_link", "camera")
     copy.settle(viser_server(viz))
     assert copy.shown("joints", LEFT) == 1.0
-    assert "camera" not in own(viz).tree
+    assert "camera" not in own(viz).frames.tree
 
 
 def test_a_robot_that_was_edited_is_shown_in_copies_too(

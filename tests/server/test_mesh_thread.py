@@ -84,7 +84,7 @@ class Opened:
 
     @property
     def statuses(self) -> set[str]:
-        return {d.status.level for d in self.session.displays}
+        return {d.status.level for d in self.session.scene.displays}
 
     def wait(self) -> None:
         self.viz._server.wait_for_meshes(20)  # pyright: ignore[reportPrivateUsage]
@@ -127,7 +127,7 @@ def test_meshes_are_drawn_as_they_come_and_the_status_is_right_at_the_end(
     opened.wait()
     assert opened.meshes == COUNT
     assert opened.statuses == {"Ok"}
-    assert opened.session.context.assets.progress is None
+    assert opened.session.scene.context.assets.progress is None
 
 
 def test_a_broken_mesh_has_a_stand_in_a_status_and_a_problem(opened: Opened) -> None:
@@ -136,7 +136,7 @@ def test_a_broken_mesh_has_a_stand_in_a_status_and_a_problem(opened: Opened) -> 
     opened.wait()
     assert opened.meshes == COUNT - 1
     assert "Error" in opened.statuses
-    problems = [p for d in opened.session.displays for p in d.problems]
+    problems = [p for p in opened.session.problems.shown.value.listed if p.file]
     assert [Path(p.file or "").name for p in problems] == ["2.stl"]
     assert any("2.stl" in str(m.fields) for m in opened.client.messages)
 
@@ -224,10 +224,10 @@ def test_a_listener_that_fails_ends_neither_the_thread_nor_the_others(
 def test_a_session_that_cannot_draw_reports_it_and_draws_the_next_mesh(
     opened: Opened, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assets, session = opened.session.context.assets, opened.session
+    assets, session = opened.session.scene.context.assets, opened.session
 
     def fail() -> None:
-        monkeypatch.setattr(assets, "_on_read", session._assets_read)
+        monkeypatch.setattr(assets, "_on_read", session.scene._assets_read)
         raise ZeroDivisionError("it cannot be drawn")
 
     monkeypatch.setattr(assets, "_on_read", fail)

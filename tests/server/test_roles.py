@@ -59,12 +59,12 @@ def everything(viz: Visualizer, session: Session) -> object:
     """All that the browsers of a session have in common."""
     return (
         dict(viz.joint_positions),
-        session.config.to_yaml(),
-        sorted(session.tree.frames),
-        dict(session.added.all),
+        session.document.config.to_yaml(),
+        sorted(session.frames.tree.frames),
+        dict(session.frames.added),
         session.poses.names,
-        session.signals.follow.value,
-        session.motion.turning,
+        session.clients.follow_presenter.value,
+        session.motion.turning.value,
         session.history.modified.value,
     )
 
@@ -187,7 +187,7 @@ def test_the_wheel_is_free_when_its_guest_has_left(
     teacher.act("role/give", number)
     settle(teacher)
     guest.close()
-    teacher.wait_until(lambda: len(session.browsers) == 1)
+    teacher.wait_until(lambda: len(session.clients.all) == 1)
     settle(teacher)
     state = teacher.row("people/state")["value"]
     assert (state["control"], state["given"]) == (["Presenter"], False)
@@ -215,7 +215,7 @@ def test_a_wrong_presenter_token_does_not_drive(
 ) -> None:
     with pytest.raises(Exception, match="401"):
         protocol(viz.viser.get_port(), path="/?token=teach-the-clasS")
-    assert not session.browsers
+    assert not session.clients.all
 
 
 def test_a_private_session_has_no_presenter() -> None:

@@ -143,7 +143,7 @@ def test_a_private_page_that_opens_during_a_save_shows_what_was_saved(
         saves[0].join(10.0)
         until(lambda: len(server.sessions()) == 1)
         (session,) = server.sessions()
-        until(lambda: session.robot is new)
+        until(lambda: session.robot.model is new)
         assert session.problems.of_saves["model"] == (problem,)
 
 

@@ -19,7 +19,6 @@ from sambot_viz.errors import Problem
 from sambot_viz.server import watch
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
-from sambot_viz.session.shown_problems import last_good_note
 from sambot_viz.session.signals import connect
 
 Changes = queue.Queue[frozenset[Path]]
@@ -276,7 +275,9 @@ def test_what_a_save_includes_newly_is_followed_from_then_on(
 
 def test_a_saved_config_is_shown(sam_bot: Followed) -> None:
     sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
-    sam_bot.wait_for(lambda: sam_bot.session.context.fixed_frame == "front_caster")
+    sam_bot.wait_for(
+        lambda: sam_bot.session.scene.context.fixed_frame == "front_caster"
+    )
     assert sam_bot.failed == []
 
 
@@ -286,31 +287,33 @@ def test_a_broken_config_keeps_the_old_one_until_it_is_fixed(
     content = sam_bot.config.read_text("utf-8")
     sam_bot.config.write_text("{", "utf-8")
     sam_bot.wait_for(lambda: sam_bot.failed)
-    assert len(sam_bot.session.displays) > 1
+    assert len(sam_bot.session.scene.displays) > 1
     sam_bot.config.write_text(content, "utf-8")
     sam_bot.wait_for(lambda: not sam_bot.failed)
 
 
 def test_changes_made_in_the_page_are_not_thrown_away(sam_bot: Followed) -> None:
-    sam_bot.session.set_global("Frame Rate", 12)
+    sam_bot.session.document.set_option("Frame Rate", 12)
     sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
     sam_bot.wait_for(lambda: sam_bot.failed)
     assert sam_bot.failed == ["config-changes-kept"]
-    assert sam_bot.session.config.global_options.get("Frame Rate") == 12
-    assert sam_bot.session.context.fixed_frame == "base_link"
-    sam_bot.session.config.save(sam_bot.config)
+    assert sam_bot.session.document.config.global_options.get("Frame Rate") == 12
+    assert sam_bot.session.scene.context.fixed_frame == "base_link"
+    sam_bot.session.document.config.save(sam_bot.config)
     sam_bot.wait_for(lambda: not sam_bot.failed)
-    assert sam_bot.session.context.fixed_frame == "base_link"
+    assert sam_bot.session.scene.context.fixed_frame == "base_link"
 
 
 def test_a_view_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown(
     sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
 ) -> None:
     protocol(int(sam_bot.viz.url.rsplit(":", 1)[1])).settle(sam_bot.viz.viser)
-    (browser,) = sam_bot.session.browsers.values()
+    (browser,) = sam_bot.session.clients.all.values()
     browser.view.set("Distance", 7.5)
     sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
-    sam_bot.wait_for(lambda: sam_bot.session.context.fixed_frame == "front_caster")
+    sam_bot.wait_for(
+        lambda: sam_bot.session.scene.context.fixed_frame == "front_caster"
+    )
     assert sam_bot.failed == []
     assert browser.view.values["Distance"] == 7.5
 
@@ -323,7 +326,9 @@ def test_another_view_in_the_file_moves_the_cameras(
     mark = client.mark()
     sam_bot.save("Value: Orbit (rviz)", "Yaw: 1.5", sam_bot.config)
     client.wait_until(lambda: client.types(mark)["SetCameraPositionMessage"] > 0)
-    assert sam_bot.session.config.view.get("Yaw") == pytest.approx(1.5, abs=0.01)
+    assert sam_bot.session.document.config.view.get("Yaw") == pytest.approx(
+        1.5, abs=0.01
+    )
 
 
 def test_a_saved_link_is_the_only_one_that_is_sent_again(
@@ -435,9 +440,9 @@ def test_a_model_that_is_deleted_is_said_to_be_gone(sam_bot: Followed) -> None:
     content = sam_bot.model.read_text("utf-8")
     sam_bot.model.unlink()
     gone = "Showing the last good version: sam_bot.urdf.xacro is gone."
-    sam_bot.wait_for(lambda: last_good_note(sam_bot.session) == gone)
+    sam_bot.wait_for(lambda: sam_bot.session.problems.shown.value.note == gone)
     replace(sam_bot.model, content)
-    sam_bot.wait_for(lambda: last_good_note(sam_bot.session) == "")
+    sam_bot.wait_for(lambda: sam_bot.session.problems.shown.value.note == "")
 
 
 def test_a_session_that_fails_does_not_keep_the_others_from_a_save(
@@ -458,8 +463,8 @@ def test_a_session_that_fails_does_not_keep_the_others_from_a_save(
             clients.append(protocol(viz.viser.get_port()))
             clients[-1].wait_until(lambda: clients[-1].types()["BoxMessage"] > 0)
         first = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-        for name in ("show_robot", "refresh"):
-            monkeypatch.setattr(first, name, fail)
+        monkeypatch.setattr(first, "show_robot", fail)
+        monkeypatch.setattr(first.scene, "refresh", fail)
         monkeypatch.setattr(first.problems, "set_saves", fail)
         marks = [client.mark() for client in clients]
         content = model.read_text("utf-8")

@@ -71,7 +71,7 @@ def test_a_fixed_frame_that_does_not_exist_is_reported_until_another_is_chosen(
     with Visualizer(model, config, port=0) as viz:
         assert codes(viz) == ["limit-in-degrees", "setup-fixed-frame"]
         assert session_of(viz).problems.of_model[1].line == 9
-        session_of(viz).set_global("Fixed Frame", "base_link")
+        session_of(viz).document.set_option("Fixed Frame", "base_link")
         assert codes(viz) == ["limit-in-degrees"]
 
 
@@ -89,11 +89,11 @@ def test_a_display_that_is_switched_on_or_removed_is_checked_again(
     config.write_text(CONFIG.replace("true", "false").replace("lnk", "link"))
     with Visualizer(model, config, port=0) as viz:
         session = session_of(viz)
-        (display,) = session.displays
+        (display,) = session.scene.displays
         assert codes(viz) == ["limit-in-degrees", "setup-no-robot-model"]
-        session.set_enabled(display, True)
+        session.display_edits.set_enabled(display, True)
         assert codes(viz) == ["limit-in-degrees"]
-        session.remove_display(display.config)
+        session.display_edits.remove_display(display.config)
         assert codes(viz) == ["limit-in-degrees", "setup-no-robot-model"]
 
 
@@ -116,6 +116,6 @@ def test_a_mesh_in_millimetres_is_reported_when_the_picture_has_read_it(
         '<mesh filename="p.obj"/></geometry></visual></link></robot>'
     )
     with Visualizer(model, port=0) as viz:
-        assert session_of(viz).context.assets.wait(20)
+        assert session_of(viz).scene.context.assets.wait(20)
         wait_for_workers()
         assert codes(viz) == ["mesh-size"]

@@ -27,7 +27,7 @@ def motion(session: Session) -> Iterator[Motion]:
 
 def pose_in_odom(viz: Visualizer, session: Session) -> tuple[float, float, float]:
     """x, y [m] and yaw [rad] of base_footprint in odom."""
-    session.draw_moved()
+    session.robot.draw_moved()
     T = viz.frames.lookup("odom", "base_footprint")
     assert T.translation[2] == pytest.approx(0.0)
     return (float(T.translation[0]), float(T.translation[1]), T.rpy[2])
@@ -59,22 +59,22 @@ def test_the_robot_drives_a_square_and_is_back_at_the_start(
     viz: Visualizer, session: Session, motion: Motion
 ) -> None:
     for _ in range(4):
-        motion.drive.set_velocity(0.5, 0.0)
+        session.drive.set_velocity(0.5, 0.0)
         motion.advance(2.0)
-        motion.drive.set_velocity(0.0, math.pi / 2)
+        session.drive.set_velocity(0.0, math.pi / 2)
         motion.advance(1.0)
     # It turns about the point between its wheels, and so comes back to the start.
     x, y, yaw = pose_in_odom(viz, session)
     assert (x, y) == pytest.approx((0.0, 0.0), abs=1e-9)
     assert math.remainder(yaw, 2 * math.pi) == pytest.approx(0.0, abs=1e-9)
-    corners = [(round(px, 3), round(py, 3)) for px, py in motion.drive.trail]
+    corners = [(round(px, 3), round(py, 3)) for px, py in session.drive.trail]
     assert (1.0 - 0.12, 1.0) in corners
 
 
 def test_an_arc_is_exact_whatever_the_step(
     viz: Visualizer, session: Session, motion: Motion
 ) -> None:
-    motion.drive.set_velocity(0.3, 0.7)
+    session.drive.set_velocity(0.3, 0.7)
     for dt in (0.1, 0.45, 0.7, 0.75):
         motion.advance(dt)
     x, y, yaw = pose_in_odom(viz, session)
@@ -87,11 +87,11 @@ def test_an_arc_is_exact_whatever_the_step(
 
 
 def test_driving_turns_the_wheels_by_the_way_they_roll(
-    viz: Visualizer, motion: Motion
+    viz: Visualizer, motion: Motion, session: Session
 ) -> None:
-    motion.drive.set_velocity(0.1, 0.0)
+    session.drive.set_velocity(0.1, 0.0)
     motion.advance(1.0)
-    wheels = motion.drive.wheels
+    wheels = session.drive.wheels
     assert wheels is not None
     for joint in (LEFT, RIGHT):
         assert viz.joint_positions[joint] == pytest.approx(0.1 / wheels.radius)
@@ -100,11 +100,11 @@ def test_driving_turns_the_wheels_by_the_way_they_roll(
 def test_reset_goes_back_and_odom_stays(
     viz: Visualizer, session: Session, motion: Motion
 ) -> None:
-    motion.drive.set_velocity(1.0, 0.5)
+    session.drive.set_velocity(1.0, 0.5)
     motion.advance(1.0)
-    motion.drive.reset()
+    session.drive.reset()
     assert pose_in_odom(viz, session) == pytest.approx((0.0, 0.0, 0.0))
-    assert len(motion.drive.trail) == 1
+    assert len(session.drive.trail) == 1
     assert viz.joint_positions[LEFT] == viz.joint_positions[RIGHT] == 0
     assert not motion.moving
 
@@ -112,17 +112,19 @@ def test_reset_goes_back_and_odom_stays(
 def test_a_reload_of_the_robot_keeps_it_where_it_drove(
     viz: Visualizer, session: Session, motion: Motion
 ) -> None:
-    motion.drive.set_velocity(1.0, 0.0)
+    session.drive.set_velocity(1.0, 0.0)
     motion.advance(1.5)
     before = pose_in_odom(viz, session)
-    assert session.robot is not None
-    session.show_robot(session.robot)
+    assert session.robot.model is not None
+    session.show_robot(session.robot.model)
     assert pose_in_odom(viz, session) == before == pytest.approx((1.5, 0.0, 0.0))
 
 
-def test_a_velocity_that_is_no_number_is_refused(motion: Motion) -> None:
+def test_a_velocity_that_is_no_number_is_refused(
+    motion: Motion, session: Session
+) -> None:
     with pytest.raises(JointError, match="cannot drive with v=nan"):
-        motion.drive.set_velocity(math.nan, 0.0)
+        session.drive.set_velocity(math.nan, 0.0)
 
 
 def test_a_turning_wheel_sends_its_pose_alone_and_nothing_when_it_stands(
@@ -154,5 +156,5 @@ def test_the_trail_is_drawn_without_panels(
 
     with Visualizer(port=0, panels=False) as viz:
         client = protocol(viz.viser.get_port())
-        session_of(viz).motion.drive.set_velocity(0.5, 0.0)
+        session_of(viz).drive.set_velocity(0.5, 0.0)
         client.wait_until(lambda: bool(trails(client)))

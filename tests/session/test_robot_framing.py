@@ -18,7 +18,7 @@ from sambot_viz.meshes.cache import Content, MeshCache
 from sambot_viz.options import Options
 from sambot_viz.server import sessions as sessions_module
 from sambot_viz.session import Session
-from sambot_viz.session.browser.view import BrowserView
+from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.views.camera import FILLED_HEIGHT, FILLED_WIDTH
 
 FRESH = (3.0, 3.0, 3.0)
@@ -37,8 +37,8 @@ def session_of(viz: Visualizer) -> Session:
     return viz.server.sessions()[0]
 
 
-def view_of(viz: Visualizer) -> BrowserView:
-    return list(session_of(viz).browsers.values())[-1].view
+def view_of(viz: Visualizer) -> ClientView:
+    return list(session_of(viz).clients.all.values())[-1].view
 
 
 def echo(client: ProtocolClient, size: tuple[int, int] = (640, 480)) -> None:
@@ -49,7 +49,7 @@ def echo(client: ProtocolClient, size: tuple[int, int] = (640, 480)) -> None:
 
 def filled(viz: Visualizer, size: tuple[int, int] = (640, 480)) -> tuple[float, float]:
     """Which parts of the width and the height the box around the robot fills."""
-    box = session_of(viz).rays.robot_box()
+    box = session_of(viz).picker.robot_box()
     assert box is not None
     camera = view_of(viz).camera
     corners = np.stack(np.meshgrid(*np.transpose(box)), axis=-1).reshape(-1, 3)

@@ -63,7 +63,7 @@ def test_threads_a_browser_and_reloads_together_end_in_one_state(
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
     right = client.id_of("joints", RIGHT)
-    robot = session.robot
+    robot = session.robot.model
     assert robot is not None
 
     def move() -> None:
@@ -99,8 +99,8 @@ def test_a_listener_that_fails_is_shown_and_the_others_are_called(
     def fail() -> None:
         raise RuntimeError("the panel is broken")
 
-    session.signals.joints.listeners.insert(0, fail)
-    connect([session.signals.joints], lambda: heard.append(1))
+    session.robot.positions.listeners.insert(0, fail)
+    connect([session.robot.positions], lambda: heard.append(1))
     with caplog.at_level(logging.ERROR):
         viz.set_joint_positions({LEFT: 0.5})
         viz.set_joint_positions({LEFT: 0.6})
@@ -140,8 +140,8 @@ def test_a_listener_may_stop_the_viewer(viz: Visualizer, session: Session) -> No
             stopped.set()
             viz.stop()
 
-    connect([session.signals.joints], stop)
-    session.worker.post(lambda: session.set_joint_positions({LEFT: 1.0}))
+    connect([session.robot.positions], stop)
+    session.worker.post(lambda: session.robot.set_positions({LEFT: 1.0}))
     assert stopped.wait(10)
     session.worker.join(10)
     assert not session.worker.is_alive()
@@ -155,14 +155,14 @@ def test_a_step_of_motion_that_fails_stops_the_motion_and_is_shown(
     def broken(dt: float) -> None:
         raise ZeroDivisionError("no time at all")
 
-    connect([session.signals.problems], shown.set)
+    connect([session.problems.shown], shown.set)
     with monkeypatch.context() as patch:
         patch.setattr(session.motion, "advance", broken)
         session.motion.turn(LEFT, 1.0)
         assert shown.wait(10)
     assert not session.motion.moving
     moved = threading.Event()
-    connect([session.signals.joints], moved.set)
+    connect([session.robot.positions], moved.set)
     session.motion.turn(LEFT, 1.0)
     assert moved.wait(10), "what is started later moves again"
 
@@ -178,7 +178,7 @@ def test_private_sessions_are_independent(
         first.edit(first.id_of("joints", LEFT), 0.5)
         first.settle(viz.viser)
         second.settle(viz.viser)
-        positions = [s.joints.positions[LEFT] for s in sessions if s.joints]
+        positions = [s.robot.joints.positions[LEFT] for s in sessions if s.robot.joints]
         assert sorted(positions) == [0.0, 0.5]
         assert second.shown("joints", LEFT) == 0.0
         first.close()
@@ -186,8 +186,8 @@ def test_private_sessions_are_independent(
         second.edit(second.id_of("joints", LEFT), -0.5)
         second.settle(viz.viser)
         (left,) = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
-        assert left.joints is not None
-        assert left.joints.positions[LEFT] == -0.5
+        assert left.robot.joints is not None
+        assert left.robot.joints.positions[LEFT] == -0.5
 
 
 def test_a_private_page_that_opens_during_a_save_shows_the_new_robot(
@@ -203,7 +203,9 @@ def test_a_private_page_that_opens_during_a_save_shows_the_new_robot(
             server.show_robot(robot)
             browser.settle(viz.viser)
             shown = {
-                s.robot.links.keys() >= {"claw"} for s in server.sessions() if s.robot
+                s.robot.model.links.keys() >= {"claw"}
+                for s in server.sessions()
+                if s.robot.model
             }
             assert shown == {robot is new}
 
@@ -215,7 +217,7 @@ def test_a_reload_keeps_joints_added_frames_and_the_place_in_odom(
         session = session_of(viz)
         viz.set_joint_positions({"shoulder": 0.5})
         viz.set_static_transform("hand", "camera", xyz=(0.1, 0, 0))
-        session.add_frame(
+        session.frames.add(
             "odom", "base", Transform.from_xyz_rpy((2, 0, 0)), static=False
         )
         arm.write_text(ARM.replace('xyz="1 0 0"', 'xyz="3 0 0"'), "utf-8")

@@ -22,7 +22,7 @@ def test_zeros_recorded_and_single_positions_count_in_this_order(
     ) as viz:
         assert viz.joint_positions == {LEFT: 0.1, RIGHT: 0.5}
         session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-        session.center_joints()
+        session.robot.center()
         assert viz.joint_positions == {LEFT: 1.0, RIGHT: 0.0}
 
 
@@ -35,11 +35,11 @@ def test_static_transforms_are_there_and_outlive_a_reload() -> None:
     text = "0.1 0 0.2 0 0 0 base_link base_laser"
     with Visualizer(port=0, static_transforms=[text]) as viz:
         session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
-        assert session.robot is not None
-        session.show_robot(session.robot)
+        assert session.robot.model is not None
+        session.show_robot(session.robot.model)
         T = viz.frames.lookup("base_link", "base_laser")
         assert T.translation.tolist() == [0.1, 0.0, 0.2]
-        session.remove_frame("base_laser")
+        session.frames.remove("base_laser")
         assert "base_laser" not in viz.frames
 
 
@@ -49,7 +49,7 @@ def test_a_frame_taken_from_a_joint_goes_back_to_it() -> None:
         before = viz.frames.lookup("base_link", "front_caster")
         viz.set_static_transform("map", "front_caster", (1.0, 0.0, 0.0))
         assert viz.frames.parent("front_caster") == "map"
-        session.remove_frame("front_caster")
+        session.frames.remove("front_caster")
         assert viz.frames.lookup("base_link", "front_caster") == before
         assert "map" not in viz.frames
 

@@ -15,9 +15,9 @@ from sambot_viz.displays.display import Display
 from sambot_viz.frames import Transform
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
-from sambot_viz.session.browser.saved_views import SavedViews
-from sambot_viz.session.document.drawn_scene import walk
+from sambot_viz.session.document.saved_views import SavedViews
 from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
+from sambot_viz.session.scene.scene import walk
 from sambot_viz.session.signals import connect
 from sambot_viz.session.undo import LIMIT
 
@@ -44,17 +44,17 @@ def viz(config: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
 
 
 def named(session: Session, name: str) -> DisplayConfig:
-    return next(d for d in session.config.displays if d.name == name)
+    return next(d for d in session.document.config.displays if d.name == name)
 
 
 def display(session: Session, name: str) -> Display:
-    found = session.display_of(named(session, name))
+    found = session.scene.display_of(named(session, name))
     assert found is not None
     return found
 
 
 def names(session: Session) -> list[str]:
-    return [d.name for d in session.config.displays]
+    return [d.name for d in session.document.config.displays]
 
 
 def act(
@@ -71,7 +71,9 @@ def alpha(session: Session) -> float:
 
 
 def set_alpha(session: Session, value: float) -> Callable[[], None]:
-    return lambda: session.set_property(display(session, "RobotModel"), "Alpha", value)
+    return lambda: session.display_edits.set_property(
+        display(session, "RobotModel"), "Alpha", value
+    )
 
 
 # One browser
@@ -80,7 +82,7 @@ def set_alpha(session: Session, value: float) -> Callable[[], None]:
 def test_ten_changes_undone_give_the_first_value_and_the_file_is_not_modified(
     session: Session,
 ) -> None:
-    before, text = alpha(session), session.config.to_yaml()
+    before, text = alpha(session), session.document.config.to_yaml()
     for step in range(10):
         act(session, A, set_alpha(session, 0.05 * (step + 1)))
     assert session.history.modified.value
@@ -88,7 +90,7 @@ def test_ten_changes_undone_give_the_first_value_and_the_file_is_not_modified(
     for _ in range(10):
         assert session.history.undo(A) == "RobotModel: Alpha"
     assert session.history.undo(A) is None
-    assert (alpha(session), session.config.to_yaml()) == (before, text)
+    assert (alpha(session), session.document.config.to_yaml()) == (before, text)
     assert not session.history.modified.value
     assert session.history.redo(A) == "RobotModel: Alpha"
     assert alpha(session) == 0.05
@@ -99,28 +101,28 @@ def test_a_new_edit_ends_what_could_be_done_again(session: Session) -> None:
     act(session, A, set_alpha(session, 0.5))
     session.history.undo(A)
     assert session.history.state(A).value.redo == "RobotModel: Alpha"
-    act(session, A, lambda: session.set_global("Frame Rate", 12))
+    act(session, A, lambda: session.document.set_option("Frame Rate", 12))
     assert session.history.state(A).value.redo is None
     assert session.history.redo(A) is None
 
 
 def test_there_is_room_for_a_hundred_displays_and_views(session: Session) -> None:
-    group = session.add_display("rviz_common/Group")
-    while len(list(walk(session.config.displays))) < MOST_DISPLAYS:
-        session.add_display("rviz_default_plugins/Grid", after=None)
+    group = session.display_edits.add_display("rviz_common/Group")
+    while len(list(walk(session.document.config.displays))) < MOST_DISPLAYS:
+        session.display_edits.add_display("rviz_default_plugins/Grid", after=None)
     for add in (
-        lambda: session.add_display("rviz_default_plugins/Grid"),
-        lambda: session.duplicate_display(group),
+        lambda: session.display_edits.add_display("rviz_default_plugins/Grid"),
+        lambda: session.display_edits.duplicate_display(group),
     ):
         with pytest.raises(UsageError, match="100 displays; remove one first"):
             add()
-    session.remove_display(named(session, "Grid"))
-    session.duplicate_display(group)
-    views = SavedViews(session)
-    for _ in range(MOST_VIEWS - len(session.config.saved_views)):
-        views.add(session.config.view)
+    session.display_edits.remove_display(named(session, "Grid"))
+    session.display_edits.duplicate_display(group)
+    views = SavedViews(session.document, session.history, session.change)
+    for _ in range(MOST_VIEWS - len(session.document.config.saved_views)):
+        views.add(session.document.config.view)
     with pytest.raises(UsageError, match="100 saved views"):
-        views.add(session.config.view)
+        views.add(session.document.config.view)
 
 
 def test_a_drag_is_one_edit_and_the_next_drag_another(session: Session) -> None:
@@ -142,7 +144,12 @@ def test_a_drag_is_one_edit_and_the_next_drag_another(session: Session) -> None:
 def test_a_gesture_over_two_values_is_two_edits(session: Session) -> None:
     grid = display(session, "Grid")
     for path, value in (("Alpha", 0.1), ("Cell Size", 2.0), ("Alpha", 0.2)):
-        act(session, A, partial(session.set_property, grid, path, value), by="one")
+        act(
+            session,
+            A,
+            partial(session.display_edits.set_property, grid, path, value),
+            by="one",
+        )
     session.history.undo(A)
     assert grid.config.get("Alpha") == pytest.approx(0.1)
     session.history.undo(A)
@@ -150,17 +157,20 @@ def test_a_gesture_over_two_values_is_two_edits(session: Session) -> None:
 
 
 def test_what_one_action_changes_is_undone_together(session: Session) -> None:
-    before, rate = alpha(session), session.config.global_options.get("Frame Rate")
+    before, rate = (
+        alpha(session),
+        session.document.config.global_options.get("Frame Rate"),
+    )
     act(
         session,
         A,
         set_alpha(session, 0.5),
-        lambda: session.set_global("Frame Rate", 7),
+        lambda: session.document.set_option("Frame Rate", 7),
         set_alpha(session, 0.25),
     )
     session.history.undo(A)
     assert alpha(session) == before
-    assert session.config.global_options.get("Frame Rate") == rate
+    assert session.document.config.global_options.get("Frame Rate") == rate
     assert session.history.state(A).value.undo is None
     session.history.redo(A)
     assert alpha(session) == 0.25
@@ -183,7 +193,7 @@ def test_the_oldest_edits_are_forgotten(session: Session) -> None:
 def test_each_browser_undoes_its_own_edits_only(session: Session) -> None:
     grid = display(session, "Grid")
     act(session, A, set_alpha(session, 0.5))
-    act(session, B, lambda: session.set_property(grid, "Cell Size", 2.0))
+    act(session, B, lambda: session.display_edits.set_property(grid, "Cell Size", 2.0))
     session.history.undo(A)
     assert (alpha(session), grid.config.get("Cell Size")) == (0.6, 2.0)
     assert session.history.undo(A) is None
@@ -195,24 +205,26 @@ def test_each_browser_undoes_its_own_edits_only(session: Session) -> None:
 def test_an_edit_whose_display_is_gone_is_dropped_with_a_sentence(
     session: Session,
 ) -> None:
-    rate = session.config.global_options.get("Frame Rate")
-    act(session, A, lambda: session.set_global("Frame Rate", 8))
+    rate = session.document.config.global_options.get("Frame Rate")
+    act(session, A, lambda: session.document.set_option("Frame Rate", 8))
     act(
         session,
         A,
         set_alpha(session, 0.5),
-        lambda: session.set_global("Frame Rate", 12),
+        lambda: session.document.set_option("Frame Rate", 12),
     )
     robot = named(session, "RobotModel")
-    act(session, B, lambda: session.remove_display(robot))
+    act(session, B, lambda: session.display_edits.remove_display(robot))
     with pytest.raises(
         UsageError,
         match="'RobotModel: Alpha' cannot be undone: the display 'RobotModel' was ",
     ):
         session.history.undo(A)
-    assert session.config.global_options.get("Frame Rate") == 12, "all or nothing"
+    assert session.document.config.global_options.get("Frame Rate") == 12, (
+        "all or nothing"
+    )
     assert session.history.undo(A) == "Global Options: Frame Rate"
-    assert session.config.global_options.get("Frame Rate") == rate
+    assert session.document.config.global_options.get("Frame Rate") == rate
     session.history.undo(B)
     assert alpha(session) == 0.5
 
@@ -260,10 +272,10 @@ def test_a_drag_that_goes_on_after_a_save_is_not_saved(session: Session) -> None
 def test_joints_frames_and_values_that_stay_are_no_edits_of_the_document(
     session: Session,
 ) -> None:
-    act(session, A, lambda: session.set_joint_positions({LEFT: 1.0}))
-    act(session, A, session.center_joints, set_alpha(session, alpha(session)))
+    act(session, A, lambda: session.robot.set_positions({LEFT: 1.0}))
+    act(session, A, session.robot.center, set_alpha(session, alpha(session)))
     T = Transform.from_xyz_rpy((0.1, 0, 0))
-    act(session, A, lambda: session.add_frame("base_link", "laser", T))
+    act(session, A, lambda: session.frames.add("base_link", "laser", T))
     assert not session.history.modified.value
 
 
@@ -271,7 +283,7 @@ def test_another_document_starts_with_an_empty_history(
     session: Session, config: Path
 ) -> None:
     act(session, A, set_alpha(session, 0.5))
-    session.set_config(load_config(config))
+    session.document.replace(load_config(config))
     assert not session.history.modified.value
     assert session.history.undo(A) is None
 
@@ -292,19 +304,23 @@ def test_one_box_that_switches_all_links_is_undone_with_all_of_them(
     act(
         session,
         A,
-        lambda: session.set_entry(robot, links, "base_link", "Value", False),
+        lambda: session.display_edits.set_entry(
+            robot, links, "base_link", "Value", False
+        ),
     )
-    text = session.config.to_yaml()
+    text = session.document.config.to_yaml()
     for on in (False, True):
         act(
             session,
             A,
-            partial(session.set_property, robot, "Links/All Links Enabled", on),
+            partial(
+                session.display_edits.set_property, robot, "Links/All Links Enabled", on
+            ),
         )
     assert box("base_link")
     session.history.undo(A)
     session.history.undo(A)
-    assert session.config.to_yaml() == text
+    assert session.document.config.to_yaml() == text
     assert (box("base_link"), box("drivewhl_l_link")) == (False, True)
     assert session.history.undo(A) == "RobotModel: base_link/Value"
     assert box("base_link")
@@ -320,7 +336,11 @@ def test_the_box_of_a_frame_is_undone(session: Session) -> None:
         return bool(frames.item("base_link").get("Value"))
 
     act(
-        session, A, lambda: session.set_entry(tf, "Frames", "base_link", "Value", False)
+        session,
+        A,
+        lambda: session.display_edits.set_entry(
+            tf, "Frames", "base_link", "Value", False
+        ),
     )
     assert not on()
     session.history.undo(A)
@@ -331,36 +351,51 @@ def test_the_box_of_a_frame_is_undone(session: Session) -> None:
 def test_an_entry_that_does_not_exist_is_refused(session: Session) -> None:
     robot = display(session, "RobotModel")
     with pytest.raises(UsageError, match="'RobotModel' has no link 'x'"):
-        session.set_entry(robot, "Links", "x", "Alpha", 1.0)
+        session.display_edits.set_entry(robot, "Links", "x", "Alpha", 1.0)
     with pytest.raises(UsageError, match="'RobotModel' has no Frames"):
-        session.set_entry(robot, "Frames", "x", "Value", True)
+        session.display_edits.set_entry(robot, "Frames", "x", "Value", True)
 
 
 def test_the_fixed_frame_and_the_background_are_undone(session: Session) -> None:
-    frame, color = session.context.fixed_frame, session.context.background
-    act(session, A, lambda: session.set_global("Fixed Frame", "drivewhl_l_link"))
-    act(session, A, lambda: session.set_global("Background Color", (1, 2, 3)))
-    assert session.context.background == (1, 2, 3)
+    frame, color = session.scene.context.fixed_frame, session.scene.context.background
+    act(
+        session,
+        A,
+        lambda: session.document.set_option("Fixed Frame", "drivewhl_l_link"),
+    )
+    act(session, A, lambda: session.document.set_option("Background Color", (1, 2, 3)))
+    assert session.scene.context.background == (1, 2, 3)
     session.history.undo(A)
     session.history.undo(A)
-    assert (session.context.fixed_frame, session.context.background) == (frame, color)
+    assert (session.scene.context.fixed_frame, session.scene.context.background) == (
+        frame,
+        color,
+    )
 
 
 def test_displays_are_added_copied_named_moved_removed_and_all_that_is_undone(
     session: Session,
 ) -> None:
-    before, text = names(session), session.config.to_yaml()
+    before, text = names(session), session.document.config.to_yaml()
     grid, group = named(session, "Grid"), named(session, "Both")
-    act(session, A, lambda: session.add_display("rviz_default_plugins/Axes", grid))
+    act(
+        session,
+        A,
+        lambda: session.display_edits.add_display("rviz_default_plugins/Axes", grid),
+    )
     assert names(session).index("Axes") == before.index("Grid") + 1
-    act(session, A, lambda: session.duplicate_display(grid))
-    act(session, A, lambda: session.duplicate_display(named(session, "Grid (2)")))
+    act(session, A, lambda: session.display_edits.duplicate_display(grid))
+    act(
+        session,
+        A,
+        lambda: session.display_edits.duplicate_display(named(session, "Grid (2)")),
+    )
     assert {"Grid", "Grid (2)", "Grid (3)"} <= set(names(session))
-    act(session, A, lambda: session.rename_display(grid, " Floor "))
-    act(session, A, lambda: session.move_display(grid, 0, group))
+    act(session, A, lambda: session.display_edits.rename_display(grid, " Floor "))
+    act(session, A, lambda: session.display_edits.move_display(grid, 0, group))
     assert [d.name for d in group.displays] == ["Floor"]
-    act(session, A, lambda: session.remove_display(group))
-    assert session.display_of(grid) is None
+    act(session, A, lambda: session.display_edits.remove_display(group))
+    assert session.scene.display_of(grid) is None
     for label in (
         "Remove Both",
         "Move Floor",
@@ -371,7 +406,7 @@ def test_displays_are_added_copied_named_moved_removed_and_all_that_is_undone(
     ):
         assert session.history.undo(A) == label
     assert names(session) == before
-    assert session.config.to_yaml() == text
+    assert session.document.config.to_yaml() == text
     assert named(session, "Grid") is grid, "the same display is put back"
     while session.history.redo(A) is not None:
         pass
@@ -382,34 +417,36 @@ def test_displays_are_added_copied_named_moved_removed_and_all_that_is_undone(
 def test_an_unsupported_display_is_moved_named_switched_and_removed(
     session: Session,
 ) -> None:
-    odd, text = named(session, "Odd"), session.config.to_yaml()
-    act(session, A, lambda: session.set_enabled(odd, False))
-    act(session, A, lambda: session.rename_display(odd, "Strange"))
-    act(session, A, lambda: session.move_display(odd, 0, None))
+    odd, text = named(session, "Odd"), session.document.config.to_yaml()
+    act(session, A, lambda: session.display_edits.set_enabled(odd, False))
+    act(session, A, lambda: session.display_edits.rename_display(odd, "Strange"))
+    act(session, A, lambda: session.display_edits.move_display(odd, 0, None))
     assert names(session)[0] == "Strange"
     assert not odd.enabled
-    act(session, A, lambda: session.remove_display(odd))
+    act(session, A, lambda: session.display_edits.remove_display(odd))
     for _ in range(4):
         session.history.undo(A)
     assert odd.enabled
-    assert session.config.to_yaml() == text
+    assert session.document.config.to_yaml() == text
 
 
 def test_what_goes_nowhere_is_no_edit(session: Session) -> None:
     grid = named(session, "Grid")
-    act(session, A, lambda: session.rename_display(grid, "  "))
-    act(session, A, lambda: session.rename_display(grid, "Grid"))
+    act(session, A, lambda: session.display_edits.rename_display(grid, "  "))
+    act(session, A, lambda: session.display_edits.rename_display(grid, "Grid"))
     act(
         session,
         A,
-        lambda: session.move_display(grid, names(session).index("Grid"), None),
+        lambda: session.display_edits.move_display(
+            grid, names(session).index("Grid"), None
+        ),
     )
-    act(session, A, lambda: session.set_enabled(grid, grid.enabled))
+    act(session, A, lambda: session.display_edits.set_enabled(grid, grid.enabled))
     with pytest.raises(UsageError, match="cannot be moved into itself"):
         act(
             session,
             A,
-            lambda: session.move_display(
+            lambda: session.display_edits.move_display(
                 named(session, "Both"), 0, named(session, "Both")
             ),
         )
@@ -419,15 +456,17 @@ def test_what_goes_nowhere_is_no_edit(session: Session) -> None:
 
 def test_a_display_that_was_removed_takes_no_edits(session: Session) -> None:
     robot = display(session, "RobotModel")
-    session.remove_display(robot.config)
+    session.display_edits.remove_display(robot.config)
     for edit in (
-        lambda: session.set_property(robot, "Alpha", 0.5),
-        lambda: session.set_enabled(robot, False),
-        lambda: session.rename_display(robot.config, "x"),
-        lambda: session.move_display(robot.config, 0, None),
-        lambda: session.duplicate_display(robot.config),
-        lambda: session.remove_display(robot.config),
-        lambda: session.add_display("rviz_default_plugins/Grid", robot.config),
+        lambda: session.display_edits.set_property(robot, "Alpha", 0.5),
+        lambda: session.display_edits.set_enabled(robot, False),
+        lambda: session.display_edits.rename_display(robot.config, "x"),
+        lambda: session.display_edits.move_display(robot.config, 0, None),
+        lambda: session.display_edits.duplicate_display(robot.config),
+        lambda: session.display_edits.remove_display(robot.config),
+        lambda: session.display_edits.add_display(
+            "rviz_default_plugins/Grid", robot.config
+        ),
     ):
         with pytest.raises(UsageError, match="the display 'RobotModel' was removed"):
             edit()
@@ -435,12 +474,14 @@ def test_a_display_that_was_removed_takes_no_edits(session: Session) -> None:
 
 def test_joints_go_back_to_where_they_were(viz: Visualizer, session: Session) -> None:
     for step in (0.1, 0.2, 0.3):
-        act(session, A, partial(session.set_joint_positions, {LEFT: step}), by="drag")
-    act(session, A, session.randomize_joints)
-    act(session, A, session.center_joints)
+        act(session, A, partial(session.robot.set_positions, {LEFT: step}), by="drag")
+    act(session, A, session.robot.randomize)
+    act(session, A, session.robot.center)
     session.poses.save("turned", {LEFT: 2.0, "gone": 1.0})
     with session.history.acting(A):
-        assert session.use_pose("turned") == ("gone",)
+        assert session.robot.take_pose("turned", session.poses.get("turned")) == (
+            "gone",
+        )
     viz.set_joint_positions({RIGHT: -1.0})
     assert viz.joint_positions == {LEFT: 2.0, RIGHT: -1.0}
     labels = [session.history.undo(A) for _ in range(4)]
@@ -463,8 +504,8 @@ def test_frames_are_added_changed_and_removed_and_all_that_is_undone(
 
     for at in (1.0, 2.0):
         T = Transform.from_xyz_rpy((at, 0, 0))
-        act(session, A, partial(session.add_frame, "base_link", "laser", T))
-    act(session, A, lambda: session.remove_frame("laser"))
+        act(session, A, partial(session.frames.add, "base_link", "laser", T))
+    act(session, A, lambda: session.frames.remove("laser"))
     assert session.history.undo(A) == "Remove frame laser"
     assert x() == 2.0
     session.history.undo(A)

@@ -15,7 +15,7 @@ from viewer_page import COARSE, ViewerPage, viewer_url
 from sambot_viz import Visualizer, bundled
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 MODELS: dict[str, Callable[[], str]] = {
     "T": robots.humanoid,
@@ -97,7 +97,7 @@ class Desk:
     @property
     def fixed_frame(self) -> str:
         """The frame in which all is drawn."""
-        return str(self.session.config.global_options.get("Fixed Frame"))
+        return str(self.session.document.config.global_options.get("Fixed Frame"))
 
     @property
     def session(self) -> Session:
@@ -106,9 +106,9 @@ class Desk:
         return session
 
     @property
-    def browser(self) -> Browser:
+    def browser(self) -> Client:
         """That of the first page; others of a task have left, or leave now."""
-        browsers = self.session.browsers
+        browsers = self.session.clients.all
         return browsers[min(browsers)]
 
     def restart(self) -> None:
@@ -177,7 +177,7 @@ class Desk:
     def undo_of_others(self) -> None:
         """Undo what other pages have done, before they leave: nobody else can."""
         first, undo = self.browser.client_id, self.session.history
-        for client in [n for n in self.session.browsers if n != first]:
+        for client in [n for n in self.session.clients.all if n != first]:
             while undo.state(client).value.undo is not None:
                 undo.undo(client)
 

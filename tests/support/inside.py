@@ -20,7 +20,7 @@ def viser_server(viz: Visualizer) -> viser.ViserServer:
 def node_of(viz: Visualizer, frame: str) -> str:
     """The name of the scene node of a TF frame, in a shared session."""
     session = viz._server.shared  # pyright: ignore[reportPrivateUsage]
-    path = None if session is None else session.context.nodes.path(frame)
+    path = None if session is None else session.scene.context.nodes.path(frame)
     if path is None:
         raise AssertionError(f"no node for frame '{frame}'")
     return path
@@ -31,9 +31,14 @@ def session_of(viz: Visualizer) -> Session:
     return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
 
 
+def is_signal(value: object) -> bool:
+    return isinstance(value, Signal)
+
+
 def signals_of(session: Session) -> list[Signal[Any]]:
     """Everything that a session tells."""
-    return [*vars(session.signals).values()]
+    parts = (session.document, session.scene, session.robot, session.problems)
+    return [one for part in parts for one in vars(part).values() if is_signal(one)]
 
 
 def files_of(viz: Visualizer) -> Files:

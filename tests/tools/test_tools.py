@@ -21,9 +21,9 @@ from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
-from sambot_viz.session.browser.pick_rays import INLINE
-from sambot_viz.session.browser.tool_control import ToolControl
-from sambot_viz.session.browser.view import BrowserView
+from sambot_viz.session.clients.client_tools import ClientTools
+from sambot_viz.session.clients.client_view import ClientView
+from sambot_viz.session.scene.picker import INLINE
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
 from sambot_viz.tools.registry import TOOLS
 
@@ -100,15 +100,15 @@ class Browser:
         self.act("tools/choose", label)
 
     @property
-    def tools(self) -> ToolControl:
+    def tools(self) -> ClientTools:
         """Those of the browser, which is the only one."""
-        (browser,) = self.session.browsers.values()
+        (browser,) = self.session.clients.all.values()
         return browser.tools
 
     @property
-    def view(self) -> BrowserView:
+    def view(self) -> ClientView:
         """That of the browser."""
-        (browser,) = self.session.browsers.values()
+        (browser,) = self.session.clients.all.values()
         return browser.view
 
     @property
@@ -263,10 +263,12 @@ def test_a_frame_is_selected_by_its_axes_and_a_link_beside_them(
 
 def test_the_axes_of_a_link_hide_it(open_browser: Callable[..., Browser]) -> None:
     browser = open_browser("RobotModel")
-    (model,) = browser.session.displays
+    (model,) = browser.session.scene.displays
     browser.choose("Select")
     for on, selected in ((True, []), (False, ["drivewhl_l_link"])):
-        browser.session.set_entry(model, "Links", "drivewhl_l_link", "Show Axes", on)
+        browser.session.display_edits.set_entry(
+            model, "Links", "drivewhl_l_link", "Show Axes", on
+        )
         browser.click_down(-0.12, 0.18)
         assert browser.selected == selected
 
@@ -288,8 +290,8 @@ def test_masses_and_inertias_can_be_measured(
     )
     browser = open_browser("RobotModel")
     browser.session.show_robot(load_robot(model))
-    (display,) = browser.session.displays
-    browser.session.set_property(display, name, True)
+    (display,) = browser.session.scene.displays
+    browser.session.display_edits.set_property(display, name, True)
     browser.choose("Focus Camera")
     browser.click_down(0.0, 0.0)
     point = browser.view.values["Focal Point"]
@@ -300,9 +302,9 @@ def test_the_arrow_of_a_joint_can_be_measured(
     open_browser: Callable[..., Browser],
 ) -> None:
     browser = open_browser("RobotModel")
-    (model,) = browser.session.displays
-    browser.session.set_property(model, "Alpha", 0.0)
-    browser.session.set_entry(
+    (model,) = browser.session.scene.displays
+    browser.session.display_edits.set_property(model, "Alpha", 0.0)
+    browser.session.display_edits.set_entry(
         model, "Joints", "drivewhl_l_joint", "Show Joint Axis", True
     )
     browser.choose("Measure")
@@ -315,7 +317,7 @@ def test_frames_and_links_that_are_not_drawn_are_not_selected(
     open_browser: Callable[..., Browser],
 ) -> None:
     browser = open_browser("RobotModel", "TF")
-    tf, model = browser.session.displays
+    tf, model = browser.session.scene.displays
     if tf.kind.endswith("RobotModel"):
         tf, model = model, tf
     browser.choose("Select")
@@ -323,8 +325,8 @@ def test_frames_and_links_that_are_not_drawn_are_not_selected(
     browser.rectangle((0.0, 0.0), (1.0, 1.0))
     kinds = {item.kind for item in browser.tools.selection}
     assert kinds == {"link", "frame"}
-    browser.session.set_property(tf, "Frames/All Enabled", False)
-    browser.session.set_property(model, "Alpha", 0.0)
+    browser.session.display_edits.set_property(tf, "Frames/All Enabled", False)
+    browser.session.display_edits.set_property(model, "Alpha", 0.0)
     browser.rectangle((0.0, 0.0), (1.0, 1.0))
     assert browser.selected == []
 
@@ -418,7 +420,7 @@ def test_measure_takes_points_of_what_is_drawn_near_a_frame(
     browser = open_browser("Grid", "TF")
     session, x = browser.session, -0.12 + 0.03
     with session.lock:
-        session.config.displays[0].set("Offset", (x, 0.0, 0.0))
+        session.document.config.displays[0].set("Offset", (x, 0.0, 0.0))
     browser.settle()
     browser.choose("Measure")
     # On a line beside the axes of the wheel, in the sphere that selects the frame.
@@ -542,23 +544,25 @@ def test_focus_on_nothing_shows_the_whole_robot(browser: Browser) -> None:
 
 def test_settings_come_from_the_file_and_go_back(browser: Browser) -> None:
     session = browser.session
-    session.set_tool_property(f"{PREFIX}Measure", "Line color", (4, 5, 6))
-    assert "4; 5; 6" in browser.session.config.to_yaml()
+    session.document.set_tool_property(f"{PREFIX}Measure", "Line color", (4, 5, 6))
+    assert "4; 5; 6" in browser.session.document.config.to_yaml()
     with pytest.raises(UsageError, match="the config has no tool"):
-        session.set_tool_property(f"{PREFIX}Interact", "Hide Inactive Objects", False)
+        session.document.set_tool_property(
+            f"{PREFIX}Interact", "Hide Inactive Objects", False
+        )
 
 
 def test_settings_go_into_the_document_that_was_read_last(
     browser: Browser, tmp_path: Path
 ) -> None:
     path = document(tmp_path / "new.rviz", "Grid", color="7; 8; 9")
-    browser.session.set_config(load_config(path))
+    browser.session.document.replace(load_config(path))
     browser.settle()
     color = "tool_properties/Measure/Line color"
     assert browser.client.row(color)["value"] == [7, 8, 9]
     browser.client.edit(color, [4, 5, 6])
     browser.settle()
-    assert "4; 5; 6" in browser.session.config.to_yaml()
+    assert "4; 5; 6" in browser.session.document.config.to_yaml()
 
 
 def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:

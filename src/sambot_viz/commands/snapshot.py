@@ -42,14 +42,14 @@ def run(words: list[str]) -> int:
 
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions()[0]
-        write_problems(session.config.problems)
+        write_problems(session.document.config.problems)
         _report_fixed_frame(session)
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
-            camera = session.camera
+            camera = session.document_view.camera
             if given.fit:
                 viz.server.wait_for_meshes(LONGEST_WAIT)
-                camera = session.camera_on_robot(width, height)
+                camera = session.document_view.camera_on_robot(width, height)
             picture = snapshot(viz.server, chromium, width, height, camera)
     _write(output, picture)
     return 0
@@ -100,9 +100,9 @@ def _exit_on_sigterm() -> Generator[None]:
 
 def _report_fixed_frame(session: Session) -> None:
     """Warn when the fixed frame does not exist, because the picture is empty then."""
-    status = session.drawn.global_status()
+    status = session.scene.global_status()
     if status.level != "Ok":
-        frames = ", ".join(session.tree.frames) or "none"
+        frames = ", ".join(session.frames.tree.frames) or "none"
         warn(f"Fixed Frame: {status.text}; existing frames: {frames}")
 
 

@@ -14,20 +14,21 @@ from typing import Any, Literal
 
 from sambot_viz import page
 from sambot_viz.errors import SambotVizError, UsageError
-from sambot_viz.export.recorded_scene import SceneSnapshot, recorded
+from sambot_viz.export.recorded_scene import recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.sweep import sweep
 from sambot_viz.server.page_files import page_of_viser
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.browser.robot_framing import Size, window_of
-from sambot_viz.session.document.document_view import mouse_facts, view_of
-from sambot_viz.session.robot.past_motion import Moved
+from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.robot_framing import Size, window_of
+from sambot_viz.session.document.document_view import DocumentView, mouse_facts
+from sambot_viz.session.robot.motion_recorder import MotionSample
+from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
 
 Motion = Literal["sweep", "past", "none"]
-Past = tuple[Moved, Sequence[Moved]]
+Past = tuple[MotionSample, Sequence[MotionSample]]
 """The first values of everything, and the steps from there."""
 PERIOD = 1.0 / 30.0
 """Time between two steps of a motion [s]."""
@@ -62,22 +63,22 @@ class ViewState:
     mouse: Mapping[str, Any]
 
     @classmethod
-    def of(cls, browser: Browser) -> ViewState:
+    def of(cls, client: Client) -> ViewState:
         """Return the view of a client now."""
-        view, size = browser.view, window_of(browser.client)
+        view, size = client.view, window_of(client.client)
         return cls(view.camera, size, mouse_facts(view.view))
 
     @classmethod
-    def at_first(cls, session: Session) -> ViewState:
+    def at_first(cls, first: DocumentView, has_robot: bool) -> ViewState:
         """Return the view of a page that was just opened."""
-        view = view_of(session.config.detached_view())
-        if view.gives_nearness or session.robot is None:
-            return cls(session.camera, USUAL_SIZE, mouse_facts(view))
+        view = first.view
+        if view.gives_nearness or not has_robot:
+            return cls(first.camera, USUAL_SIZE, mouse_facts(view))
         width, height = USUAL_SIZE
-        camera = session.camera_on_robot(width, height)
+        camera = first.camera_on_robot(width, height)
         # How narrow a picture may be until the robot is cut at its sides.
         while width > height / 2:
-            nearer = session.camera_on_robot(width - STEP, height)
+            nearer = first.camera_on_robot(width - STEP, height)
             if nearer.distance > camera.distance + 1e-6:
                 break
             width -= STEP
@@ -85,7 +86,7 @@ class ViewState:
 
 
 def page_file(
-    scene: SceneSnapshot, view: ViewState, motion: Motion, past: Past | None = None
+    scene: SessionCopy, view: ViewState, motion: Motion, past: Past | None = None
 ) -> bytes:
     """Return the HTML file.
 
@@ -96,7 +97,7 @@ def page_file(
             minute, or nothing.
         past: how that was.
     """
-    steps: Callable[[JointState], Iterable[Moved]] = _nothing
+    steps: Callable[[JointState], Iterable[MotionSample]] = _nothing
     if motion == "sweep":
         steps = _sweep
     elif motion == "past" and past is not None:
@@ -114,20 +115,20 @@ def page_file(
     return page.standing_alone(page_of_viser(), title, first, about, tracks.packed())
 
 
-def _sweep(joints: JointState) -> Iterable[Moved]:
+def _sweep(joints: JointState) -> Iterable[MotionSample]:
     # The joints are about to be moved.
     steps = list(sweep(joints, PERIOD))
-    return [Moved(time, positions, {}) for time, positions in steps]
+    return [MotionSample(time, positions, {}) for time, positions in steps]
 
 
-def _with_rest(steps: Sequence[Moved]) -> Iterable[Moved]:
+def _with_rest(steps: Sequence[MotionSample]) -> Iterable[MotionSample]:
     """Yield the steps, and a moment in which the end can be seen."""
     yield from steps
     if steps:
-        yield Moved(steps[-1].time + REST, {}, {})
+        yield MotionSample(steps[-1].time + REST, {}, {})
 
 
-def _nothing(joints: JointState) -> Iterable[Moved]:
+def _nothing(joints: JointState) -> Iterable[MotionSample]:
     del joints
     return ()
 
@@ -137,13 +138,13 @@ class PageError(SambotVizError):
 
 
 def ask_page(
-    session: Session, browser: Browser, motion: str
+    session: Session, client: Client, motion: str
 ) -> Callable[[], Coroutine[Any, Any, bytes]]:
     """Note what a browser sees now, for `panels.files`.
 
     Args:
         session: what is shown.
-        browser: who looks at it.
+        client: who looks at it.
         motion: what is to move (see `page_file`).
 
     Returns:
@@ -154,12 +155,12 @@ def ask_page(
         UsageError: there is no such motion, or nothing has moved.
     """
     with session.lock:
-        past = session.past.last_minute()
+        past = session.robot.recorder.last_minute()
         if motion == "past" and not past[1]:
             raise UsageError("nothing has moved in the last minute")
         if motion not in ("sweep", "past", "none"):
             raise UsageError(f"there is no motion '{motion}'")
-        scene, view = SceneSnapshot.by(session), ViewState.of(browser)
+        scene, view = session.copy(), ViewState.of(client)
     make = partial(page_file, scene, view, motion, past)
     return partial(_made, make)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -15,15 +15,12 @@ from sambot_viz.displays.robot_display import (
 )
 from sambot_viz.displays.scene.ribbons import PathLine
 from sambot_viz.export.tracks import Tracks
-from sambot_viz.frames import Transform
 from sambot_viz.joints import JointState
-from sambot_viz.meshes.cache import MeshCache
-from sambot_viz.robot.model import Robot
 from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
-from sambot_viz.session.browser.camera import BrowserCamera
-from sambot_viz.session.robot.drive_control import ODOM
-from sambot_viz.session.robot.past_motion import Moved
+from sambot_viz.session.clients.camera import ClientCamera
+from sambot_viz.session.robot.drive import ODOM
+from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Action, Worker
 from sambot_viz.views.camera import Camera
@@ -33,53 +30,11 @@ LONGEST_READ = 30.0
 """A robot of a display's own file gets this long to be read [s]."""
 
 
-@dataclass(frozen=True, slots=True)
-class SceneSnapshot:
-    """All that a session shows, for another thread; used once.
-
-    Attributes:
-        robot: the robot, if there is one.
-        copy: the document, the joints and the added frames.
-        trail: where the robot was driven, x, y [m] in odom.
-        models: reads further models.
-        meshes: mesh files that are read already.
-    """
-
-    robot: Robot | None
-    copy: SessionCopy
-    trail: tuple[tuple[float, float], ...]
-    models: ModelReader | None
-    meshes: MeshCache
-
-    @classmethod
-    def by(cls, session: Session) -> SceneSnapshot:
-        """Take what a session shows now."""
-        with session.lock:
-            return cls(
-                session.robot,
-                SessionCopy.of(session),
-                session.motion.drive.trail,
-                session.context.models,
-                session.context.assets.cache,
-            )
-
-    def before(self, moved: Moved) -> SceneSnapshot:
-        """Return the same, with joints and frames where they were."""
-        frames = {
-            child: replace(frame, transform=Transform.trusted(moved.frames[child]))
-            if child in moved.frames
-            else frame
-            for child, frame in self.copy.frames.items()
-        }
-        copy = replace(self.copy, positions=moved.positions, frames=frames)
-        return replace(self, copy=copy)
-
-
 def recorded(
-    scene: SceneSnapshot,
+    scene: SessionCopy,
     camera: Camera,
     height: int,
-    motion: Callable[[JointState], Iterable[Moved]],
+    motion: Callable[[JointState], Iterable[MotionSample]],
 ) -> tuple[bytes, Tracks, float]:
     """Draw what was shown, then move it.
 
@@ -97,33 +52,35 @@ def recorded(
     recorder.listen(tracks.take)
     prepare_scene(recorder.scene)
     session = _drawn(scene, recorder)
-    BrowserCamera(cast(Any, recorder)).point(camera)
+    ClientCamera(cast(Any, recorder)).point(camera)
     first = recorder.bytes()
     duration = 0.0
-    if session.joints is not None:
-        for step in motion(session.joints):
+    if session.robot.joints is not None:
+        for step in motion(session.robot.joints):
             tracks.time = duration = step.time
-            there = {f: T for f, T in step.frames.items() if f in session.added}
-            session.move(step.positions, there)
-            session.draw_moved()
+            there = {f: T for f, T in step.frames.items() if f in session.frames.added}
+            session.robot.move(step.positions, there)
+            session.robot.draw_moved()
     session.close()
     return first, tracks, duration
 
 
-def _drawn(scene: SceneSnapshot, recorder: Recorder) -> Session:
+def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:
     models = None if scene.models is None else _Models(scene.models)
     worker, audience = _Nobody(cast(Any, None)), cast(Any, recorder)
-    session = Session(audience, worker, scene.copy.config, scene.meshes, models)
-    scene.copy.trust(session)
-    session.show_config()
+    session = Session(audience, worker, scene.config, scene.meshes, models)
+    session.trust(scene)
+    session.document.show()
     if scene.robot is not None:
         session.show_robot(scene.robot)
-    scene.copy.give(session)
-    session.draw_moved()
+    session.take(scene)
+    session.robot.draw_moved()
     if models is not None:
         models.finish()
     if scene.trail:
-        PathLine(recorder.scene).draw(session.context.nodes.path(ODOM), scene.trail)
+        PathLine(recorder.scene).draw(
+            session.scene.context.nodes.path(ODOM), scene.trail
+        )
     return session
 
 

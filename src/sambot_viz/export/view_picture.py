@@ -12,7 +12,7 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.server.server import Server
-from sambot_viz.session.browser.camera import BrowserCamera
+from sambot_viz.session.clients.camera import ClientCamera
 from sambot_viz.views.camera import Camera
 
 Picture = npt.NDArray[np.uint8]
@@ -70,7 +70,7 @@ def snapshot(
             if placed is None or not np.allclose(
                 _place(client), placed, rtol=1e-4, atol=1e-3
             ):
-                BrowserCamera(client).point(camera, ortho_fov=None)
+                ClientCamera(client).point(camera, ortho_fov=None)
                 placed, before = _place(client), None
             with viser_private.larger_messages(client, 8 * width * height + 2**16):
                 image = client.get_render(

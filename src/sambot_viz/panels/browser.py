@@ -18,7 +18,7 @@ from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 _PART = 1000
 """Characters of a part of a text for the clipboard."""
@@ -39,7 +39,7 @@ class BrowserPanels:
     def __init__(
         self,
         session: Session,
-        browser: Browser,
+        browser: Client,
         files: Files | None,
         ask_page: AskPage | None,
         displays: DisplaysPanel,

@@ -17,7 +17,7 @@ from sambot_viz.panels.command import NUMBER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Kind, Row
 from sambot_viz.session import Session
-from sambot_viz.session.robot.drive_control import ODOM
+from sambot_viz.session.robot.drive import ODOM
 from sambot_viz.session.robot.motion import HOLD
 
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
@@ -39,15 +39,15 @@ class DrivePanel(Panel):
     period = 0.1
 
     def __init__(self, session: Session) -> None:
-        signals = session.signals
-        self.remade_by = (signals.robot,)
-        self.moved_by = (signals.joints, signals.frames, signals.motion)
+        self.remade_by = (session.robot.changed,)
+        self.moved_by = (session.drive.velocity, session.drive.pose_changed)
         self._session = session
-        self._drive = session.motion.drive
+        self._drive = session.drive
+        self._follow_view = session.follow_view
 
     def rows(self) -> Sequence[Row]:
         """Return the speeds, where the robot is, and its wheels."""
-        wheels, robot = self._drive.wheels, self._session.robot
+        wheels, robot = self._drive.wheels, self._session.robot.model
         if wheels is None or robot is None:
             return []
         return [
@@ -112,7 +112,7 @@ class DrivePanel(Panel):
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there is a robot with two wheels."""
-        return self._drive.wheels is not None and self._session.robot is not None
+        return self._drive.wheels is not None and self._session.robot.model is not None
 
     @command("drive/hold", NUMBER, NUMBER)
     def _hold(self, v: float, w: float) -> Answer | None:
@@ -143,7 +143,7 @@ class DrivePanel(Panel):
         """Drive; from rest, see to it that the motion can be seen."""
         v, w = _within(MOST_LINEAR, v), _within(MOST_ANGULAR, w)
         starts = not self._drive.moving and (v != 0 or w != 0)
-        shown = starts and self._drive.show_motion()
+        shown = starts and self._follow_view.show_motion()
         self._drive.set_velocity(v, w, **how_long)
         if not shown:
             return None

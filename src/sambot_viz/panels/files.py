@@ -12,7 +12,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json, Level
 from sambot_viz.robot.model import Robot
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 from sambot_viz.session.config_file import UNNAMED, ConfigFile
 from sambot_viz.session.picture import (
     LONGEST_SIDE,
@@ -23,7 +23,7 @@ from sambot_viz.session.picture import (
 
 MakePage = Callable[[], Awaitable[bytes]]
 """Makes an HTML file, on the event loop; raises SambotVizError when there is none."""
-AskPage = Callable[[Session, Browser, str], MakePage]
+AskPage = Callable[[Session, Client, str], MakePage]
 """Notes what a browser sees now, for a page with a motion: "sweep", "past" or "none";
 raises SambotVizError when there is no such motion."""
 _OF_DISK = ("file/save", "file/save-as", "file/list", "file/open")
@@ -64,15 +64,14 @@ class FilesPanel(Panel):
     def __init__(
         self,
         session: Session,
-        browser: Browser,
+        browser: Client,
         files: Files | None,
         ask_page: AskPage | None,
         keep_unfolded: Callable[[Collection[str]], None],
         say: Callable[[str, Level], None],
         remake: Callable[[Panel], None],
     ) -> None:
-        signals = session.signals
-        self.remade_by = (signals.config, signals.robot)
+        self.remade_by = (session.document.file, session.robot.changed)
         self.moved_by = (session.history.modified,)
         self._session = session
         self._browser = browser
@@ -81,7 +80,7 @@ class FilesPanel(Panel):
         self._keep_unfolded = keep_unfolded
         self._say = say
         self._remake = remake
-        self._file = ConfigFile(session)
+        self._file = ConfigFile(session.document, session.robot, session.scene)
         self._facts: dict[str, Json] = {}
         self._files_of: object = None
         self._robot_of: Robot | None = None
@@ -108,7 +107,10 @@ class FilesPanel(Panel):
         This is called for every step of a slider, once for each browser.
         """
         session = self._session
-        files, robot = (session.config.file, session.context.config_file), session.robot
+        files, robot = (
+            (session.document.config.file, session.scene.context.config_file),
+            session.robot.model,
+        )
         # Comparing two robots would compare all their links.
         if files != self._files_of or robot is not self._robot_of:
             self._files_of, self._robot_of = files, robot
@@ -193,7 +195,7 @@ class FilesPanel(Panel):
     @command("file/download", client_local=True)
     def _download(self) -> None:
         name = self._file.name or UNNAMED
-        config = self._session.config
+        config = self._session.document.config
         before = config.detached_view()
         self._browser.view.store()
         text = config.to_yaml()
@@ -221,7 +223,8 @@ class FilesPanel(Panel):
         name = f"{self._name()}.png"
         sentence, level = f"Saved {name}, {width} × {height} pixels", "ok"
         try:
-            picture = await picture_of(self._session, self._browser, width, height)
+            background = self._session.scene.context.background
+            picture = await picture_of(self._browser, background, width, height)
             self._send(name, picture)
         except PictureError as error:
             sentence, level = f"No picture: {error}", "error"
@@ -255,7 +258,7 @@ class FilesPanel(Panel):
             self._session.worker.post(lambda: self._say(sentence, level))
 
     def _name(self) -> str:
-        robot = self._session.robot
+        robot = self._session.robot.model
         return _UNNAMED if robot is None else _plain(robot.name)
 
 

@@ -13,7 +13,7 @@ from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Level
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 from sambot_viz.session.people.roles import Participant
 
 
@@ -64,7 +64,7 @@ class OwnRolePanel(Panel):
     name = "role"
 
     def __init__(
-        self, session: Session, browser: Browser, say: Callable[[str, Level], None]
+        self, session: Session, browser: Client, say: Callable[[str, Level], None]
     ) -> None:
         self.remade_by = (session.roles.changed,)
         self._session = session

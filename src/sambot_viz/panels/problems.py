@@ -14,8 +14,7 @@ from sambot_viz.panels.row import Data, Level, Row
 from sambot_viz.panels.status_rows import place_of
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
-from sambot_viz.session import Session
-from sambot_viz.session.shown_problems import last_good_note, problems_of
+from sambot_viz.session.problems import Problems
 
 MOST_SHOWN = 100
 """So many groups of problems, and of the problems of one group, have rows."""
@@ -30,38 +29,33 @@ class ProblemsPanel(Panel):
     unfolded the row; that of the first error is there at once.
 
     Args:
-        session: whose problems these are.
+        problems: what is shown.
         remake: called when a page has unfolded something.
     """
 
     name = "problems"
 
-    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        signals = session.signals
-        self.remade_by = (
-            signals.problems,
-            signals.config,
-            signals.robot,
-            signals.status,
-        )
-        self._session = session
+    def __init__(self, problems: Problems, remake: Callable[[Panel], None]) -> None:
+        self.remade_by = (problems.shown,)
+        self._problems = problems
         self._lazy = LazyRows("problems/unfold", lambda: remake(self))
 
     def rows(self) -> Sequence[Row]:
         """Return the banner, and a row for each cause."""
         self._lazy.clear()
-        note = last_good_note(self._session)
+        shown = self._problems.shown.value
+        note = shown.note
         banner = Row("problems/good", "", "note", value=note, level="error")
-        groups = group_problems(problems_of(self._session))
+        groups = group_problems(shown.listed)
         return [*([banner] if note else ()), *self._group_rows(groups)]
 
     def data(self) -> Sequence[Data]:
         """Return how many causes there are of each severity."""
-        groups = group_problems(problems_of(self._session))
+        shown = self._problems.shown.value
+        groups = group_problems(shown.listed)
         count = Counter(group.severity for group in groups)
-        old = bool(last_good_note(self._session))
         counts = {severity: count[severity] for severity in SEVERITIES}
-        return [Data("problems/count", {**counts, "old": old})]
+        return [Data("problems/count", {**counts, "old": bool(shown.note)})]
 
     def commands(self) -> list[Command]:
         """Return the command to unfold a row."""

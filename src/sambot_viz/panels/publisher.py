@@ -77,13 +77,13 @@ class Publisher:
             for panel in panels
             if panel.period > PERIOD
         }
-        self._disconnect = [
-            ending for panel in self._panels for ending in self._connect(panel)
-        ]
         for panel in self._panels:
             self._make(panel)
         self._all = owner.gui.add_html(self._whole())
         self._changes = owner.gui.add_html(self._element("changes", self._difference()))
+        self._disconnect = [
+            ending for panel in self._panels for ending in self._connect(panel)
+        ]
 
     def close(self) -> None:
         """Send nothing any more."""

@@ -16,7 +16,7 @@ from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 SHOWN = 30
 """At most this many selected items are listed."""
@@ -43,16 +43,14 @@ class SelectionPanel(Panel):
     period = 0.2
 
     def __init__(
-        self, session: Session, browser: Browser, remake: Callable[[Panel], None]
+        self, session: Session, browser: Client, remake: Callable[[Panel], None]
     ) -> None:
-        signals = session.signals
         self.remade_by = (
-            signals.robot,
-            signals.frames,
-            signals.config,
+            session.scene.frames,
+            session.robot.changed,
             browser.tools.changed,
         )
-        self.moved_by = (signals.joints,)
+        self.moved_by = (session.robot.positions,)
         self._session = session
         self._browser = browser
         self._remake = remake
@@ -113,11 +111,11 @@ class SelectionPanel(Panel):
 
     def _facts(self, item: Selectable) -> Sequence[Fact]:
         session = self._session
-        return facts_of(session, item.name, session.context.frame(self._frame))
+        return facts_of(session, item.name, session.scene.context.frame(self._frame))
 
     def _apart(self, first: Selectable, second: Selectable) -> Iterator[Fact]:
         try:
-            found = distance_between(self._session.tree, first.name, second.name)
+            found = distance_between(self._session.frames.tree, first.name, second.name)
         except LookupRefused as refused:
             yield "Distance", refused.rviz_text
             return
@@ -145,8 +143,8 @@ def facts_of(session: Session, name: str, frame: str) -> list[Fact]:
         frame: the frame in which its pose is given.
     """
     return [
-        *_pose(session.tree, name, frame),
-        *_relations(session.tree, name),
+        *_pose(session.frames.tree, name, frame),
+        *_relations(session.frames.tree, name),
         *_written(session, name),
     ]
 
@@ -174,7 +172,7 @@ def _relations(tree: FrameTree, name: str) -> Iterator[Fact]:
 
 def _written(session: Session, name: str) -> Iterator[Fact]:
     """What the model file says about a link, and where."""
-    robot = session.robot
+    robot = session.robot.model
     link = None if robot is None else robot.links.get(name)
     if robot is None or link is None:
         return
@@ -201,10 +199,10 @@ def _link(link: Link) -> Iterator[Fact]:
 def _joint(session: Session, joint: Joint) -> Iterator[Fact]:
     at = "" if joint.place is None else f", {place_text(joint.place)}"
     yield "Joint", f"{joint.name} ({joint.type}){at}"
-    if not joint.movable or session.joints is None:
+    if not joint.movable or session.robot.joints is None:
         return
     unit = "m" if joint.type == "prismatic" else "rad"
-    position = session.joints.all_positions().get(joint.name, joint.start)
+    position = session.robot.joints.all_positions().get(joint.name, joint.start)
     lower, upper = joint.range
     limits = f"{lower:.5g} … {upper:.5g}"
     if joint.type == "continuous":

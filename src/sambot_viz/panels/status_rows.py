@@ -19,7 +19,7 @@ _LONGEST_FILE = 60
 
 def global_status_rows(session: Session) -> Iterator[Row]:
     """RViz's Global Status."""
-    status = session.drawn.global_status()
+    status = session.scene.global_status()
     yield _head(_STATUS, "", "Global Status", status.level, lazy=False)
     there = fixed_frame_missing(session)
     yield Row(
@@ -55,7 +55,7 @@ def status_rows(
         fixed = f"{row_id}/:fixed"
         yield Row(fixed, row_id, "status", "Fixed Frame", missing, level=level)
     own_robot = display.robot_display and display.robot_display.own_robot
-    if session.robot is None and own_robot is None and status.level != "Ok":
+    if session.robot.model is None and own_robot is None and status.level != "Ok":
         yield from _why_no_robot(session, row_id)
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]
@@ -96,7 +96,7 @@ def _head(row_id: str, parent: str, name: str, level: str, *, lazy: bool) -> Row
 
 def fixed_frame_missing(session: Session) -> str:
     """That the fixed frame does not exist, and which frames do; "" when it does."""
-    fixed, frames = session.context.fixed_frame, session.tree.frames
+    fixed, frames = session.scene.context.fixed_frame, session.frames.tree.frames
     if fixed in frames or not frames:
         return ""
     return f"Frame [{fixed}] does not exist. There are: {listed(sorted(frames))}"

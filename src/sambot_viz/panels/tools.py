@@ -11,7 +11,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Data, Json, Row
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 from sambot_viz.tools.tool import Tool
 
 _PLACE = Argument(float, optional=True)
@@ -31,9 +31,8 @@ class ToolsPanel(Panel):
 
     name = "tools"
 
-    def __init__(self, session: Session, browser: Browser) -> None:
-        signals = session.signals
-        self.remade_by = (signals.config, browser.tools.changed)
+    def __init__(self, session: Session, browser: Client) -> None:
+        self.remade_by = (browser.tools.changed,)
         self._session = session
         self._browser = browser
 
@@ -67,7 +66,7 @@ class ToolsPanel(Panel):
     @command("tools/reset", name="Reset")
     def _reset(self) -> None:
         """Draw the scene again for everyone."""
-        self._session.refresh()
+        self._session.scene.refresh()
 
     @command("tools/choose", TEXT, client_local=True)
     def _choose(self, label: str) -> None:
@@ -108,9 +107,8 @@ class ToolPropertiesPanel(Panel):
 
     name = "tool_properties"
 
-    def __init__(self, session: Session, browser: Browser) -> None:
-        signals = session.signals
-        self.remade_by = (signals.config, browser.tools.changed)
+    def __init__(self, session: Session, browser: Client) -> None:
+        self.remade_by = (browser.tools.changed,)
         self._session = session
         self._browser = browser
 
@@ -123,7 +121,7 @@ class ToolPropertiesPanel(Panel):
         if tool.config is None:
             return ()
         group = f"tool_properties/{tool.label}"
-        change = partial(self._session.set_tool_property, tool.kind)
+        change = partial(self._session.document.set_tool_property, tool.kind)
         below = [*property_rows(tool.config, group, change)]
         head = Row(
             group,

@@ -10,7 +10,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 
 class UndoPanel(Panel):
@@ -25,7 +25,7 @@ class UndoPanel(Panel):
     name = "edit"
 
     def __init__(
-        self, session: Session, browser: Browser, displays: DisplaysPanel
+        self, session: Session, browser: Client, displays: DisplaysPanel
     ) -> None:
         self._history, self._id = session.history, browser.client_id
         self.remade_by = (session.history.state(self._id),)
@@ -54,7 +54,9 @@ class UndoPanel(Panel):
         """The row that the page goes to; two of one row have different numbers."""
         state = self._history.state(self._id).value
         number, item = state.times, state.touched
-        if isinstance(item, DisplayConfig) and self._session.config.holds(item):
+        if isinstance(item, DisplayConfig) and self._session.document.config.holds(
+            item
+        ):
             return {"number": number, "row": self._displays.id_of(item)}
         return None
 

@@ -16,7 +16,7 @@ from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 from sambot_viz.session.document.document_view import mouse_facts
 from sambot_viz.views.registry import VIEWS
 
@@ -36,9 +36,12 @@ class ViewsPanel(Panel):
 
     name = "views"
 
-    def __init__(self, session: Session, browser: Browser) -> None:
-        signals = session.signals
-        self.remade_by = (signals.config, signals.follow, browser.view.changed)
+    def __init__(self, session: Session, browser: Client) -> None:
+        self.remade_by = (
+            session.document.views,
+            session.clients.follow_presenter,
+            browser.view.changed,
+        )
         self._session = session
         self._browser = browser
         self._ids = Ids[ViewConfig]("saved")
@@ -49,7 +52,7 @@ class ViewsPanel(Panel):
             self._type(),
             *self._current(),
             self._follow_row(),
-            *map(self._saved, self._session.config.saved_views),
+            *map(self._saved, self._session.document.config.saved_views),
         ]
 
     def data(self) -> Sequence[Data]:
@@ -97,13 +100,13 @@ class ViewsPanel(Panel):
             CURRENT,
             "bool",
             "Follow the presenter",
-            value=self._session.signals.follow.value,
+            value=self._session.clients.follow_presenter.value,
             help=f"All browsers show what {camera}.",
             set=self._follow,
         )
 
     def _follow(self, on: bool) -> None:
-        self._session.signals.follow.set(on)
+        self._session.clients.follow_presenter.set(on)
 
     @command("views/restore", TEXT, TEXT, client_local=True)
     def _restore(self, label: str, sent: str) -> None:
@@ -133,7 +136,7 @@ class ViewsPanel(Panel):
 
     def _saved_view(self, row_id: str) -> ViewConfig:
         saved = self._ids.find(row_id)
-        if saved is None or saved not in self._session.config.saved_views:
+        if saved is None or saved not in self._session.document.config.saved_views:
             raise UsageError("this saved view no longer exists")
         return saved
 
@@ -149,16 +152,16 @@ class ViewsPanel(Panel):
     def _rename(self, row_id: str, name: str) -> None:
         if not name.strip():
             raise UsageError("a saved view needs a name")
-        self._browser.view.rename(self._saved_view(row_id), name.strip())
+        self._browser.view.saved.rename(self._saved_view(row_id), name.strip())
 
     @command("views/remove", TEXT)
     def _remove(self, row_id: str) -> None:
-        self._browser.view.remove(self._saved_view(row_id))
+        self._browser.view.saved.remove(self._saved_view(row_id))
 
 
 def look_as(
     session: Session,
-    browser: Browser,
+    browser: Client,
     kind: str | None,
     wanted: Callable[[Row], Json],
 ) -> None:

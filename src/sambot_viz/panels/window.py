@@ -19,7 +19,7 @@ from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer, Row
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
+from sambot_viz.session.clients.client import Client
 
 
 class Window:
@@ -48,16 +48,16 @@ class Window:
         self._shared = Publisher(
             session.audience, session.worker, self._panels(joints), "session"
         )
-        session.browser_listeners.append(self._browser)
-        for browser in session.browsers.values():
+        session.clients.listeners.append(self._browser)
+        for browser in session.clients.all.values():
             self._browser(browser, True)
 
     def _panels(self, joints: bool) -> list[Panel]:
         session = self._session
-        panels: list[Panel] = [SessionInfoPanel(session), StatusBarPanel(session)]
+        panels: list[Panel] = [SessionInfoPanel(session), StatusBarPanel(session.scene)]
         panels.append(PeoplePanel(session))
         panels.append(self._displays)
-        panels.append(ProblemsPanel(session, self._remake))
+        panels.append(ProblemsPanel(session.problems, self._remake))
         panels.append(DisplayCommands(session, self._displays, self._remake))
         if joints:
             panels.append(JointsPanel(session, self._remake))
@@ -74,12 +74,12 @@ class Window:
 
     def close(self) -> None:
         """Follow the session no longer."""
-        self._session.browser_listeners.remove(self._browser)
+        self._session.clients.listeners.remove(self._browser)
         for panels in self._browsers.values():
             panels.close()
         self._shared.close()
 
-    def _browser(self, browser: Browser, joined: bool) -> None:
+    def _browser(self, browser: Client, joined: bool) -> None:
         if joined:
             self._browsers[browser.client_id] = BrowserPanels(
                 self._session,

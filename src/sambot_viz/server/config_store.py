@@ -88,13 +88,13 @@ class ConfigStore:
             ConfigError: it cannot be read, or is not a .rviz document.
         """
         document = self.read(path)
-        fit_own_config(document, session.robot)
+        fit_own_config(document, session.robot.model)
         self._prepare(document)
         with self._lock:
             self.file, self.view = path, _view_of(document)
             self.current, self.trusted = document, False
-        session.set_config(document, trusted=False)
-        session.show_view()
+        session.document.replace(document, trusted=False)
+        session.clients.show_view()
         for listener in self.on_open:
             listener()
 

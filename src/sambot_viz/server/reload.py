@@ -93,7 +93,7 @@ class Reloader:
 
     def _displays(self) -> Iterator[RobotDisplay]:
         for session in self._server.sessions():
-            yield from robot_displays(session.displays)
+            yield from robot_displays(session.scene.displays)
 
     def _files(self) -> set[Path]:
         file = self._documents.file
@@ -133,7 +133,7 @@ class Reloader:
         config = self._documents.file
         if config is not None and config in changed:
             self._reload_config(config)
-        self._server.for_each_session(lambda s: s.files_saved(changed))
+        self._server.for_each_session(lambda s: s.scene.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return
@@ -226,14 +226,17 @@ class Reloader:
             False when the changes of a user were kept and the file is not shown.
         """
         with session.lock:
-            if session.config.to_yaml() == text or self._documents.file != path:
+            if (
+                session.document.config.to_yaml() == text
+                or self._documents.file != path
+            ):
                 # The page itself saved the file, or opened another one meanwhile.
                 return True
             if session.history.modified.value:
                 return False
-            session.set_config(self._documents(), self._documents.trusted)
+            session.document.replace(self._documents(), self._documents.trusted)
             if self._documents.view != before:
-                session.show_view()
+                session.clients.show_view()
             return True
 
     def _cannot_watch(self, reason: str) -> None:

@@ -24,7 +24,6 @@ from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
-from sambot_viz.session.checks import CheckResults
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Worker
 
@@ -77,7 +76,6 @@ class Sessions:
         self._private: dict[int, Session] = {}
         self._workers: dict[int | None, Worker] = {}
         self._windows: dict[Session, Window] = {}
-        self._checks: dict[Session, CheckResults] = {}
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._closed = False
@@ -141,7 +139,7 @@ class Sessions:
             self.for_each(lambda session: session.show_robot(robot))
         finally:
             self._forget_unused_files()
-            self.for_each(self._check)
+            self.for_each(lambda session: session.checks.run())
 
     def show_panels(self) -> None:
         """Add the panels to the shared session, unless it has them or is to have none.
@@ -162,21 +160,16 @@ class Sessions:
                     session, self._options.gui, files, self._ask_page
                 )
 
-    def _check(self, session: Session) -> None:
-        checks = self._checks.get(session)
-        if checks is not None:
-            checks.give()
-
     def refresh(self) -> None:
         """Draw again what comes from mesh files and textures that have changed."""
         try:
-            self.for_each(Session.refresh)
+            self.for_each(lambda session: session.scene.refresh())
         finally:
             self._forget_unused_files()
 
     def _forget_unused_files(self) -> None:
         """Let go of meshes and textures that no session draws any more."""
-        used = (session.context.assets.used for session in self.all())
+        used = (session.scene.context.assets.used for session in self.all())
         self.meshes.keep_only(set[Asset]().union(*used))
 
     def _drawing_failed(self, error: Exception) -> None:
@@ -221,7 +214,7 @@ class Sessions:
         if self._models is not None and not self._models.wait(timeout):
             raise ServerError(f"a model was not read within {timeout:g} s")
         for session in self.all():
-            if not session.context.assets.wait(timeout):
+            if not session.scene.context.assets.wait(timeout):
                 raise ServerError(f"the meshes were not read within {timeout:g} s")
 
     def _open(
@@ -243,14 +236,13 @@ class Sessions:
             poses,
         )
         if copy is not None:
-            copy.trust(session)
-        session.show_config()
-        checks = self._checks[session] = CheckResults(session)
+            session.trust(copy)
+        session.document.show()
         if self.robot is not None:
             session.show_robot(self.robot)
-            worker.post(checks.give)
+            worker.post(session.checks.run)
         if copy is not None:
-            copy.give(session)
+            session.take(copy)
         for of, problems in self._reload_problems.items():
             session.problems.set_saves(of, problems)
         return session
@@ -316,7 +308,7 @@ class Sessions:
     def _give_view(
         self, session: Session, client: viser.ClientHandle, context: ClientContext
     ) -> None:
-        session.join_browser(client, presenter=context.presenter)
+        session.join(client, presenter=context.presenter)
         with self._joined:
             self._joined.notify_all()
 
@@ -324,8 +316,7 @@ class Sessions:
         self, shared: Session, client: viser.ClientHandle, worker: Worker
     ) -> None:
         """Copy the shared session, which is locked, for one browser."""
-        copy = SessionCopy.of(shared)
-        worker.post(partial(self._open_private, client, worker, copy))
+        worker.post(partial(self._open_private, client, worker, shared.copy()))
 
     def _open_private(
         self,
@@ -345,7 +336,7 @@ class Sessions:
         with self._lock:
             self._private[client.client_id] = session
             robot, problems = self.robot, dict(self._reload_problems)
-        if robot is not None and robot is not session.robot:
+        if robot is not None and robot is not session.robot.model:
             session.show_robot(robot)
         for of, found in problems.items():
             session.problems.set_saves(of, found)
@@ -358,14 +349,13 @@ class Sessions:
         if worker is not None:
             worker.post(partial(self._close_private, client.client_id, worker))
         elif self.shared is not None:
-            leave = partial(self.shared.leave_browser, client.client_id)
+            leave = partial(self.shared.leave, client.client_id)
             self.shared.worker.post(leave)
 
     def _close_private(self, client_id: int, worker: Worker) -> None:
         with self._lock:
             session = self._private.pop(client_id, None)
         if session is not None:
-            self._checks.pop(session, None)
             window = self._windows.pop(session, None)
             if window is not None:
                 window.close()

@@ -1,6 +1,6 @@
 """The .rviz file of a session: where it is, what may be beside it, and saving it.
 
-A browser may overwrite the config that was opened, and open and write other files
+A client may overwrite the config that was opened, and open and write other files
 beside it; nothing else, because whoever can open the page can press the buttons. A link
 that leads elsewhere is not beside it.
 """
@@ -17,8 +17,10 @@ from sambot_viz.files import is_below
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.limits import require_room
-from sambot_viz.session.session import Session
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.text import text
 
 ENDING = ".rviz"
@@ -37,22 +39,28 @@ class ConfigFile:
     """The file of a session's document.
 
     Args:
-        session: whose document it is.
+        document: what is saved.
+        robot: a config without a file is saved beside it.
+        scene: knows the config that the command line opened.
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(
+        self, document: ShownDocument, robot: RobotState, scene: Scene
+    ) -> None:
+        self._document = document
+        self._robot = robot
+        self._context = scene.context
 
     @property
     def name(self) -> str:
         """The file's name; empty when the document was never in a file."""
-        file = self._session.config.file
+        file = self._document.config.file
         return "" if file is None else Path(file).name
 
     @property
     def target(self) -> Path | None:
         """The file that saving writes; None when it needs another name first."""
-        file = self._session.config.file
+        file = self._document.config.file
         return None if file is None or _is_bundled(Path(file)) else Path(file)
 
     @property
@@ -63,7 +71,7 @@ class ConfigFile:
     @property
     def folder(self) -> Path:
         """Where files are saved and opened: beside the config, else the model."""
-        opened, robot = self.target or self._opened, self._session.robot
+        opened, robot = self.target or self._opened, self._robot.model
         if opened is not None:
             return opened.absolute().parent
         if robot is not None and robot.files:
@@ -75,7 +83,7 @@ class ConfigFile:
     @property
     def _opened(self) -> Path | None:
         """The config of the command line; another one may be shown meanwhile."""
-        file = self._session.context.config_file
+        file = self._context.config_file
         return None if file is None or _is_bundled(file) else file
 
     def _leads_elsewhere(self, path: Path) -> bool:
@@ -162,22 +170,20 @@ class ConfigFile:
             UsageError: there is no file to write, or it cannot be written; what was
                 there is untouched.
         """
-        with self._session.change():
-            target = path or self.target
-            if target is None:
-                raise UsageError("this config has no file of its own yet: save it as …")
-            if not os.path.lexists(target):
-                what = f"configs in {target.absolute().parent}"
-                require_room(len(self.names()), MOST_NAMES, what)
-            try:
-                self._session.config.save(target)
-            except ConfigError as error:
-                raise UsageError(
-                    f"{target.name} in {target.absolute().parent}: "
-                    f"{error.problems[0].message}. Nothing is lost: save it under "
-                    "another name, or download it"
-                ) from error
-            self._session.history.saved()
+        target = path or self.target
+        if target is None:
+            raise UsageError("this config has no file of its own yet: save it as …")
+        if not os.path.lexists(target):
+            what = f"configs in {target.absolute().parent}"
+            require_room(len(self.names()), MOST_NAMES, what)
+        try:
+            self._document.save(target)
+        except ConfigError as error:
+            raise UsageError(
+                f"{target.name} in {target.absolute().parent}: "
+                f"{error.problems[0].message}. Nothing is lost: save it under "
+                "another name, or download it"
+            ) from error
         return target
 
 

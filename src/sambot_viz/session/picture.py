@@ -16,8 +16,7 @@ from PIL import Image
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.geometry import wxyz_from_matrix
-from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.session import Session
+from sambot_viz.session.clients.client import Client
 from sambot_viz.views.camera import components
 from sambot_viz.viser_private import drawn_by
 
@@ -33,13 +32,13 @@ class PictureError(SambotVizError):
 
 
 async def picture_of(
-    session: Session, browser: Browser, width: int, height: int
+    client: Client, background: tuple[int, int, int], width: int, height: int
 ) -> bytes:
-    """Have a browser draw its view at a size.
+    """Have a client draw its view at a size.
 
     Args:
-        session: what the browser shows.
-        browser: the browser.
+        client: who draws.
+        background: colour behind what is drawn, 0 to 255.
         width: of the picture [pixels].
         height: of the picture [pixels]; it shows as much as the window's does.
 
@@ -49,9 +48,9 @@ async def picture_of(
     Raises:
         PictureError: the browser did not draw it.
     """
-    client, camera = browser.client, browser.view.camera
+    handle, camera = client.client, client.view.camera
     if camera.scale is not None:
-        scale = camera.scale * height / client.camera.image_height
+        scale = camera.scale * height / handle.camera.image_height
         # The page's own camera is farther away than viser draws into pictures.
         camera = replace(camera, scale=scale).as_perspective(height)
     R = np.stack([camera.right, -camera.image_up, camera.forward], 1)
@@ -61,12 +60,11 @@ async def picture_of(
         "fov": float(camera.fov),
     }
     try:
-        answer = await drawn_by(client, width, height, pose, RENDER_TIME)
+        answer = await drawn_by(handle, width, height, pose, RENDER_TIME)
     except TimeoutError:
         raise PictureError(
             f"the browser did not draw the picture within {RENDER_TIME:g} s"
         ) from None
-    background = session.context.background
     return await asyncio.to_thread(finished, answer, (width, height), background)
 
 

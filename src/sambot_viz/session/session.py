@@ -1,6 +1,6 @@
 """One robot, config, joints, frames and displays, shown to one audience.
 
-The audience is all browsers (shared) or one (private): `viser.ViserServer` and
+The audience is all clients (shared) or one (private): `viser.ViserServer` and
 `viser.ClientHandle` have the same scene and GUI, so the same classes serve both.
 All state of a session changes under its one lock. A single change is sent at once,
 streams at the config's Frame Rate.
@@ -9,37 +9,49 @@ streams at the config's Frame Rate.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
-from types import MappingProxyType
 
 import viser
 
 from sambot_viz.displays.robot_display import ModelReader
 from sambot_viz.displays.scene.session_assets import Reader
+from sambot_viz.frames import FrameTree
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.browser.pick_rays import PickRays
-from sambot_viz.session.document.document_view import target_of, view_of
+from sambot_viz.session.checks import Checks
+from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.clients import Clients
+from sambot_viz.session.clients.follow_view import FollowView
+from sambot_viz.session.clock import Clock, WallClock
+from sambot_viz.session.document.display_edits import DisplayEdits
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.document.document_view import DocumentView
+from sambot_viz.session.document.toggles import Toggles
 from sambot_viz.session.people.roles import Roles
-from sambot_viz.session.problem_list import ProblemList
+from sambot_viz.session.problems import Problems
+from sambot_viz.session.robot.drive import Drive
+from sambot_viz.session.robot.drive_trail import DriveTrail
+from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.motion import Motion
-from sambot_viz.session.robot.robot_edits import RobotEdits
-from sambot_viz.session.signals import Audience
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.robot.user_frames import UserFrames
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.session_copy import SessionCopy
+from sambot_viz.session.signals import Audience, Change, connect
+from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
-from sambot_viz.views.camera import Camera
 
 
-class Session(RobotEdits):
-    """One robot and its displays, shown to one audience.
+class Session:
+    """Makes the parts of a session, and joins them; none of them knows it.
 
     Args:
         audience: where to draw.
-        worker: the thread that browsers, timers and files act in; it is closed with
+        worker: the thread that clients, timers and files act in; it is closed with
             the session.
         config: the .rviz document; the session changes it as the user does.
         meshes: mesh files that are read already (shared by all sessions).
@@ -47,11 +59,11 @@ class Session(RobotEdits):
         reader: reads mesh files in the background; None reads them while drawing.
         options: the start pose, the static transforms and the wheels.
         poses: the named poses; None keeps new ones in memory.
+        clock: the time of what moves; the computer's by default.
 
     Attributes:
-        roles: who of the browsers may change the session.
-        browser_listeners: called with a browser that joined (True) or left (False),
-            with the session locked.
+        lock: the worker's; held while the state changes.
+        change: changes the state, sends that, and tells it.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -67,108 +79,125 @@ class Session(RobotEdits):
         reader: Reader | None = None,
         options: Options | None = None,
         poses: Presets | None = None,
+        clock: Clock | None = None,
     ) -> None:
-        poses = poses or Presets()
-        super().__init__(audience, worker, config, meshes, models, reader, poses)
-        self.options = options or Options()
-        self.problems = ProblemList(self)
-        worker.on_error = self.problems.report_error
-        self.motion = Motion(self)
-        self.rays = PickRays(self)
-        self._browsers: dict[int, Browser] = {}
-        self.browser_listeners: list[Callable[[Browser, bool], None]] = []
-        self._open = threading.Semaphore()
+        self.audience, self.worker, self.lock = audience, worker, worker.lock
+        self.options = options = options or Options()
+        self.poses = poses or Presets()
+        change = self.change = Change(worker, audience)
+        clock = clock or WallClock()
         private = isinstance(audience, viser.ClientHandle)
-        presented = self.options.presenter is not None and not private
-        self.roles = Roles(self.change, presented)
-        for added in self.options.transforms:
-            self.add_frame(added.parent, added.child, added.transform)
+        self.roles = Roles(change, options.presenter is not None and not private)
+        history = self.history = History(change)
 
-    # Browsers
+        tree = FrameTree()
+        scene = self.scene = Scene(audience, tree, change, meshes, models, reader)
+        picker = self.picker = Picker(scene, worker)
+        document = self.document = ShownDocument(config, scene, history, change)
+        self.document_view = DocumentView(document, scene, picker)
+        self.display_edits = DisplayEdits(document, scene, history, change)
+        self.toggles = Toggles(document, scene, self.display_edits)
 
-    @property
-    def browsers(self) -> Mapping[int, Browser]:
-        """The browsers that see the session, by their numbers; read-only."""
-        return MappingProxyType(self._browsers)
+        added = UserFrames(tree)
+        robot = RobotState(tree, added, scene, history, change, worker, clock)
+        self.robot = robot
+        self.frames = Frames(tree, added, robot, scene, history, change)
+        self.drive = Drive(robot, self.frames, options, change)
+        self.motion = Motion(robot, self.drive, change, worker, clock)
+        self._trail = DriveTrail(self.drive, robot, scene, change, worker)
 
-    def join_browser(
-        self, client: viser.ClientHandle, *, presenter: bool = False
-    ) -> Browser:
-        """A browser has opened the page, maybe by the presenter's link."""
+        self.problems = Problems(document, scene, robot, change)
+        worker.on_error = self.problems.report_error
+        self.checks = Checks(robot, document, scene, self.problems, change)
+        self.clients = Clients(
+            document, scene, robot, picker, history, self.roles, change, worker
+        )
+        self.follow_view = FollowView(
+            self.drive, document, scene, picker, self.clients, history, worker
+        )
+
+        self._open = threading.Semaphore()
+        connect([document.options, document.replaced], self._take_period)
+        self._take_period()
+        for frame in options.transforms:
+            self.frames.add(frame.parent, frame.child, frame.transform)
+
+    def join(self, handle: viser.ClientHandle, *, presenter: bool = False) -> Client:
+        """Add a client that has opened the page, maybe at the presenter's address."""
         with self.lock:
-            self.roles.join(client.client_id, presenter)
-            browser = self._browsers[client.client_id] = Browser(self, client)
-            for listener in tuple(self.browser_listeners):
-                listener(browser, True)
-            return browser
+            self.roles.join(handle.client_id, presenter)
+            return self.clients.join(handle)
 
-    def leave_browser(self, client_id: int) -> None:
-        """A browser has closed the page: what belongs to it alone is forgotten."""
+    def leave(self, client_id: int) -> None:
+        """Forget what belongs to a client that has closed the page."""
         with self.lock:
-            browser = self._browsers.pop(client_id, None)
-            if browser is not None:
-                browser.close()
-                self.history.leave(client_id)
-                self.roles.leave(client_id)
-                for listener in tuple(self.browser_listeners):
-                    listener(browser, False)
-
-    @property
-    def camera(self) -> Camera:
-        """The camera of the document's view, in the fixed frame."""
-        view = view_of(self.config.view)
-        return view.camera(target_of(self, view))
-
-    def camera_on_robot(self, width: int, height: int) -> Camera:
-        """That camera, moved to where it shows the whole robot.
-
-        Args:
-            width: of the picture [pixels].
-            height: of the picture [pixels].
-        """
-        view = view_of(self.config.detached_view())
-        target, box = target_of(self, view), self.rays.robot_box()
-        if box is not None:
-            for path, value in view.fit(*box, width, height, target).items():
-                view.config.set(path, value)
-        return view.camera(target)
-
-    def show_view(self) -> None:
-        """Give all browsers the document's view, which `set_config` does not."""
-        with self.change():
-            for browser in self._browsers.values():
-                browser.view.show()
-
-    # The robot
+            self.clients.leave(client_id)
+            self.roles.leave(client_id)
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot, or the same after an edit: joints keep their values."""
-        with self.change(self.signals.robot):
-            self.context.robot = robot
-            self.context.assets.look_again()
-            self._posed.take(robot, self.options.start_pose)
-            self.motion.drive.take(robot)
-            refused = self._posed.build_tree()
-            self.context.moving = self._posed.moving
-            self.drawn.publish()
-            self.drawn.take_options()
-            wheels = self.motion.drive.problems
-            self.problems.of_frames = (*floating_problems(robot), *refused, *wheels)
-            of_joints = self.joints.problems if self.joints else ()
-            self.problems.set_model((*robot.problems, *of_joints))
-            self._frames_changed()
+        with self.change():
+            refused = self.robot.take(robot, self.options.start_pose)
+            self.drive.take(robot)
+            self.scene.take_options(self.document.config.global_options)
+            wheels = self.drive.problems
+            found = (*floating_problems(robot), *refused, *wheels)
+            self.problems.of_frames = found
+            joints = self.robot.joints
+            self.problems.set_model(
+                (*robot.problems, *(joints.problems if joints else ()))
+            )
+            self.scene.draw_frames()
+
+    def copy(self) -> SessionCopy:
+        """Copy what is shown now."""
+        with self.lock:
+            joints, context = self.robot.joints, self.scene.context
+            return SessionCopy(
+                config=self.document.config.copy(),
+                positions={} if joints is None else dict(joints.positions),
+                frames=dict(self.frames.added),
+                poses=self.poses.in_memory(),
+                config_file=context.config_file,
+                trusted_files=context.trusted_files,
+                robot=self.robot.model,
+                trail=self.drive.trail,
+                models=context.models,
+                meshes=context.assets.cache,
+            )
+
+    def trust(self, copy: SessionCopy) -> None:
+        """Trust, before anything is drawn, the models that the copied session trusts.
+
+        Its document may name others, which a client has chosen.
+        """
+        self.scene.context.config_file = copy.config_file
+        self.scene.context.trusted_files = copy.trusted_files
+
+    def take(self, copy: SessionCopy) -> None:
+        """Put joints and frames where they are in a copy."""
+        for child, frame in copy.frames.items():
+            self.frames.add(frame.parent, child, frame.transform, static=frame.static)
+        if self.robot.joints is not None:
+            known = self.robot.joints.free
+            self.robot.move({n: q for n, q in copy.positions.items() if n in known}, {})
 
     def close(self) -> None:
         """Send nothing any more; a second call does nothing.
 
-        The browser of a private session may leave while the server stops.
+        The client of a private session may leave while the server stops.
         """
         if not self._open.acquire(blocking=False):
             return
-        self.context.apply = lambda action: None
+        self.scene.context.apply = lambda action: None
         self.motion.close()
-        for browser in self._browsers.values():
-            browser.close()
-        self.rays.close()
-        self._pacer.close()
+        self._trail.close()
+        self.follow_view.close()
+        self.clients.close()
+        self.picker.close()
+        self.robot.close()
         self.worker.close()
+
+    def _take_period(self) -> None:
+        self.robot.set_period(self.document.period)
+        self.motion.period = self.document.period

@@ -1,18 +1,19 @@
-"""A copy of a session's state, for a browser that goes on by itself."""
+"""A copy of what a session shows, for a private copy or for a file."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from sambot_viz.displays.robot_display import ModelReader
+from sambot_viz.frames import Transform
 from sambot_viz.joints.presets import Presets
+from sambot_viz.meshes.cache import MeshCache
+from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.robot.user_frames import UserFrame
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,11 @@ class SessionCopy:
         frames: child → frame that was added.
         poses: the named poses, in memory only.
         config_file: the .rviz file that the command line opened, or None.
-        trusted_files: the models that it named before a browser could change it.
+        trusted_files: the models that it named before a client could change it.
+        robot: the robot, if there is one.
+        trail: where the robot was driven, x, y [m] in odom.
+        models: reads further models.
+        meshes: mesh files that are read already.
     """
 
     config: RvizConfig
@@ -34,32 +39,17 @@ class SessionCopy:
     poses: Presets
     config_file: Path | None
     trusted_files: frozenset[str]
+    robot: Robot | None
+    trail: tuple[tuple[float, float], ...]
+    models: ModelReader | None
+    meshes: MeshCache
 
-    @classmethod
-    def of(cls, session: Session) -> SessionCopy:
-        """Copy a session, which is locked."""
-        joints = session.joints
-        return cls(
-            session.config.copy(),
-            {} if joints is None else dict(joints.positions),
-            dict(session.added.all),
-            session.poses.in_memory(),
-            session.context.config_file,
-            session.context.trusted_files,
-        )
-
-    def trust(self, session: Session) -> None:
-        """Let a session, before it draws, trust the models that the first one trusts.
-
-        Its document may name others, which a browser has chosen.
-        """
-        session.context.config_file = self.config_file
-        session.context.trusted_files = self.trusted_files
-
-    def give(self, session: Session) -> None:
-        """Put joints and frames where they are in the copy."""
-        for child, frame in self.frames.items():
-            session.add_frame(frame.parent, child, frame.transform, static=frame.static)
-        if session.joints is not None:
-            known = session.joints.free
-            session.move({n: q for n, q in self.positions.items() if n in known}, {})
+    def before(self, sample: MotionSample) -> SessionCopy:
+        """Return the same, with joints and frames where they were."""
+        frames = {
+            child: replace(frame, transform=Transform.trusted(sample.frames[child]))
+            if child in sample.frames
+            else frame
+            for child, frame in self.frames.items()
+        }
+        return replace(self, positions=sample.positions, frames=frames)

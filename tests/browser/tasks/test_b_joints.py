@@ -53,7 +53,7 @@ def test_task_07_turn_a_wheel_to_exactly_1_5_by_typing(s: Desk) -> None:
     passed: list[float] = []
     session = s.viz.server.sessions()[0]
     disconnect = connect(
-        [session.signals.joints], lambda: passed.append(s.viz.joint_positions[LEFT])
+        [session.robot.positions], lambda: passed.append(s.viz.joint_positions[LEFT])
     )
     enter(s, LEFT, "1.5")
     shows(s, LEFT, 1.5)

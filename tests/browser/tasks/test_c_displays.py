@@ -30,7 +30,7 @@ def tick(desk: Desk, *names: str) -> None:
 
 def displays(desk: Desk) -> list[DisplayConfig]:
     (session,) = desk.viz.server.sessions()
-    return list(session.config.displays)
+    return list(session.document.config.displays)
 
 
 def names(desk: Desk) -> list[str]:
@@ -48,7 +48,7 @@ def listed(desk: Desk) -> list[str]:
 
 def option(desk: Desk, name: str) -> Any:
     (session,) = desk.viz.server.sessions()
-    return session.config.global_options.get(name)
+    return session.document.config.global_options.get(name)
 
 
 def add_axes(desk: Desk) -> None:

@@ -248,7 +248,7 @@ def test_task_58_the_keyboard_alone(s: Desk) -> None:
     user.type("0.5")
     user.keys("Enter")
     session = s.viz.server.sessions()[0]
-    user.until(lambda: session.config.displays[1].get("Alpha") == 0.5)
+    user.until(lambda: session.document.config.displays[1].get("Alpha") == 0.5)
     user.keys("Escape")
     tab_to("slider", LEFT)
     user.keys("End")

@@ -21,14 +21,14 @@ Nodes = Callable[[Session], dict[str, viser.SceneNodeHandle]]
 
 
 def model_of(session: Session) -> RobotModelDisplay:
-    display = session.displays[0]
+    display = session.scene.displays[0]
     assert isinstance(display, RobotModelDisplay)
     return display
 
 
 def at(session: Session, link: str, nodes: Nodes) -> dict[str, viser.SceneNodeHandle]:
     """The nodes of the display at a link's frame, by the part after its key."""
-    above = f"{session.context.nodes.path(link)}/{model_of(session).key}"
+    above = f"{session.scene.context.nodes.path(link)}/{model_of(session).key}"
     found = nodes(session).items()
     return {n[len(above) :]: h for n, h in found if n.startswith(above)}
 
@@ -109,13 +109,13 @@ def test_all_links_enabled_ticks_the_links_of_the_file_too(
 ) -> None:
     session = show(LINKS)
     display = model_of(session)
-    session.set_property(display, "Links/All Links Enabled", False)
+    session.display_edits.set_property(display, "Links/All Links Enabled", False)
     assert not any(
         h.visible
         for link in ("base", "upper")
         for h in at(session, link, nodes).values()
     )
-    session.set_property(display, "Links/All Links Enabled", True)
+    session.display_edits.set_property(display, "Links/All Links Enabled", True)
     assert at(session, "upper", nodes)["v0"].visible
     assert display.config.dynamic(("Links", "upper"))["Value"] == "true"
 
@@ -148,13 +148,13 @@ def test_an_edit_of_a_link_changes_one_line_of_the_file(show: Show) -> None:
         upper: {Alpha: 7, Value: false}
 """
     session = show(body.strip("\n"))
-    before = session.config.to_yaml().splitlines()
+    before = session.document.config.to_yaml().splitlines()
     links = model_of(session).entries()[0]
     assert links.set("upper", "Alpha", 1.0) == 1.0
     assert links.set("base", "Show Axes", True) is True
-    assert session.config.to_yaml().splitlines() == before
+    assert session.document.config.to_yaml().splitlines() == before
     assert links.set("base", "Alpha", 0.25) == 0.25
-    after = session.config.to_yaml().splitlines()
+    after = session.document.config.to_yaml().splitlines()
     assert [pair for pair in zip(before, after, strict=True) if pair[0] != pair[1]] == [
         (
             "          Alpha: 0.40  # as written by hand",
@@ -167,9 +167,9 @@ def test_a_bad_value_of_a_link_is_reported_once_with_its_line(show: Show) -> Non
     session = show("      Links: {upper: {Alpha: 7}}")
     for _ in range(2):
         with session.change():
-            session.config.duplicate(session.displays[0].config)
-            session.show_config()
-    said = [str(problem) for problem in session.config.problems]
+            session.document.config.duplicate(session.scene.displays[0].config)
+            session.document.show()
+    said = [str(problem) for problem in session.document.config.problems]
     assert said == [
         "7:30: warning[config-value]: 'Alpha' is 7, but must be a number from 0 to 1; "
         "1 is used, as in RViz; write a number from 0 to 1"
@@ -187,13 +187,15 @@ def test_a_link_of_a_list_is_switched_on_alone(show: Show, nodes: Nodes) -> None
     assert "v0" not in at(session, "base", nodes)
     assert joints.item("shoulder").get("Value") is True
     assert display.config.dynamic(("Links", "upper")) == {"Value": "true"}
-    session.set_property(display, "Links/All Links Enabled", True)
+    session.display_edits.set_property(display, "Links/All Links Enabled", True)
     assert "v0" in at(session, "base", nodes)
 
 
 def test_another_style_of_the_rows_is_taken_at_once(show: Show) -> None:
     display = model_of(session := show(""))
-    session.set_property(display, "Links/Link Tree Style", "Tree of links")
+    session.display_edits.set_property(
+        display, "Links/Link Tree Style", "Tree of links"
+    )
     display.entries()[0].set("upper", "Alpha", 0.5)
     place = ("Links", "upper", "Details")
     assert display.config.dynamic(place) == {"Alpha": "0.5"}
@@ -237,21 +239,23 @@ def test_mass_and_inertia_follow_their_boxes(show: Show, nodes: Nodes) -> None:
     assert tuple(ball.position) == (0, 0, 0.5)
     box: Any = base["i"]
     assert tuple(box.dimensions) == pytest.approx((6**0.5,) * 3)
-    session.set_property(model_of(session), "Mass Properties/Mass", False)
+    session.display_edits.set_property(model_of(session), "Mass Properties/Mass", False)
     assert "m" not in at(session, "base", nodes)
-    session.set_property(model_of(session), "Links/All Links Enabled", False)
+    session.display_edits.set_property(
+        model_of(session), "Links/All Links Enabled", False
+    )
     assert "i" not in at(session, "base", nodes)
 
 
 def test_a_trail_grows_behind_a_link_that_moves(show: Show, nodes: Nodes) -> None:
     session = show("      Links: {tool: {Show Trail: true}}")
     for step in range(1, 6):
-        session.set_joint_positions({"shoulder": step / 10})
-        session.draw_moved()
+        session.robot.set_positions({"shoulder": step / 10})
+        session.robot.draw_moved()
     name = f"/{model_of(session).key}t0"
     trail: Any = nodes(session)[name]
     assert trail.points.shape[1:] == (2, 3)
-    end = session.tree.lookup("base", "tool").translation
+    end = session.frames.tree.lookup("base", "tool").translation
     assert trail.points[-1, 1] == pytest.approx(end, abs=1e-6)
 
 
@@ -291,12 +295,14 @@ def test_a_robot_from_a_file_brings_its_own_frames(
     show: Show, arm: Robot, second: str
 ) -> None:
     session = show(second, files={"other.urdf": arm})
-    assert {"base", "upper", "b/base", "b/upper", "b/tool"} <= set(session.tree.frames)
+    assert {"base", "upper", "b/base", "b/upper", "b/tool"} <= set(
+        session.frames.tree.frames
+    )
     assert model_of(session).status.rows["b/upper"].level == "Error"
-    session.add_frame("base", "b/base", Transform.from_xyz_rpy((2, 0, 0)))
+    session.frames.add("base", "b/base", Transform.from_xyz_rpy((2, 0, 0)))
     rows = model_of(session).status.rows
     assert rows["b/upper"].text == "Transform OK"
-    at_two = session.tree.lookup("base", "b/upper").translation
+    at_two = session.frames.tree.lookup("base", "b/upper").translation
     assert at_two == pytest.approx((2, 0, 1))
 
 
@@ -305,8 +311,8 @@ def test_frames_of_a_second_robot_outlive_a_reload_of_the_first(
 ) -> None:
     session = show(second, files={"other.urdf": arm})
     session.show_robot(arm)
-    assert "b/tool" in session.tree.frames
-    assert session.context.nodes.path("b/tool") is not None
+    assert "b/tool" in session.frames.tree.frames
+    assert session.scene.context.nodes.path("b/tool") is not None
 
 
 def test_a_file_that_is_not_there_is_said_in_the_status(show: Show) -> None:
@@ -324,10 +330,10 @@ def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_late
     session = show(body, files={"other.urdf": arm}, robot=None)
     assert model_of(session).status.rows["URDF"].level == "Error"
     session.show_robot(replace(arm, files=(tmp_path / "opened.urdf",)))
-    models = session.context.models
+    models = session.scene.context.models
     assert isinstance(models, ModelThread)
     assert models.wait(20)
-    assert "b/tool" in session.tree.frames
+    assert "b/tool" in session.frames.tree.frames
 
 
 JOINT_ROWS = """
@@ -352,7 +358,7 @@ def test_joint_rows_that_a_list_of_joints_saved_under_links_are_read(
     assert any(name.startswith(f"{key}j") for name in marks)
     assert any(name.startswith(f"{key}x") for name in marks)
     joints.set("shoulder", "Show Axes", False)
-    text = session.config.to_yaml()
+    text = session.document.config.to_yaml()
     assert "shoulder: {Show Axes: false, Show Joint Axis: true, Value: false}" in text
     assert "Joints:" not in text
 

@@ -50,10 +50,10 @@ class Case:
 
     def __init__(self, session: Session, models: ModelThread) -> None:
         self.session, self.models = session, models
-        self.display = session.displays[0]
+        self.display = session.scene.displays[0]
 
     def set(self, path: str, value: object) -> None:
-        self.session.set_property(self.display, path, value)
+        self.session.display_edits.set_property(self.display, path, value)
         assert self.models.wait(20)
 
     def choose(self, file: Path | str) -> None:
@@ -123,7 +123,7 @@ def test_a_file_of_the_opened_package_is_read_without_its_code(
     case = open_case()
     case.choose(package / "urdf" / "second.urdf")
     assert loader.asked == [(package / "urdf" / "second.urdf", False)]
-    assert "b/own" in case.session.tree.frames
+    assert "b/own" in case.session.frames.tree.frames
 
 
 @pytest.mark.parametrize(
@@ -148,11 +148,11 @@ def test_a_browser_cannot_name_a_file_outside_and_learns_nothing(
 ) -> None:
     (package / "link.urdf").symlink_to(package.parent / "foreign.urdf")
     case = open_case()
-    before = case.session.config.to_yaml()
+    before = case.session.document.config.to_yaml()
     with pytest.raises(UsageError) as refused:
         case.set("Description File", name.format(outside=package.parent))
     assert str(refused.value) == OUTSIDE
-    assert case.session.config.to_yaml() == before
+    assert case.session.document.config.to_yaml() == before
     assert case.display.status.rows["Description File"].text == OUTSIDE
     assert loader.asked == []
 
@@ -173,7 +173,7 @@ def test_a_file_that_the_opened_config_names_is_trusted_wherever_it_lies(
     foreign = package.parent / "foreign.urdf"
     case = open_case(FROM_FILE.format(foreign))
     assert loader.asked == [(foreign, True)]
-    assert "b/foreign" in case.session.tree.frames
+    assert "b/foreign" in case.session.frames.tree.frames
     case.choose(package / "urdf" / "second.urdf")
     case.choose(foreign)
     assert [trusted for _, trusted in loader.asked] == [True, False, True]
@@ -185,8 +185,8 @@ def test_a_copy_of_a_display_does_not_make_its_file_trusted(
     case = open_case()
     case.choose(package / "urdf" / "second.urdf")
     with case.session.change():
-        case.session.config.duplicate(case.display.config)
-        case.session.show_config()
+        case.session.document.config.duplicate(case.display.config)
+        case.session.document.show()
     assert case.models.wait(20)
     assert [trusted for _, trusted in loader.asked] == [False, False]
 
@@ -195,7 +195,7 @@ def test_code_of_a_file_that_a_browser_named_does_not_run(
     open_case: Callable[..., Case], package: Path
 ) -> None:
     code = package / "urdf" / "code.xacro"
-    assert "b/RUN_link" in open_case(FROM_FILE.format(code)).session.tree.frames
+    assert "b/RUN_link" in open_case(FROM_FILE.format(code)).session.frames.tree.frames
     case = open_case()
     case.choose(code)
     assert case.status == "URDF failed Model parse: see `sambot-viz check`"
@@ -215,12 +215,12 @@ def test_the_page_goes_on_while_a_model_is_being_read(
 ) -> None:
     case = open_case()
     loader.go_on.clear()
-    case.session.set_property(
+    case.session.display_edits.set_property(
         case.display, "Description File", str(package / "urdf" / "second.urdf")
     )
-    case.session.set_property(case.display, "Description Source", "File")
+    case.session.display_edits.set_property(case.display, "Description Source", "File")
     assert case.status == "The model file is still being read"
-    case.session.set_property(case.display, "Alpha", 0.5)
+    case.session.display_edits.set_property(case.display, "Alpha", 0.5)
     loader.go_on.set()
     assert case.models.wait(20)
     assert case.display.status.rows["b/own"].level == "Error"  # No transform to base.
@@ -236,11 +236,13 @@ def test_only_the_latest_of_several_files_is_read(
     for number in range(20):
         file = package / "urdf" / f"{number}.urdf"
         file.write_text(urdf(f"link_{number}"))
-        case.session.set_property(case.display, "Description File", str(file))
+        case.session.display_edits.set_property(
+            case.display, "Description File", str(file)
+        )
     loader.go_on.set()
     assert case.models.wait(20)
     assert len(loader.asked) <= 2
-    assert "b/link_19" in case.session.tree.frames
+    assert "b/link_19" in case.session.frames.tree.frames
 
 
 def test_a_reader_survives_an_internal_error_of_what_it_calls(tmp_path: Path) -> None:
@@ -273,12 +275,12 @@ def test_a_second_robot_follows_its_file(package: Path) -> None:
         drawn = threading.Event()
 
         def look() -> None:
-            if "b/changed" in session.tree.frames:
+            if "b/changed" in session.frames.tree.frames:
                 drawn.set()
 
         viz._server.wait_for_meshes(20)
-        assert "b/own" in session.tree.frames
-        connect([session.signals.frames], look)
+        assert "b/own" in session.frames.tree.frames
+        connect([session.scene.frames], look)
         second.write_text("<robot")
         second.write_text(urdf("changed"))
         assert drawn.wait(20)

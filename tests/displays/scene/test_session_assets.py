@@ -21,7 +21,7 @@ def test_a_box_with_a_broken_texture_is_drawn_without_it_and_that_is_said(
         server = viz._server  # pyright: ignore[reportPrivateUsage]
         server.wait_for_meshes(20)
         session = server.sessions()[0]
-        robot = next(d for d in session.displays if d.config.name == "RobotModel")
+        robot = next(d for d in session.scene.displays if d.config.name == "RobotModel")
         assert [p.code for p in robot.problems] == ["texture-unreadable"]
         assert robot.status.level == "Error"
         assert "wood.png cannot be used" in robot.status.rows["URDF"].text

@@ -56,13 +56,16 @@ class DisplayCommands(Panel):
         """Add a display at the end."""
         if kind not in DISPLAYS:
             raise UsageError(f"displays of type {row_text(kind)} cannot be added")
-        self._note(self._session.add_display(kind, name=name.strip() or None), mark)
+        self._note(
+            self._session.display_edits.add_display(kind, name=name.strip() or None),
+            mark,
+        )
 
     @command("displays/duplicate", TEXT, TEXT, name="Duplicate")
     def _duplicate(self, row_id: str, mark: str) -> None:
         """Copy a display, behind it."""
         config = self._displays.display_of(row_id)
-        self._note(self._session.duplicate_display(config), mark)
+        self._note(self._session.display_edits.duplicate_display(config), mark)
 
     def _note(self, config: DisplayConfig, mark: str) -> None:
         self._made = {"mark": mark, "row": self._displays.id_of(config)}
@@ -70,16 +73,18 @@ class DisplayCommands(Panel):
 
     @command("displays/remove", TEXT, name="Remove")
     def _delete(self, row_id: str) -> None:
-        self._session.remove_display(self._displays.display_of(row_id))
+        self._session.display_edits.remove_display(self._displays.display_of(row_id))
 
     @command("displays/rename", TEXT, TEXT, name="Rename")
     def _rename(self, row_id: str, name: str) -> None:
         if not name.strip():
             raise UsageError("a display needs a name")
         display = self._displays.display_of(row_id)
-        self._session.rename_display(display, name.strip())
+        self._session.display_edits.rename_display(display, name.strip())
 
     @command("displays/move", TEXT, TEXT, INTEGER, name="Move")
     def _move(self, row_id: str, group: str, index: int) -> None:
         into = self._displays.display_of(group) if group else None
-        self._session.move_display(self._displays.display_of(row_id), index, into)
+        self._session.display_edits.move_display(
+            self._displays.display_of(row_id), index, into
+        )

@@ -38,15 +38,16 @@ class DisplaysPanel(Panel):
     name = "displays"
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        signals = session.signals
         self.remade_by = (
-            signals.config,
-            signals.robot,
-            signals.frames,
-            signals.status,
-            signals.problems,
+            session.document.replaced,
+            session.document.options,
+            session.document.displays,
+            session.scene.statuses,
+            session.scene.frames,
+            session.robot.changed,
+            session.problems.shown,
         )
-        self.moved_by = (signals.joints,)
+        self.moved_by = (session.robot.positions,)
         self._session = session
         self._ids = Ids[DisplayConfig]("d")
         self._lazy = LazyRows("displays/unfold", lambda: remake(self))
@@ -54,7 +55,7 @@ class DisplaysPanel(Panel):
 
     def rows(self) -> Sequence[Row]:
         """Return all rows, each after its parent."""
-        return [*mark_expanded(self._tree(), self._session.config.expanded)]
+        return [*mark_expanded(self._tree(), self._session.document.config.expanded)]
 
     def commands(self) -> list[Command]:
         """Return the command to unfold a row."""
@@ -62,12 +63,12 @@ class DisplaysPanel(Panel):
 
     def keep_unfolded(self, unfolded: Collection[str]) -> None:
         """Write into the document which rows are unfolded, from their ids."""
-        keep_expanded(self._session.config, self._tree(), unfolded)
+        keep_expanded(self._session.document.config, self._tree(), unfolded)
 
     def _tree(self) -> list[Row]:
         self._facts.clear()
         self._lazy.clear()
-        configs = self._session.config.displays
+        configs = self._session.document.config.displays
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
     def values(self) -> Mapping[str, Json]:
@@ -91,7 +92,7 @@ class DisplaysPanel(Panel):
             UsageError: it no longer exists.
         """
         config = self._ids.find(row_id)
-        if config is None or not self._session.config.holds(config):
+        if config is None or not self._session.document.config.holds(config):
             raise UsageError("this display no longer exists")
         return config
 
@@ -101,14 +102,16 @@ class DisplaysPanel(Panel):
         session = self._session
         yield Row(OPTIONS, "", "group", "Global Options", icon="options", expanded=True)
         yield from property_rows(
-            session.config.global_options, OPTIONS, session.set_global
+            session.document.config.global_options, OPTIONS, session.document.set_option
         )
         yield from global_status_rows(session)
 
     def _display_rows(
         self, configs: Sequence[DisplayConfig], parent: str
     ) -> Iterator[Row]:
-        displays = {id(display.config): display for display in self._session.displays}
+        displays = {
+            id(display.config): display for display in self._session.scene.displays
+        }
         for config in configs:
             row_id, display = self.id_of(config), displays.get(id(config))
             yield self._head(config, display, row_id, parent)
@@ -139,7 +142,7 @@ class DisplaysPanel(Panel):
             help=_help(config, display),
             bold=True,
             extra={"display": config.kind, "group": config.kind == GROUP},
-            set=partial(self._session.set_enabled, config),
+            set=partial(self._session.display_edits.set_enabled, config),
         )
 
     def _status_rows(self, display: Display, parent: str) -> Iterator[Row]:
@@ -149,7 +152,7 @@ class DisplaysPanel(Panel):
 
     def _property_rows(self, display: Display, parent: str) -> Iterator[Row]:
         item = display.config
-        change = partial(self._session.set_property, display)
+        change = partial(self._session.display_edits.set_property, display)
         entries = {found.title: found for found in display.entries()}
         robot_display = display.robot_display
         notes = robot_display.notes() if robot_display else dict[str, str]()
@@ -181,7 +184,9 @@ class DisplaysPanel(Panel):
     ) -> Iterator[Row]:
         for name in entries.names:
             item, row_id = entries.item(name), _entry_id(parent, name)
-            change = partial(self._session.set_entry, display, entries.title, name)
+            change = partial(
+                self._session.display_edits.set_entry, display, entries.title, name
+            )
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
             unfolded = self._lazy.is_unfolded(row_id)

@@ -43,9 +43,8 @@ class FramesPanel(Panel):
     def __init__(
         self, session: Session, say: Say, remake: Callable[[Panel], None]
     ) -> None:
-        signals = session.signals
-        self.remade_by = (signals.frames, signals.robot, signals.config)
-        self.moved_by = (signals.joints,)
+        self.remade_by = (session.scene.frames, session.robot.changed)
+        self.moved_by = (session.robot.positions,)
         self._session = session
         self._say = say
         self._remake = remake
@@ -71,13 +70,15 @@ class FramesPanel(Panel):
     @property
     def _frames(self) -> tuple[str, str]:
         """From and To; something that moves is a good first thing to look at."""
-        context, tree = self._session.context, self._session.tree
+        context, tree = self._session.scene.context, self._session.frames.tree
         moving = next(iter(context.moving), None) or next(iter(tree.frames), "")
         return self._from or context.fixed_frame, self._to or moving
 
     def _answer(self) -> Explanation:
         source, target = self._frames
-        return explain(self._session.tree, source, target, self._session.robot)
+        return explain(
+            self._session.frames.tree, source, target, self._session.robot.model
+        )
 
     def _choice(self) -> Iterator[Row]:
         source, target = self._frames
@@ -109,7 +110,7 @@ class FramesPanel(Panel):
     # The static transforms
 
     def _static(self) -> Iterator[Row]:
-        added = {c: f for c, f in self._session.added.all.items() if f.static}
+        added = {c: f for c, f in self._session.frames.added.items() if f.static}
         yield Row(
             "frames/static",
             "",
@@ -166,13 +167,13 @@ class FramesPanel(Panel):
         xyz: Sequence[float] | None,
         rpy: Sequence[float] | None,
     ) -> None:
-        added = self._session.added[child]
+        added = self._session.frames.added[child]
         old = added.transform
         transform = Transform.from_xyz_rpy(
             old.translation.tolist() if xyz is None else xyz,
             old.rpy if rpy is None else rpy,
         )
-        self._session.add_frame(added.parent, child, transform)
+        self._session.frames.add(added.parent, child, transform)
 
     # What the page can ask for
 
@@ -206,7 +207,7 @@ class FramesPanel(Panel):
 
     def _add(self, wanted: StaticTransform) -> None:
         parent, child = wanted.parent, wanted.child
-        tree = self._session.tree
+        tree = self._session.frames.tree
         for name, what in ((parent, "parent"), (child, "child")):
             if not name:
                 raise UsageError(f"name the {what} frame")
@@ -217,15 +218,15 @@ class FramesPanel(Panel):
                 f"in the air; {hint}"
             )
         self._check_parent(child)
-        added = self._session.added.all
+        added = self._session.frames.added
         require_room(len({*added, child}), MOST_FRAMES, "added frames")
-        self._session.add_frame(parent, child, wanted.transform)
+        self._session.frames.add(parent, child, wanted.transform)
         said = "; ".join((f"{child} is set in {parent}", *wanted.warnings))
         self._say(said, "warn" if wanted.warnings else "ok")
 
     def _check_parent(self, child: str) -> None:
         """Refuse a child that something else moves: in tf2 a frame has one parent."""
-        added, robot = self._session.added.all.get(child), self._session.robot
+        added, robot = self._session.frames.added.get(child), self._session.robot.model
         if added is not None and not added.static:
             by, parent = "Drive", added.parent
         elif added is None and robot is not None:
@@ -246,7 +247,7 @@ class FramesPanel(Panel):
 
     @command("frames/remove", TEXT)
     def _remove(self, row_id: str) -> None:
-        self._session.remove_frame(row_id.removeprefix("static/"))
+        self._session.frames.remove(row_id.removeprefix("static/"))
 
 
 def pasted_arguments(pasted: str) -> str:

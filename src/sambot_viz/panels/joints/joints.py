@@ -23,7 +23,7 @@ from sambot_viz.panels.validation import validate
 from sambot_viz.robot.joint import Joint
 from sambot_viz.session import Session
 from sambot_viz.session.limits import MOST_POSES, require_room
-from sambot_viz.session.robot.joint_arrow import JointArrow
+from sambot_viz.session.scene.joint_arrow import JointArrow
 
 FASTEST = 100.0
 """Of a wheel that keeps turning [rad/s]."""
@@ -55,29 +55,26 @@ class JointsPanel(Panel):
     name = "joints"
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        signals = session.signals
-        self.remade_by = (signals.robot,)
-        self.moved_by = (signals.joints, signals.motion)
+        self.remade_by = (session.robot.changed,)
+        self.moved_by = (session.robot.positions, session.motion.turning)
         self._session = session
         self._remake = remake
         self._rate = 1.0
-        self._arrow = JointArrow(session)
+        self._arrow = JointArrow(session.scene, session.worker)
 
     def rows(self) -> Sequence[Row]:
         """Return the joints, in groups if they are many, and the turn rate."""
         joints = self._sliders()
         if joints is None:
-            why = _NO_ROBOT if self._session.robot is None else _NOTHING_TO_MOVE
+            why = _NO_ROBOT if self._session.robot.model is None else _NOTHING_TO_MOVE
             return [Row("joints/none", "", "note", value=why)]
         return [*joint_rows(joints, self._move), *self._rate_row(joints)]
 
     def data(self) -> Sequence[Data]:
         """Return which joints are over a limit or turning, and where all began."""
-        if self._session.joints is None:
+        if self._session.robot.joints is None:
             return ()
-        first = {
-            joint_id(n): q for n, q in self._session.first_positions.items() if q != 0
-        }
+        first = {joint_id(n): q for n, q in self._session.robot.first.items() if q != 0}
         return [
             *(Data(key, value) for key, value in self._states().items()),
             Data("joints/first", first),
@@ -85,7 +82,7 @@ class JointsPanel(Panel):
 
     def values(self) -> dict[str, Any]:
         """Return the positions, and what else a motion changes."""
-        joints = self._session.joints
+        joints = self._session.robot.joints
         if joints is None:
             return {}
         positions = joints.all_positions().items()
@@ -96,30 +93,30 @@ class JointsPanel(Panel):
         return self._sliders() is not None
 
     def _sliders(self) -> JointState | None:
-        joints = self._session.joints
+        joints = self._session.robot.joints
         return joints if joints is not None and joints.sliders else None
 
     def _states(self) -> dict[str, Any]:
-        joints, turning = self._session.joints, self._session.motion.turning
+        joints, turning = self._session.robot.joints, self._session.motion.turning.value
         return {
             "joints/over": [] if joints is None else list(joints.over_limit()),
             "joints/turning": [joint_id(name) for name in turning],
-            "joints/untouched": not self._session.joints_moved,
+            "joints/untouched": not self._session.robot.moved,
         }
 
     # Positions
 
     def _move(self, joint: Joint, value: float) -> None:
-        self._session.set_joint_positions({joint.name: value})
+        self._session.robot.set_positions({joint.name: value})
         self._arrow.moved(joint)
 
     @command("joints/center")
     def _center(self) -> None:
-        self._session.center_joints()
+        self._session.robot.center()
 
     @command("joints/randomize")
     def _randomize(self) -> None:
-        self._session.randomize_joints()
+        self._session.robot.randomize()
 
     @command("joints/restore", LIST, LIST)
     def _restore(self, row_ids: list[Any], positions: list[Any]) -> Answer | None:
@@ -129,7 +126,7 @@ class JointsPanel(Panel):
         two pages that come back the first one restores the joints.
         """
         joints = self._sliders()
-        if self._session.joints_moved or joints is None:
+        if self._session.robot.moved or joints is None:
             return None
         rows = {row.id: row for row in joint_rows(joints, self._move)}
         wanted: dict[str, float] = {}
@@ -138,12 +135,12 @@ class JointsPanel(Panel):
             if row is None or row.kind != "slider":
                 raise UsageError("this robot does not have these joints")
             wanted[row.name] = validate(row, position)
-        self._session.set_joint_positions(wanted, "Restore joints")
+        self._session.robot.set_positions(wanted, "Restore joints")
         return Answer("The joints were restored; Undo puts them back to their start")
 
     @command("joints/copy", TEXT, client_local=True)
     def _copy(self, form: str) -> Answer:
-        joints = self._session.joints
+        joints = self._session.robot.joints
         if joints is None or form not in _FORMS:
             raise UsageError(f"there is no form '{form}' to copy joints in")
         what, write = _FORMS[form]
@@ -189,7 +186,7 @@ class JointsPanel(Panel):
 
     def _take_rate(self, rate: float) -> None:
         self._rate = rate
-        for name in self._session.motion.turning:
+        for name in self._session.motion.turning.value:
             self._session.motion.turn(name, rate)
         self._remake(self)
 
@@ -214,17 +211,17 @@ class JointsPanel(Panel):
             nonlocal reached
             reached = self._position(name)
             session.motion.turn(name, 0.0)
-            session.move({name: before}, {})
+            session.robot.move({name: before}, {})
 
         session.history.record(
             f"Turn {name}",
             put_back,
-            lambda: session.move({name: reached}, {}),
+            lambda: session.robot.move({name: reached}, {}),
             of_document=False,
         )
 
     def _position(self, name: str) -> float:
-        joints = self._session.joints
+        joints = self._session.robot.joints
         if joints is None or name not in joints.positions:
             raise UsageError(f"there is no joint '{name}' that can be set")
         return joints.positions[name]
@@ -241,7 +238,7 @@ class PosesPanel(Panel):
     name = "poses"
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        self.remade_by = (session.signals.robot,)
+        self.remade_by = (session.robot.changed,)
         self._session = session
         self._remake = remake
 
@@ -261,19 +258,19 @@ class PosesPanel(Panel):
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there are joints to pose."""
-        joints = self._session.joints
+        joints = self._session.robot.joints
         return joints is not None and bool(joints.sliders)
 
     @command("poses/use", TEXT)
     def _use(self, name: str) -> Answer | None:
-        left_out = self._session.use_pose(name)
+        left_out = self._session.robot.take_pose(name, self._session.poses.get(name))
         if left_out:
             return Answer(f"Without {', '.join(left_out)}, which cannot be set")
         return None
 
     @command("poses/save", TEXT)
     def _save(self, name: str) -> Answer:
-        name, joints = name.strip(), self._session.joints
+        name, joints = name.strip(), self._session.robot.joints
         if joints is None:
             raise UsageError("there is no robot to save a pose of")
         if len(name) > LONGEST_POSE_NAME:

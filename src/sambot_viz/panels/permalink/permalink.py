@@ -31,8 +31,7 @@ from sambot_viz.panels.validation import validate
 from sambot_viz.panels.views import CURRENT, look_as
 from sambot_viz.rviz import FIXED_FRAME, ConfigItem
 from sambot_viz.session import Session
-from sambot_viz.session.browser.browser import Browser
-from sambot_viz.session.document.switches import switches
+from sambot_viz.session.clients.client import Client
 from sambot_viz.views.registry import VIEWS
 
 
@@ -51,7 +50,7 @@ class PermalinkPanel(Panel):
     def __init__(
         self,
         session: Session,
-        browser: Browser,
+        browser: Client,
         row: Callable[[str], Row | None],
         remake: Callable[[Panel], None],
     ) -> None:
@@ -83,22 +82,22 @@ class PermalinkPanel(Panel):
             default = _default(view.config, row)
             if row.set is not None and row.value not in (None, default):
                 yield f"view.{_path(row)}", written(row.value)
-        robot = self._session.robot
+        robot = self._session.robot.model
         if robot is not None:
             yield "robot", robot.name
-        fixed = self._session.context.fixed_frame
-        if fixed != self._session.first_fixed_frame:
+        fixed = self._session.scene.context.fixed_frame
+        if fixed != self._session.document.first_fixed_frame:
             yield "fixed", fixed
         yield from self._moved()
-        for name, switch in switches(self._session).items():
-            if switch.on != switch.first:
-                yield f"show.{name}", ON if switch.on else OFF
+        for name, toggle in self._session.toggles.all().items():
+            if toggle.on != toggle.first:
+                yield f"show.{name}", ON if toggle.on else OFF
         for item in self._browser.tools.selection:
             yield "select", f"{item.kind}:{item.name}"
         yield "v", VERSION
 
     def _moved(self) -> Iterator[Pair]:
-        joints, first = self._session.joints, self._session.first_positions
+        joints, first = self._session.robot.joints, self._session.robot.first
         if joints is None:
             return
         for name, q in joints.positions.items():
@@ -112,7 +111,7 @@ class PermalinkPanel(Panel):
     @command("permalink/open", LIST, LIST, name="link", client_local=True)
     def _open(self, names: list[Any], values: list[Any]) -> Answer:
         link = PermalinkParts.read(names, values)
-        robot = self._session.robot
+        robot = self._session.robot.model
         link.elsewhere = robot is not None and link.robot not in (None, robot.name)
         link.watching = not self._session.roles.may_edit(self._browser.client_id)
         # The camera is in the fixed frame.
@@ -125,21 +124,21 @@ class PermalinkPanel(Panel):
 
     def _fix(self, link: PermalinkParts) -> None:
         session, frame = self._session, link.fixed
-        if frame is None or frame == session.context.fixed_frame:
+        if frame is None or frame == session.scene.context.fixed_frame:
             return
-        if frame not in session.tree.frames:
+        if frame not in session.frames.tree.frames:
             link.missing["frame"] += [frame]
         elif link.watching:
             link.kept = True
         else:
-            session.set_global("Fixed Frame", frame)
+            session.document.set_option("Fixed Frame", frame)
 
     def _look(self, link: PermalinkParts) -> None:
         kinds = {kind.rpartition("/")[2]: kind for kind in VIEWS}
         if link.kind not in kinds:
             link.missing["view"] += [link.kind]
             return
-        frames = {FIXED_FRAME, *self._session.tree.frames}
+        frames = {FIXED_FRAME, *self._session.frames.tree.frames}
         used: set[str] = set()
 
         def wanted(row: Row) -> Json:
@@ -163,7 +162,7 @@ class PermalinkPanel(Panel):
         link.missing["property of the view"] += [p for p in link.view if p not in used]
 
     def _move(self, link: PermalinkParts) -> None:
-        session, joints = self._session, self._session.joints
+        session, joints = self._session, self._session.robot.joints
         if joints is None:
             link.missing["joint"] += link.joints
             return
@@ -171,7 +170,7 @@ class PermalinkPanel(Panel):
         positions: dict[str, float] = {}
         if not link.elsewhere:
             # What a link does not name is where it was at first.
-            first = session.first_positions.items()
+            first = session.robot.first.items()
             positions = {n: q for n, q in first if rows.get(n) is not None}
         link.missing["joint"] += [name for name in link.joints if name not in rows]
         for name, row in rows.items():
@@ -189,28 +188,28 @@ class PermalinkPanel(Panel):
         if changed and link.watching:
             link.kept = True
         elif changed:
-            session.set_joint_positions(changed, "Open a link")
+            session.robot.set_positions(changed, "Open a link")
 
     def _switch(self, link: PermalinkParts) -> None:
-        for name in sorted(link.switches.keys() - switches(self._session).keys()):
+        for name in sorted(link.switches.keys() - self._session.toggles.all().keys()):
             link.missing["display or part of one"] += [name.replace("/=", "/")]
         # A switch for all links turns each of them: those of the links come after it.
         for of_entries in (False, True):
-            for name, switch in switches(self._session).items():
+            for name, toggle in self._session.toggles.all().items():
                 if ("/=" in name) is not of_entries:
                     continue
-                as_now = switch.on if link.elsewhere else switch.first
+                as_now = toggle.on if link.elsewhere else toggle.first
                 on = link.switches.get(name, as_now)
-                if on != switch.on and link.watching:
+                if on != toggle.on and link.watching:
                     link.kept = True
-                elif on != switch.on:
+                elif on != toggle.on:
                     try:
-                        switch.set(on)
+                        toggle.set(on)
                     except UsageError as error:
                         link.refuse(str(error))
 
     def _select(self, link: PermalinkParts) -> None:
-        robot, frames = self._session.robot, self._session.tree.frames
+        robot, frames = self._session.robot.model, self._session.frames.tree.frames
         links: Collection[str] = () if robot is None else robot.links
         items: set[Selectable] = set()
         for given in link.selected:

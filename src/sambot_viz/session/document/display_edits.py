@@ -1,13 +1,13 @@
-"""What users change in the document: properties, displays, their order.
+"""Edits of displays: properties, names, order, adding and removing.
 
-Every method is recorded: a browser can undo what it has changed (see `undo`).
+Every method is recorded: a client can undo what it has changed (see `undo`).
 """
 
 from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -18,45 +18,39 @@ from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import short_name
 from sambot_viz.rviz.display_list import Removed
 from sambot_viz.rviz.undo_log import Restore
-from sambot_viz.session.document.drawn_scene import walk
-from sambot_viz.session.document.shown_document import ShownDocument
+from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.limits import MOST_DISPLAYS, require_room
+from sambot_viz.session.scene.scene import Scene, walk
+from sambot_viz.session.signals import Change
+from sambot_viz.session.undo import History
 
 _COUNTED = re.compile(r"^(.*) \(\d+\)$", re.DOTALL)
 """A name that ends with a number, as copies have it."""
 
 
-class DisplayEdits(ShownDocument):
-    """Base of `Session`: the edits of Global Options and of displays."""
+class DisplayEdits:
+    """Changes displays as users do.
 
-    def display_of(self, config: DisplayConfig) -> Display | None:
-        """What draws a display of the document; None for an unsupported one."""
-        found = (d for d in self.displays if d.config is config)
-        return next(found, None)
+    Args:
+        document: lists the displays.
+        scene: draws them.
+        history: records what users change.
+        change: sends and tells changes.
+    """
+
+    def __init__(
+        self,
+        document: ShownDocument,
+        scene: Scene,
+        history: History,
+        change: Change,
+    ) -> None:
+        self._document = document
+        self._scene = scene
+        self._history = history
+        self._change = change
 
     # Values
-
-    def set_global(self, name: str, value: Any) -> None:
-        """Set one of the Global Options.
-
-        Raises:
-            UsageError: an unknown option, or a value that it cannot have.
-        """
-        label = f"Global Options: {name}"
-        with self.history.setting(label, self._apply_options, merge=("option", name)):
-            self._apply_options(lambda: self.config.global_options.set(name, value))
-
-    def _apply_options(self, action: Callable[[], object]) -> None:
-        context = self.context
-        before = (context.fixed_frame, context.background)
-        with self.change(self.signals.config):
-            action()
-            self.drawn.take_options()
-            self._period_changed()
-            if context.fixed_frame != before[0]:
-                self._frames_changed()
-            elif context.background != before[1]:
-                self._redraw()
 
     def set_property(self, display: Display, path: str, value: Any) -> None:
         """Set one property of a display and draw what changes.
@@ -65,7 +59,7 @@ class DisplayEdits(ShownDocument):
             UsageError: the value cannot be meant, or the display refuses it.
         """
         config = display.config
-        with self.change(self.signals.status):
+        with self._change(self._document.displays, self._scene.statuses):
             robot_display = display.robot_display
             refusal = robot_display and robot_display.refusal(path, value)
             if refusal is None:
@@ -96,7 +90,7 @@ class DisplayEdits(ShownDocument):
             raise UsageError(
                 f"'{display.config.name}' has no {entries.singular} '{name}'"
             )
-        with self.change(self.signals.status):
+        with self._change(self._document.displays, self._scene.statuses):
             with self._setting(display.config, f"{name}/{path}", (title, name, path)):
                 entries.set(name, path, value)
                 display.property_changed(f"{title}/{path}")
@@ -109,13 +103,13 @@ class DisplayEdits(ShownDocument):
 
         def apply(put_back: Restore) -> None:
             self._require(config)
-            with self.change(self.signals.config, self.signals.status):
+            with self._change(self._document.displays, self._scene.statuses):
                 put_back()
-                display = self.display_of(config)
+                display = self._scene.display_of(config)
                 if display is not None:
                     display.values_put_back()
 
-        return self.history.setting(
+        return self._history.setting(
             f"{config.name}: {what}", apply, merge=(id(config), merge)
         )
 
@@ -126,32 +120,18 @@ class DisplayEdits(ShownDocument):
 
         def apply(on: bool) -> None:
             self._require(config)
-            with self.change(self.signals.status):
+            with self._change(self._document.displays, self._scene.statuses):
                 config.set_enabled(on)
-                self.drawn.apply_enabled()
+                self._scene.apply_enabled()
 
         apply(enabled)
         if enabled != before:
-            self.history.record(
+            self._history.record(
                 f"{config.name}: {'on' if enabled else 'off'}",
                 lambda: apply(before),
                 lambda: apply(enabled),
                 merge=(id(config), "enabled"),
             )
-
-    def set_tool_property(self, kind: str, path: str, value: Any) -> None:
-        """Set a property of a tool that the document lists, for all browsers.
-
-        Raises:
-            UsageError: the document does not list the tool, or the value cannot be
-                meant.
-        """
-        config = next((tool for tool in self.config.tools if tool.kind == kind), None)
-        if config is None:
-            raise UsageError(f"the config has no tool '{kind}'")
-        label = f"{short_name(kind)}: {path}"
-        with self.history.setting(label, self._apply, merge=("tool", kind, path)):
-            self._apply(lambda: config.set(path, value))
 
     # The tree of displays
 
@@ -173,8 +153,10 @@ class DisplayEdits(ShownDocument):
             self._require(after)
         group = after.parent if after is not None else None
         label = self._free_name(short_name(kind)) if name is None else name
-        with self.change():
-            config = self.config.add_display(kind, label, group=group, after=after)
+        with self._change():
+            config = self._document.config.add_display(
+                kind, label, group=group, after=after
+            )
             self._added(f"Add {label}", config)
         return config
 
@@ -186,43 +168,45 @@ class DisplayEdits(ShownDocument):
         """
         self._require(config)
         self._require_room(config.displays)
-        with self.change():
-            copy = self.config.duplicate(config)
+        with self._change():
+            copy = self._document.config.duplicate(config)
             copy.rename(self._free_name(config.name))
             self._added(f"Duplicate {config.name}", copy)
         return copy
 
     def _require_room(self, members: Sequence[DisplayConfig]) -> None:
         """Refuse one more display, with its members, when there are too many."""
-        count = 1 + sum(1 for one in (self.config.displays, members) for _ in walk(one))
+        count = 1 + sum(
+            1 for one in (self._document.config.displays, members) for _ in walk(one)
+        )
         require_room(count, MOST_DISPLAYS, "displays")
 
     def _added(self, label: str, config: DisplayConfig) -> None:
-        self.show_config()
+        self._document.show()
         undo, redo = self._removal(config)
-        self.history.record(label, undo, redo, touched=config)
+        self._history.record(label, undo, redo, touched=config)
 
     def remove_display(self, config: DisplayConfig) -> None:
         """Take a display out of the document; a group with all its members."""
         remove, put_back = self._removal(config)
         remove()
-        self.history.record(f"Remove {config.name}", put_back, remove, touched=config)
+        self._history.record(f"Remove {config.name}", put_back, remove, touched=config)
 
     def _removal(self, config: DisplayConfig) -> tuple[Restore, Restore]:
         """Functions that take a display out, and put the same one back."""
-        document = self.config
+        document = self._document.config
         places: list[Removed] = []
 
         def remove() -> None:
             self._require(config)
-            with self.change():
+            with self._change():
                 places[:] = [document.remove(config)]
-                self.show_config()
+                self._document.show()
 
         def put_back() -> None:
-            with self.change():
+            with self._change():
                 document.put_back(places[0])
-                self.show_config()
+                self._document.show()
 
         return remove, put_back
 
@@ -246,14 +230,14 @@ class DisplayEdits(ShownDocument):
             for item in (config, group):
                 if item is not None:
                     self._require(item)
-            with self.change():
-                self.config.move(config, index, group)
-                self.show_config()
+            with self._change():
+                self._document.config.move(config, index, group)
+                self._document.show()
 
         move(index, group)
         after = (self._index_of(config), config.parent)
         if after != before:
-            self.history.record(
+            self._history.record(
                 f"Move {config.name}",
                 lambda: move(*before),
                 lambda: move(*after),
@@ -266,13 +250,13 @@ class DisplayEdits(ShownDocument):
 
         def rename(name: str) -> None:
             self._require(config)
-            with self.change():
+            with self._change():
                 config.rename(name)
-                self.show_config()
+                self._document.show()
 
         if name and name != before:
             rename(name)
-            self.history.record(
+            self._history.record(
                 f"Rename {before} to {name}",
                 lambda: rename(before),
                 lambda: rename(name),
@@ -281,16 +265,18 @@ class DisplayEdits(ShownDocument):
 
     def _require(self, config: DisplayConfig) -> None:
         """Raise UsageError for a display that is not in the document any more."""
-        if not self.config.holds(config):
+        if not self._document.config.holds(config):
             raise UsageError(f"the display '{config.name}' was removed")
 
     def _index_of(self, config: DisplayConfig) -> int:
         group = config.parent
-        return list(group.displays if group else self.config.displays).index(config)
+        return list(group.displays if group else self._document.config.displays).index(
+            config
+        )
 
     def _free_name(self, name: str) -> str:
         """The name, or "name (2)" and so on when other displays have it."""
-        taken = {item.name for item in walk(self.config.displays)}
+        taken = {item.name for item in walk(self._document.config.displays)}
         counted = _COUNTED.match(name)
         plain = counted.group(1) if counted and name in taken else name
         numbered = (f"{plain} ({n})" for n in itertools.count(2))

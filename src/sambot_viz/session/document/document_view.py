@@ -1,23 +1,64 @@
-"""A view of the document as a `View`, and the frame that it follows."""
+"""Views of the document as `View`s, and the frame that one follows."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
 from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import copied_map
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.views.camera import Camera
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.view import WORLD, Target, View
 
-if TYPE_CHECKING:
-    from sambot_viz.session.document.shown_document import ShownDocument
+
+class DocumentView:
+    """The document's view, which a client shows first.
+
+    Args:
+        document: the view is in it.
+        scene: what is looked at.
+        picker: finds how large the robot is.
+    """
+
+    def __init__(self, document: ShownDocument, scene: Scene, picker: Picker) -> None:
+        self._document = document
+        self._scene = scene
+        self._picker = picker
+
+    @property
+    def view(self) -> View:
+        """A copy of the view."""
+        return view_of(self._document.config.detached_view())
+
+    @property
+    def camera(self) -> Camera:
+        """The camera of the view, in the fixed frame."""
+        view = view_of(self._document.config.view)
+        return view.camera(target_of(self._scene, view))
+
+    def camera_on_robot(self, width: int, height: int) -> Camera:
+        """Return that camera, moved to where it shows the whole robot.
+
+        Args:
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+        """
+        view = self.view
+        target, box = target_of(self._scene, view), self._picker.robot_box()
+        if box is not None:
+            for path, value in view.fit(*box, width, height, target).items():
+                view.config.set(path, value)
+        return view.camera(target)
 
 
 def view_of(config: ViewConfig) -> View:
-    """The view of a config; one of an unknown type is shown as Orbit."""
+    """Return the view of a config; one of an unknown type is shown as Orbit."""
     known = VIEWS.get(config.kind)
     if known is not None:
         return known(config)
@@ -26,25 +67,26 @@ def view_of(config: ViewConfig) -> View:
     return OrbitView(ViewConfig(copy, OrbitView.properties, ConfigFindings(None)))
 
 
-def target_of(session: ShownDocument, view: View, last: Target = WORLD) -> Target:
-    """The target frame of a view in the fixed frame.
+def target_of(scene: Scene, view: View, last: Target = WORLD) -> Target:
+    """Return the target frame of a view in the fixed frame.
 
     Args:
-        session: has the frames.
+        scene: has the frames.
         view: whose target frame it is.
         last: the answer for a frame that cannot be placed.
     """
-    fixed, name = session.context.fixed_frame, view.config.get("Target Frame")
+    context, name = scene.context, view.config.get("Target Frame")
+    fixed, tree = context.fixed_frame, context.tree
     if name in (FIXED_FRAME, fixed):
         return WORLD
-    if not session.tree.can_lookup(fixed, str(name)):
+    if not tree.can_lookup(fixed, str(name)):
         return last
-    T = session.tree.lookup(fixed, str(name)).matrix
+    T = tree.lookup(fixed, str(name)).matrix
     return Target(T[:3, 3], math.atan2(T[1, 0], T[0, 0]))
 
 
 def mouse_facts(view: View) -> dict[str, Any]:
-    """What the page's own mouse handling has to know of a view."""
+    """Return what the page's own mouse handling has to know of a view."""
     config = view.config
     known = config.declared
     return {

@@ -7,15 +7,14 @@ nothing runs and nothing is sent.
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from sambot_viz.joints.animation import turn
-from sambot_viz.session.robot.drive_control import DriveControl
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
+from sambot_viz.session.clock import Clock
+from sambot_viz.session.robot.drive import Drive
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.worker import Worker
 
 HOLD = 0.3
 """A held button counts as released this long after its last message [s]; viser sends
@@ -31,27 +30,45 @@ class _Turning:
 
 
 class Motion:
-    """The motion of one session.
+    """Moves joints and the driven robot, step by step.
 
     Args:
-        session: whose joints and frames move.
+        robot: its joints and frames move.
+        drive: the robot on its two wheels.
+        change: tells what turns.
+        worker: takes the steps.
+        clock: the time between two steps.
 
     Attributes:
-        drive: the robot on its two wheels.
+        turning: the joints that turn at the moment.
+        period: time between two steps [s].
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(
+        self,
+        robot: RobotState,
+        drive: Drive,
+        change: Change,
+        worker: Worker,
+        clock: Clock,
+    ) -> None:
+        self.turning: Signal[tuple[str, ...]] = Signal(change, ())
+        self.period = 0.0
+        self._robot = robot
+        self._drive = drive
+        self._change = change
+        self._worker = worker
+        self._clock = clock
         self._turning: dict[str, _Turning] = {}
         self._ticking = False
         self._closed = False
         self._last = 0.0
-        self.drive = DriveControl(session, self.start)
+        connect([drive.velocity], self.start)
 
     @property
     def moving(self) -> bool:
         """Whether something moves."""
-        return bool(self._turning) or self.drive.moving
+        return bool(self._turning) or self._drive.moving
 
     def turn(self, joint: str, rate: float, seconds: float = math.inf) -> None:
         """Turn a joint at a rate, until the next call or the time is up.
@@ -64,42 +81,35 @@ class Motion:
         Raises:
             JointError: an unknown joint, one that cannot be set, no finite number.
         """
-        with self._session.lock:
-            state = self._session.joints
+        with self._change.lock:
+            state = self._robot.joints
             if state is None:
                 return
             if state.checked(joint, rate) == 0:
                 self._turning.pop(joint, None)
             else:
                 self._turning[joint] = _Turning(rate, seconds)
-            self._session.signals.motion.touch()
+            self._tell()
         self.start()
 
     def turns(self, joint: str) -> bool:
         """Whether a joint turns at the moment."""
         return joint in self._turning
 
-    @property
-    def turning(self) -> tuple[str, ...]:
-        """The joints that turn at the moment."""
-        return tuple(self._turning)
-
     def stop(self) -> None:
         """Stop all motion."""
-        with self._session.lock:
+        with self._change.lock:
             self._turning.clear()
-            self.drive.stop()
-            self._session.signals.motion.touch()
+            self._drive.stop()
+            self._tell()
 
     def advance(self, dt: float) -> None:
         """Move on by a time [s]; this is what happens at every step."""
-        session = self._session
-        with session.lock:
-            state = session.joints
+        with self._change.lock:
+            state = self._robot.joints
             if state is None:
                 return
             positions: dict[str, float] = {}
-            before = self.turning
             for name, turning in list(self._turning.items()):
                 if name not in state.free:
                     del self._turning[name]
@@ -109,31 +119,32 @@ class Motion:
                 turning.left -= dt
                 if turning.left <= 0:
                     del self._turning[name]
-            driven, frames = self.drive.advance(dt)
-            session.move({**positions, **driven}, frames)
-            if before != self.turning:
-                session.signals.motion.touch()
+            driven, frames = self._drive.advance(dt)
+            self._robot.move({**positions, **driven}, frames)
+            self._tell()
 
     def start(self) -> None:
         """Start the steps, if something moves and they do not run yet."""
-        with self._session.lock:
+        with self._change.lock:
             if self._ticking or self._closed or not self.moving:
                 return
             self._ticking = True
-            self._last = time.monotonic()
+            self._last = self._clock.now()
         self._wait()
 
     def close(self) -> None:
         """Stop the steps for good."""
         self._closed = True
-        self.drive.close()
+
+    def _tell(self) -> None:
+        self.turning.set(tuple(self._turning))
 
     def _wait(self) -> None:
-        self._session.worker.post_later(self._session.period, self._step)
+        self._worker.post_later(self.period, self._step)
 
     def _step(self) -> None:
         """Take one step, in the session's worker; an error stops all motion."""
-        now = time.monotonic()
+        now = self._clock.now()
         dt, self._last = min(now - self._last, LONGEST_STEP), now
         self._ticking = False
         if self._closed:

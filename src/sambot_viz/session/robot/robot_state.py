@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameTree, Transform
@@ -12,67 +13,169 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.start import StartPose
 from sambot_viz.robot.model import Robot
-from sambot_viz.session.robot.past_motion import PastMotion
+from sambot_viz.session.clock import Clock
+from sambot_viz.session.robot.motion_recorder import MotionRecorder
 from sambot_viz.session.robot.user_frames import UserFrames
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Signal
+from sambot_viz.session.throttle import Throttle
+from sambot_viz.session.undo import History
+from sambot_viz.session.worker import Worker
 
 
 class RobotState:
-    """What a session shows of a robot; not thread-safe, the session holds the lock.
+    """What a session shows of a robot, and how users and programs move it.
+
+    What a user does is recorded. A program that moves joints sixty times a second pays
+    nothing for that. A single move is drawn at once, a stream at the Frame Rate.
 
     Args:
         tree: the frames; this fills them.
         added: frames that were added by hand or by driving.
+        scene: draws the robot.
+        history: records what users do.
+        change: sends and tells changes.
+        worker: draws streams.
+        clock: the time of the recorder.
 
     Attributes:
-        robot: what is shown, or None before the first robot.
-        joints: the positions of its joints.
+        changed: another robot is shown, or the same after an edit.
+        positions: the positions of joints, and the poses of frames that move.
+        model: what is shown, or None before the first robot.
+        joints: the positions of its joints; move them with the methods of this class.
         first: joint → its position before anything has moved it [rad or m].
         moved: whether anything has moved a joint.
-        past: how joints and frames have moved lately.
+        recorder: how joints and frames have moved lately.
     """
 
-    def __init__(self, tree: FrameTree, added: UserFrames) -> None:
-        self.robot: Robot | None = None
+    def __init__(
+        self,
+        tree: FrameTree,
+        added: UserFrames,
+        scene: Scene,
+        history: History,
+        change: Change,
+        worker: Worker,
+        clock: Clock,
+    ) -> None:
+        self.changed = Signal(change, None)
+        self.positions = Signal(change, None)
+        self.model: Robot | None = None
         self.joints: JointState | None = None
         self.first: dict[str, float] = {}
         self.moved = False
-        self.past = PastMotion()
+        self.recorder = MotionRecorder(clock)
         self._tree = tree
         self._added = added
+        self._scene = scene
+        self._history = history
+        self._change = change
+        self._pacer = Throttle(worker, 0.0, self.draw_moved)
         self._moved: dict[str, None] = {}
         self._new_poses: dict[str, Matrix] = {}
 
-    def take(self, robot: Robot, start: StartPose) -> None:
-        """Take a robot, or the same after an edit: joints keep their values."""
-        self.robot = robot
+    def take(self, model: Robot, start: StartPose) -> tuple[Problem, ...]:
+        """Take a robot, or the same after an edit: joints keep their values.
+
+        Returns:
+            Why some of the added frames could not be set.
+        """
+        self.model = model
         if self.joints is None:
-            self.joints = start.state(robot)
+            self.joints = start.state(model)
         else:
-            self.joints.reload(robot)
+            self.joints.reload(model)
         known = self.first
         self.first = {n: known.get(n, q) for n, q in self.joints.positions.items()}
-        self.past.clear(self.joints.positions)
+        self.recorder.clear(self.joints.positions)
+        joints = model.joints.values()
+        moving = {plain_name(j.child): j.type for j in joints if j.movable}
+        self._scene.take_robot(model, moving)
+        refused = self.build_tree()
+        self.changed.touch()
+        return refused
 
     def build_tree(self) -> tuple[Problem, ...]:
-        """Set the frames of the robot, then the added ones; returns refused ones."""
-        if self.robot is None or self.joints is None:
+        """Set the frames of the robot, then the added ones and those of displays.
+
+        Returns:
+            Why some of the added frames could not be set.
+        """
+        if self.model is None or self.joints is None:
             return ()
         self._tree.clear()
         hang_robot(
-            self._tree, self.robot, self.joints.kinematics, self.joints.positions
+            self._tree, self.model, self.joints.kinematics, self.joints.positions
         )
-        return self._added.set_again()
+        refused = self._added.set_again()
+        self._scene.publish()
+        return refused
 
-    @property
-    def moving(self) -> dict[str, str]:
-        """Child frame → the type of the joint that moves it."""
-        joints = self.robot.joints.values() if self.robot else ()
-        return {plain_name(j.child): j.type for j in joints if j.movable}
+    def set_period(self, period: float) -> None:
+        """Set the shortest time between two pictures of a stream [s]."""
+        self._pacer.period = period
+
+    def close(self) -> None:
+        """Draw nothing any more."""
+        self._pacer.close()
+
+    # What users do
+
+    def set_positions(self, positions: Mapping[str, float], label: str = "") -> None:
+        """Move some joints, as an edit that can be undone; see `move`."""
+        names = tuple(positions)
+        label = label or (f"Move {names[0]}" if len(names) == 1 else "Move joints")
+        self._edit(label, partial(self._note, positions, {}), names)
+
+    def take_pose(self, name: str, pose: Mapping[str, float]) -> tuple[str, ...]:
+        """Move the joints to a named pose.
+
+        Returns:
+            The joints of the pose that cannot be set in this robot.
+        """
+        free = self.joints.free if self.joints is not None else ()
+        known = {joint: q for joint, q in pose.items() if joint in free}
+        self._edit(f"Pose {name}", partial(self._note, known, {}))
+        return tuple(joint for joint in pose if joint not in known)
+
+    def center(self) -> None:
+        """Move all joints to their start values."""
+        self._edit("Center the joints", lambda: self._note_all(JointState.center))
+
+    def randomize(self, seed: int | None = None) -> None:
+        """Move all joints to random values of their ranges."""
+        self._edit(
+            "Randomize the joints",
+            lambda: self._note_all(lambda joints: joints.randomize(seed)),
+        )
+
+    def _edit(
+        self, label: str, move: Callable[[], None], merge: tuple[str, ...] | None = None
+    ) -> None:
+        """Move joints; where they were is noted only for a client that may undo it."""
+        with self._change.lock:
+            recording, joints = self._history.recording, self.joints
+            before = dict(joints.positions) if recording and joints is not None else {}
+            move()
+        self._pacer.request()
+        if recording and joints is not None:
+            after = {n: q for n, q in joints.positions.items() if before.get(n) != q}
+            before = {name: before[name] for name in after}
+            if after:
+                self._history.record(
+                    label,
+                    partial(self.move, before, {}),
+                    partial(self.move, after, {}),
+                    merge and ("joints", *merge),
+                    of_document=False,
+                )
+
+    # What moves by itself
 
     def move(
         self, positions: Mapping[str, float], frames: Mapping[str, Matrix]
     ) -> None:
-        """Note new positions of joints and poses of added frames, for `settle`.
+        """Move some joints and some added frames, drawn together.
 
         Args:
             positions: joint → position [rad or m].
@@ -81,25 +184,35 @@ class RobotState:
         Raises:
             JointError: an unknown joint, a follower, or no finite number.
         """
+        with self._change.lock:
+            self._note(positions, frames)
+        self._pacer.request()
+
+    def draw_moved(self) -> None:
+        """Send the poses of all that moved since the last time; `move` does it soon."""
+        with self._change.lock:
+            frames = self._settle()
+            if frames:
+                with self._change(self.positions):
+                    self._scene.place(frames.keys())
+
+    def _note(
+        self, positions: Mapping[str, float], frames: Mapping[str, Matrix]
+    ) -> None:
+        """Note new positions of joints and poses of added frames, to be drawn."""
         if self.joints is not None:
-            self._note(self.joints.set_all(positions))
+            self._note_moved(self.joints.set_all(positions))
         self._new_poses.update(frames)
 
-    def center(self) -> None:
-        """Note the start values of all joints."""
+    def _note_all(self, move: Callable[[JointState], Iterable[str]]) -> None:
         if self.joints is not None:
-            self._note(self.joints.center())
-
-    def randomize(self, seed: int | None) -> None:
-        """Note random values of all joints."""
-        if self.joints is not None:
-            self._note(self.joints.randomize(seed))
+            self._note_moved(move(self.joints))
 
     def forget_pose(self, frame: str) -> None:
         """Drop a noted pose, because the frame is set again or removed."""
         self._new_poses.pop(plain_name(frame), None)
 
-    def settle(self) -> dict[str, Matrix]:
+    def _settle(self) -> dict[str, Matrix]:
         """Set all noted changes in the tree.
 
         Returns:
@@ -108,9 +221,9 @@ class RobotState:
         moved, self._moved = self._moved, {}
         poses, self._new_poses = self._new_poses, {}
         for frame in poses:
-            self.past.begin(frame, self._added[frame].transform.matrix)
+            self.recorder.begin(frame, self._added[frame].transform.matrix)
         if self.joints is not None and (moved or poses):
-            self.past.note(moved, self.joints.positions, poses)
+            self.recorder.note(moved, self.joints.positions, poses)
         frames = {**self._joint_frames(moved), **poses}
         if frames:
             self._tree.update(frames)
@@ -118,12 +231,12 @@ class RobotState:
             self._added.moved(frame, Transform.trusted(T))
         return frames
 
-    def _note(self, joints: Iterable[str]) -> None:
+    def _note_moved(self, joints: Iterable[str]) -> None:
         self._moved.update(dict.fromkeys(joints))
         self.moved = self.moved or bool(self._moved)
 
     def _joint_frames(self, moved: Iterable[str]) -> dict[str, Matrix]:
-        robot, joints = self.robot, self.joints
+        robot, joints = self.model, self.joints
         if robot is None or joints is None:
             return {}
         frames = {name: plain_name(robot.joints[name].child) for name in moved}

@@ -16,7 +16,7 @@ from sambot_viz.frames.hierarchy import plain_name
 
 @dataclass(frozen=True, slots=True)
 class UserFrame:
-    """One of them: `transform` is T_parent_child."""
+    """A frame added by a user: `transform` is T_parent_child."""
 
     parent: str
     transform: Transform

@@ -1,11 +1,9 @@
-"""The view of one browser: its type, its numbers, and the camera that they describe.
+"""The view of one client: its type, its numbers, and the camera that they describe.
 
-A browser begins with a copy of the document's view, which is its own from then on.
+A client begins with a copy of the document's view, which is its own from then on.
 Where the file does not say how near the camera is, it shows the whole robot until the
 user takes another view. The mouse moves the camera, and the numbers follow. The
-document takes over the view of the browser that saves it (`store`). With
-`Signals.follow`, all browsers show what the browser shows whose camera moved
-last.
+document takes over the view of the client that saves it (`store`).
 """
 
 from __future__ import annotations
@@ -14,7 +12,7 @@ from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import viser
 
@@ -22,20 +20,23 @@ from sambot_viz.displays.picking.pick_geometry import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import short_name
-from sambot_viz.session.browser.camera import BrowserCamera, same_picture
-from sambot_viz.session.browser.robot_framing import RobotFraming, window_of
-from sambot_viz.session.browser.saved_views import SavedViews
+from sambot_viz.session.clients.camera import ClientCamera, same_picture
+from sambot_viz.session.clients.robot_framing import RobotFraming, window_of
+from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import target_of, view_of
-from sambot_viz.session.signals import Signal, connect
+from sambot_viz.session.document.saved_views import SavedViews
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.throttle import Throttle
+from sambot_viz.session.undo import History
+from sambot_viz.session.worker import Worker
 from sambot_viz.views.camera import Camera, Vector
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.top_down_ortho import TopDownOrthoView
 from sambot_viz.views.view import WORLD, Values, View
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Browser, Session
 
 READ_PERIOD = 0.1
 """The numbers follow a moving camera this often [s]."""
@@ -43,31 +44,60 @@ DIGITS = 7
 """Decimals that are kept of what a mouse has moved [m, rad]."""
 
 
-class BrowserView(SavedViews):
-    """Keeps the view and the camera of one browser in agreement.
+class ClientView:
+    """Keeps the view and the camera of one client in agreement.
 
     A page that comes back after a broken connection keeps the camera it has.
 
     Args:
-        session: what is shown, and the document with its views.
-        browser: whose view it is.
+        client: whose view it is.
+        change: sends the camera to this client.
+        document: its view comes first.
+        scene: what is looked at.
+        robot: it is followed, and shown whole at first.
+        picker: finds how large the robot is.
+        history: records changes of the view.
+        saved: the saved views of the document.
+        worker: acts on what the camera reports.
+        lead: called with this view when it has moved.
 
     Attributes:
         changed: the type or the numbers of the view.
+        client_id: the number of the client.
+        saved: the saved views of the document.
         view: the view; one of an unknown type is shown as Orbit.
     """
 
     view: View
 
-    def __init__(self, session: Session, browser: Browser) -> None:
-        super().__init__(session)
-        self.changed = Signal(browser.change, None)
-        self._browser = browser
-        self._camera = BrowserCamera(browser.client)
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        change: Change,
+        document: ShownDocument,
+        scene: Scene,
+        robot: RobotState,
+        picker: Picker,
+        history: History,
+        saved: SavedViews,
+        worker: Worker,
+        lead: Callable[[ClientView], None],
+    ) -> None:
+        self.changed = Signal(change, None)
+        self.client_id = client.client_id
+        self.saved = saved
+        self._client = client
+        self._change = change
+        self._document = document
+        self._scene = scene
+        self._picker = picker
+        self._history = history
+        self._tell_others = lead
+        self._camera = ClientCamera(client)
         self._target = WORLD
-        self._framing = RobotFraming(session, browser.client)
-        self._take(session.config.detached_view())
-        self._reader = Throttle(session.worker, READ_PERIOD, self._read)
+        self._framing = RobotFraming(client, scene, robot, picker)
+        self._take(document.config.detached_view())
+        self._reader = Throttle(worker, READ_PERIOD, self._read)
         if self._camera.is_fresh:
             self._begin()
         else:
@@ -75,19 +105,18 @@ class BrowserView(SavedViews):
 
         async def moved(handle: viser.CameraHandle) -> None:
             del handle
-            session.worker.post(self._moved, latest_of=self)
+            worker.post(self._moved, latest_of=self)
 
-        browser.client.camera.on_update(moved)
-        signals = session.signals
+        client.camera.on_update(moved)
         self._disconnect = (
             connect(
-                [signals.joints, signals.frames, signals.robot], self._follow_target
+                [robot.positions, robot.changed, scene.frames], self._follow_target
             ),
-            connect([signals.robot, signals.status], self._frame_robot),
+            connect([robot.changed, scene.statuses], self._frame_robot),
         )
 
     def close(self) -> None:
-        """The browser has left: follow the session no longer."""
+        """Follow the session no longer: the page was closed."""
         for disconnect in self._disconnect:
             disconnect()
         self._reader.close()
@@ -120,7 +149,7 @@ class BrowserView(SavedViews):
         with self._edit(f"View: {path}", merge=("view", path)):
             self.view.config.set(path, value)
             if path == "Target Frame":
-                before, now = self._target, target_of(self._session, self.view)
+                before, now = self._target, target_of(self._scene, self.view)
                 # The picture stays as it is, except for a turn of the target.
                 self._apply(self.view.shifted(before.position - now.position))
 
@@ -135,7 +164,7 @@ class BrowserView(SavedViews):
             raise UsageError(f"there is no view type '{kind}'; there are {known}")
         with self._edit(f"View: {short_name(kind)}"):
             old = self.view
-            new = self._session.config.new_view(kind, old.config)
+            new = self._document.config.new_view(kind, old.config)
             # As in RViz, all other values start at their defaults.
             for path, declared in new.declared.items():
                 if path in new.properties and path != "Target Frame":
@@ -143,7 +172,7 @@ class BrowserView(SavedViews):
             new.set("Target Frame", old.config.get("Target Frame"))
             self._take(new)
             self._apply(self.view.mimic(old))
-            _, height = window_of(self._browser.client)
+            _, height = window_of(self._client)
             self._apply(_rounded(self.view.as_near_as(old, height)))
 
     def zero(self) -> None:
@@ -162,7 +191,7 @@ class BrowserView(SavedViews):
             box: its lowest and highest corner in the fixed frame [m]; the box around
                 the robot when not given, or around all that is drawn without one.
         """
-        found = self._session.rays.robot_box() if box is None else box
+        found = self._picker.robot_box() if box is None else box
         if found is not None:
             self._move(lambda: self._values_for(found))
 
@@ -172,24 +201,24 @@ class BrowserView(SavedViews):
 
     def show(self) -> None:
         """Take the document's view, after a program has set another one."""
-        with self._browser.change(self.changed):
-            self._take(self._session.config.detached_view())
+        with self._change(self.changed):
+            self._take(self._document.config.detached_view())
             self._begin()
 
     def store(self) -> None:
         """Write the view into the document, which is about to be saved."""
-        self._session.config.store_view(self._config)
+        self._document.config.store_view(self._config)
 
-    # The saved views of the document; see also `SavedViews`
+    # The saved views of the document
 
     def save(self) -> ViewConfig:
         """Add the view to the saved ones, named after its type."""
-        return self.add(self._config)
+        return self.saved.add(self._config)
 
     def use(self, saved: ViewConfig) -> None:
         """Show a copy of a saved view."""
         with self._edit(f"Use view {saved.name}"):
-            self._take(self._session.config.detached_view(saved))
+            self._take(self._document.config.detached_view(saved))
 
     # Inside
 
@@ -202,23 +231,23 @@ class BrowserView(SavedViews):
     def _frame_robot(self) -> None:
         box = self._framing.box()
         if box is not None:
-            with self._browser.change(self.changed):
+            with self._change(self.changed):
                 self._apply(self._values_for(box))
                 self._point()
 
     def _values_for(self, box: Corners) -> Values:
-        return self.view.fit(*box, *window_of(self._browser.client), self._target)
+        return self.view.fit(*box, *window_of(self._client), self._target)
 
     def _take(self, config: ViewConfig) -> None:
         self._config = config
         self.view = view_of(config)
-        self._target = target_of(self._session, self.view, self._target)
+        self._target = target_of(self._scene, self.view, self._target)
 
     def _keep_camera(self) -> None:
         """Take over the camera of a page that came back."""
         if self.camera.orthographic != self.view.orthographic:
             kind = TopDownOrthoView if self.camera.orthographic else OrbitView
-            self._take(self._session.config.new_view(kind.kind, self.view.config))
+            self._take(self._document.config.new_view(kind.kind, self.view.config))
         self._take_camera()
 
     @contextmanager
@@ -226,17 +255,17 @@ class BrowserView(SavedViews):
         """Change the view, move the camera, and record that."""
         config, before = self._config, dict(self.values)
         self._framing.stop()
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             yield
-            self._target = target_of(self._session, self.view, self._target)
+            self._target = target_of(self._scene, self.view, self._target)
             self._point()
-        self._lead()
+        self._tell_others(self)
         after = dict(self.values)
         if config is self._config:
             before = {p: v for p, v in before.items() if after[p] != v}
             after = {path: after[path] for path in before}
         if before or after:
-            self._session.history.record(
+            self._history.record(
                 label,
                 partial(self._restore, self._config, config, before),
                 partial(self._restore, config, self._config, after),
@@ -248,13 +277,13 @@ class BrowserView(SavedViews):
         if self._config is not shown:
             raise UsageError("another view was shown since")
         self._framing.stop()
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             if config is not shown:
                 self._take(config)
             self._apply(values)
-            self._target = target_of(self._session, self.view, self._target)
+            self._target = target_of(self._scene, self.view, self._target)
             self._point()
-        self._lead()
+        self._tell_others(self)
 
     def _apply(self, values: Values) -> None:
         for path, value in values.items():
@@ -263,11 +292,11 @@ class BrowserView(SavedViews):
     def _move(self, values: Callable[[], Values]) -> None:
         """Move the camera from where it is now; as with a mouse, that is no edit."""
         self._framing.stop()
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             self._take_camera()
             self._apply(values())
             self._point()
-        self._lead()
+        self._tell_others(self)
 
     def _point(self) -> None:
         self._camera.point(self.view.camera(self._target))
@@ -279,7 +308,7 @@ class BrowserView(SavedViews):
 
     def _moved(self) -> None:
         """The browser reports its camera; most reports are echoes of what we sent."""
-        with self._session.lock:
+        with self._change.lock:
             if not self._camera.take():
                 # The window may have another size now.
                 self._frame_robot()
@@ -289,34 +318,26 @@ class BrowserView(SavedViews):
 
     def _read(self) -> None:
         """The numbers take over the camera."""
-        with self._session.lock:
+        with self._change.lock:
             if same_picture(self.camera, self.view.camera(self._target)):
                 return
-            with self._browser.change(self.changed):
+            with self._change(self.changed):
                 self._take_camera()
-            self._lead()
+            self._tell_others(self)
 
-    def _lead(self) -> None:
-        """The others show the same, where they are to follow."""
-        session, own = self._session, self._browser.client_id
-        if session.signals.follow.value and session.roles.may_edit(own):
-            for other in tuple(self._session.browsers.values()):
-                if other is not self._browser:
-                    other.view.follow(self)
-
-    def follow(self, presenter: BrowserView) -> None:
-        """Show what another browser shows."""
+    def follow(self, presenter: ClientView) -> None:
+        """Show what another client shows."""
         self._framing.stop()
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             if self._config.class_id != presenter._config.class_id:
-                self._take(self._session.config.detached_view(presenter._config))
+                self._take(self._document.config.detached_view(presenter._config))
             self._apply(presenter.values)
             self._target = presenter._target
             self._camera.point(presenter.camera)
 
     def _follow_target(self) -> None:
         """Move the camera with the target frame."""
-        before, now = self._target, target_of(self._session, self.view, self._target)
+        before, now = self._target, target_of(self._scene, self.view, self._target)
         if not now.same_as(before):
             self._target = now
             self._camera.point(self.view.moved(self.camera, before, now))

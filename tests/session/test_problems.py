@@ -9,7 +9,6 @@ import pytest
 
 from sambot_viz import Problem, Visualizer
 from sambot_viz.session import Session
-from sambot_viz.session.shown_problems import last_good_note, problems_of
 
 MISTAKE = Problem("error", "e", "it is broken")
 
@@ -28,7 +27,7 @@ def session(tmp_path: Path) -> Iterator[Session]:
 
 
 def codes(session: Session) -> list[str]:
-    return [problem.code for problem in problems_of(session)]
+    return [problem.code for problem in session.problems.shown.value.listed]
 
 
 def test_errors_come_first(session: Session) -> None:
@@ -45,10 +44,10 @@ def test_while_a_save_has_a_mistake_all_else_stays_listed(session: Session) -> N
 
 
 def test_a_note_says_what_is_shown_instead(session: Session) -> None:
-    assert last_good_note(session) == ""
+    assert session.problems.shown.value.note == ""
     session.problems.set_saves("model", [MISTAKE])
-    assert last_good_note(session).startswith("Showing the last good version")
+    assert session.problems.shown.value.note.startswith("Showing the last good version")
     session.problems.set_saves("config", [MISTAKE])
-    assert "config has a mistake" in last_good_note(session)
+    assert "config has a mistake" in session.problems.shown.value.note
     session.problems.set_saves("model", [])
-    assert last_good_note(session).startswith("The config has a mistake")
+    assert session.problems.shown.value.note.startswith("The config has a mistake")

@@ -1,14 +1,14 @@
-"""The tools of one browser: the current one, its clicks and keys, and the selection.
+"""The tools of one client: the current one, its clicks and keys, and the selection.
 
 Only the current tool gets clicks, and only one that uses them: with any other, a press
-of the mouse moves the camera. What tools draw is drawn for their own browser alone.
+of the mouse moves the camera. What tools draw is drawn for their own client alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 import viser
@@ -16,8 +16,14 @@ import viser
 from sambot_viz.displays.picking.pick_geometry import Hit, Selectable
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.errors import UsageError
-from sambot_viz.session.browser.pointer_events import click_of, pointed_at, rays_of
-from sambot_viz.session.signals import Signal, connect
+from sambot_viz.session.clients.client_view import ClientView
+from sambot_viz.session.clients.pointer_events import click_of, pointed_at, rays_of
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.worker import Worker
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.picture import ScreenPoint
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
@@ -25,21 +31,23 @@ from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
 
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
-    from sambot_viz.session.browser.browser import Browser
-
 MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
 
 
-class ToolControl:
+class ClientTools:
     """Switches tools, gives them clicks and rectangles, and keeps the selection.
 
     Implements `tools.tool.ToolContext`.
 
     Args:
-        session: what is shown.
-        browser: whose tools these are.
+        client: whose tools these are.
+        change: sends what they draw to this client.
+        view: the camera that they turn.
+        document: lists tools, with their settings.
+        scene: what is shown.
+        robot: the selection moves with it.
+        picker: finds what is clicked on.
+        worker: acts on clicks.
 
     Attributes:
         changed: the tools, the selection or the status.
@@ -49,13 +57,27 @@ class ToolControl:
         current: the tool that gets clicks.
     """
 
-    def __init__(self, session: Session, browser: Browser) -> None:
-        self.changed = Signal(browser.change, None)
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        change: Change,
+        view: ClientView,
+        document: ShownDocument,
+        scene: Scene,
+        robot: RobotState,
+        picker: Picker,
+        worker: Worker,
+    ) -> None:
+        self.changed = Signal(change, None)
         self.status = ""
         self.selection: dict[Selectable, None] = {}
-        self._session = session
-        self._browser = browser
-        self._boxes = SelectionBoxes(browser.client.scene)
+        self._client = client
+        self._change = change
+        self._view = view
+        self._document = document
+        self._picker = picker
+        self._worker = worker
+        self._boxes = SelectionBoxes(client.scene)
         self._config: object = None
         self._settings: dict[str, dict[str, Any]] = {}
         self._mouse: ScreenPoint = (0.5, 0.5)
@@ -63,21 +85,14 @@ class ToolControl:
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
-        signals = session.signals
-        drawn = (
-            signals.joints,
-            signals.frames,
-            signals.robot,
-            signals.config,
-            signals.status,
-        )
+        drawn = [robot.positions, robot.changed, scene.frames, scene.statuses]
         self._disconnect = (
-            connect([signals.config], self._config_changed),
+            connect([document.replaced, document.tools], self._take_document),
             connect(drawn, self._follow_selection),
         )
 
     def close(self) -> None:
-        """The browser has left: follow the session no longer."""
+        """Follow the session no longer: the page was closed."""
         for disconnect in self._disconnect:
             disconnect()
 
@@ -86,7 +101,7 @@ class ToolControl:
     @property
     def default(self) -> Tool:
         """The first tool of the file that is known here, as in RViz."""
-        for item in self._session.config.tools:
+        for item in self._document.config.tools:
             for tool in self.tools:
                 if tool.kind == item.kind:
                     return tool
@@ -109,7 +124,7 @@ class ToolControl:
         Raises:
             UsageError: an unknown tool.
         """
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             self._switch(self.tool(kind))
 
     def press(self, kind: str) -> None:
@@ -128,7 +143,7 @@ class ToolControl:
 
     def escape(self) -> None:
         """Esc: stop what the current tool does, and go back to the default tool."""
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             self.current.cancel()
             self._switch(self.default)
 
@@ -146,7 +161,7 @@ class ToolControl:
 
     def right_click(self) -> None:
         """A click with the right button: start again what the current tool does."""
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             self.current.cancel()
 
     def focus(self, at: ScreenPoint | None = None) -> None:
@@ -159,22 +174,22 @@ class ToolControl:
             at: where the mouse is, from 0 (left, top) to 1 (right, bottom) of the
                 picture; None when it is not over it.
         """
-        click = None if at is None else pointed_at(self._browser.client, at)
+        click = None if at is None else pointed_at(self._client, at)
         if click is None or isinstance(self.current, SelectTool):
-            with self._session.lock:
-                boxes = self._session.rays.boxes_of(self.selection).values()
+            with self._change.lock:
+                boxes = self._picker.boxes_of(self.selection).values()
             if boxes:
                 low = np.min([box[0] for box in boxes], axis=0)
                 high = np.max([box[1] for box in boxes], axis=0)
                 self.look_at((low + high) / 2)
                 return
         if click is None:
-            self._browser.view.fit()
+            self._view.fit()
             return
 
         def then(hit: Hit) -> None:
             if hit.point is None:
-                self._browser.view.fit()
+                self._view.fit()
             else:
                 self.look_at(hit.point)
 
@@ -185,11 +200,11 @@ class ToolControl:
     @property
     def scene(self) -> viser.SceneApi:
         """Where to draw."""
-        return self._browser.client.scene
+        return self._client.scene
 
     def select(self, items: set[Selectable], modifier: str | None) -> None:
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             if modifier == "shift":
                 kept = {**self.selection, **dict.fromkeys(items)}
             elif modifier == "cmd/ctrl":
@@ -201,7 +216,7 @@ class ToolControl:
 
     def look_at(self, point: Array) -> None:
         """Turn the camera to a point of the fixed frame, (3,) [m]."""
-        self._browser.view.look_at(point)
+        self._view.look_at(point)
 
     def finish(self) -> None:
         """Go back to the default tool."""
@@ -209,25 +224,25 @@ class ToolControl:
 
     def show_status(self, status: str) -> None:
         """Show a sentence below the toolbar; an empty one shows the tool's help."""
-        with self._browser.change(self.changed):
+        with self._change(self.changed):
             self.status = status
 
     # Inside
 
     def _follow(self, what: str, click: Click, then: Callable[[Hit], None]) -> None:
         ray = click.origin, click.direction, click.pixel
-        self._session.rays.follow((self, what), lambda s: s.first_hit(*ray), then)
+        self._picker.follow((self, what), lambda s: s.first_hit(*ray), then)
 
     def _follow_mouse(self, tool: Tool) -> None:
         """Give a tool what is under the mouse, once more when it has moved on."""
-        click = pointed_at(self._browser.client, self._mouse)
+        click = pointed_at(self._client, self._mouse)
         if click is None:
             return
         followed, self._hovering = self._mouse, True
 
         def then(hit: Hit) -> None:
             self._hovering = False
-            with self._browser.change(self.changed):
+            with self._change(self.changed):
                 if self.current is tool and tool.wants_hover:
                     tool.hover(click, hit)
             if self._mouse != followed:
@@ -237,7 +252,7 @@ class ToolControl:
 
     def _take_config(self) -> None:
         """The tools of the document, then the others, each with its settings."""
-        config = self._session.config
+        config = self._document.config
         if self._config is config:
             return
         self._config = config
@@ -278,7 +293,7 @@ class ToolControl:
                 scene.on_rect_select(modifier=modifier)(self._on_rectangle(tool))
 
     def _on_click(self, tool: Tool) -> Callable[[viser.SceneClickEvent], Any]:
-        worker = self._session.worker
+        worker = self._worker
 
         async def clicked(event: viser.SceneClickEvent) -> None:
             click = click_of(event)
@@ -289,7 +304,7 @@ class ToolControl:
 
     def _click(self, tool: Tool, click: Click) -> None:
         def then(hit: Hit) -> None:
-            with self._browser.change(self.changed):
+            with self._change(self.changed):
                 # The tool may have changed meanwhile.
                 if self.current is tool:
                     tool.click(click, hit)
@@ -297,7 +312,7 @@ class ToolControl:
         self._follow("click", click, then)
 
     def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
-        worker = self._session.worker
+        worker = self._worker
 
         async def drawn(event: viser.SceneRectSelectEvent) -> None:
             rays = rays_of(event)
@@ -308,21 +323,21 @@ class ToolControl:
 
     def _rectangle(self, tool: Tool, rays: RayGrid, modifier: str | None) -> None:
         def then(items: set[Selectable]) -> None:
-            with self._browser.change(self.changed):
+            with self._change(self.changed):
                 if self.current is tool:
                     tool.rectangle(items, modifier)
 
-        self._session.rays.follow((self, "box"), lambda s: s.items_met(rays), then)
+        self._picker.follow((self, "box"), lambda s: s.items_met(rays), then)
 
-    def _config_changed(self) -> None:
-        with self._browser.change():
+    def _take_document(self) -> None:
+        with self._change(self.changed):
             self._take_config()
             self._take_settings()
 
     def _follow_selection(self) -> None:
         if self.selection:
-            with self._browser.change():
+            with self._change():
                 self._draw_boxes()
 
     def _draw_boxes(self) -> None:
-        self._boxes.draw(self._session.rays.boxes_of(self.selection))
+        self._boxes.draw(self._picker.boxes_of(self.selection))

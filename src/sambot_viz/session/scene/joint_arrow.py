@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
 
 import viser
 
 from sambot_viz.displays.scene.direction_arrow import add_direction_arrow
 from sambot_viz.displays.scene.node_cache import any_gone, remove_all
 from sambot_viz.robot.joint import Joint
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.worker import Worker
 
 SHOWN_FOR = 1.5
 """It is shown this long after the last move [s]."""
@@ -25,11 +23,13 @@ class JointArrow:
     message.
 
     Args:
-        session: whose joints these are.
+        scene: where it is drawn.
+        worker: removes it again.
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(self, scene: Scene, worker: Worker) -> None:
+        self._context = scene.context
+        self._worker = worker
         self._joint = ""
         self._moved_at = float("-inf")
         self._nodes: list[viser.ArrowsHandle] = []
@@ -46,7 +46,7 @@ class JointArrow:
             self._draw(joint)
         if self._nodes and not self._waiting:
             self._waiting = True
-            self._session.worker.post_later(SHOWN_FOR, self._late)
+            self._worker.post_later(SHOWN_FOR, self._late)
 
     def hide(self) -> None:
         """Remove the arrow from the scene."""
@@ -58,14 +58,12 @@ class JointArrow:
         left = self._moved_at + SHOWN_FOR - time.monotonic()
         self._waiting = left > 0
         if self._waiting:
-            self._session.worker.post_later(left, self._late)
+            self._worker.post_later(left, self._late)
         else:
             self.hide()
 
     def _draw(self, joint: Joint) -> None:
-        context = self._session.context
-        path = context.nodes.path(joint.child.lstrip("/"))
+        path = self._context.nodes.path(joint.child.lstrip("/"))
         if path is None or not any(joint.axis):
             return
-        scene = self._session.audience.scene
-        self._nodes = [add_direction_arrow(scene, path, joint)]
+        self._nodes = [add_direction_arrow(self._context.scene, path, joint)]

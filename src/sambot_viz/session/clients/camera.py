@@ -1,4 +1,4 @@
-"""The camera of one browser: sent to it, and read back when a mouse has moved it.
+"""The camera of one client: sent to it, and read back when a mouse has moved it.
 
 viser's camera turns about a point in front of it, with a fixed up direction, and in
 perspective. An orthographic view is drawn by a far camera with a small field of view
@@ -42,8 +42,8 @@ WIDEST_ORTHO = 2 * ORTHO_FIELD_OF_VIEW
 _START = Camera(np.array(VISER_FIRST_POSITION), np.zeros(3), UP)
 
 
-class BrowserCamera:
-    """One browser's camera.
+class ClientCamera:
+    """One client's camera.
 
     Attributes:
         client: the browser.

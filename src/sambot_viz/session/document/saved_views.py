@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.rviz.view_list import RemovedView
+from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.limits import MOST_VIEWS, require_room
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
+from sambot_viz.session.signals import Change
+from sambot_viz.session.undo import History
 
 
 class SavedViews:
-    """The edits of the saved views.
+    """Edits the saved views.
 
     Args:
-        session: whose document they are in.
+        document: they are in it.
+        history: records what users change.
+        change: sends and tells changes.
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(
+        self, document: ShownDocument, history: History, change: Change
+    ) -> None:
+        self._document = document
+        self._history = history
+        self._change = change
 
     def add(self, view: ViewConfig) -> ViewConfig:
         """Add a copy of a view to the saved ones, named after its type.
@@ -31,12 +36,12 @@ class SavedViews:
         Raises:
             UsageError: there are too many.
         """
-        config = self._session.config
+        config = self._document.config
         require_room(len(config.saved_views) + 1, MOST_VIEWS, "saved views")
-        with self._session.change(self._session.signals.config):
-            saved = self._session.config.save_view(view)
+        with self._change(self._document.views):
+            saved = config.save_view(view)
         undo, redo = self._removal(saved)
-        self._session.history.record(f"Save view {saved.name}", undo, redo)
+        self._history.record(f"Save view {saved.name}", undo, redo)
         return saved
 
     def rename(self, saved: ViewConfig, name: str) -> None:
@@ -48,14 +53,14 @@ class SavedViews:
         name, before = name.strip(), saved.name
 
         def rename(name: str) -> None:
-            if saved not in self._session.config.saved_views:
+            if saved not in self._document.config.saved_views:
                 raise UsageError(f"the view '{saved.name}' was removed")
-            with self._session.change(self._session.signals.config):
+            with self._change(self._document.views):
                 saved.rename(name)
 
         if name and name != before:
             rename(name)
-            self._session.history.record(
+            self._history.record(
                 f"Rename view {before} to {name}",
                 partial(rename, before),
                 partial(rename, name),
@@ -69,19 +74,19 @@ class SavedViews:
         """
         remove, put_back = self._removal(saved)
         remove()
-        self._session.history.record(f"Remove view {saved.name}", put_back, remove)
+        self._history.record(f"Remove view {saved.name}", put_back, remove)
 
     def _removal(self, saved: ViewConfig) -> tuple[Restore, Restore]:
         """Functions that take a saved view out, and put the same one back."""
-        session = self._session
+        document = self._document
         places: list[RemovedView] = []
 
         def remove() -> None:
-            with session.change(session.signals.config):
-                places[:] = [session.config.remove_view(saved)]
+            with self._change(document.views):
+                places[:] = [document.config.remove_view(saved)]
 
         def put_back() -> None:
-            with session.change(session.signals.config):
-                session.config.put_back_view(places[0])
+            with self._change(document.views):
+                document.config.put_back_view(places[0])
 
         return remove, put_back

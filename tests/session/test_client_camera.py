@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import viser
 
-from sambot_viz.session.browser.camera import BrowserCamera
+from sambot_viz.session.clients.camera import ClientCamera
 
 
 def a_camera() -> SimpleNamespace:
@@ -30,7 +30,7 @@ def test_a_camera_that_is_not_made_of_finite_numbers_changes_nothing(
     name: str, bad: Any
 ) -> None:
     reported = a_camera()
-    browser = BrowserCamera(cast(viser.ClientHandle, SimpleNamespace(camera=reported)))
+    browser = ClientCamera(cast(viser.ClientHandle, SimpleNamespace(camera=reported)))
     before = browser.camera
     reported.position = (7.0, 1.0, 2.0)
     good = getattr(reported, name)
@@ -50,7 +50,7 @@ def test_a_camera_that_is_not_made_of_finite_numbers_changes_nothing(
 )
 def test_numbers_that_are_not_a_camera_change_nothing(name: str, values: Any) -> None:
     reported = a_camera()
-    browser = BrowserCamera(cast(viser.ClientHandle, SimpleNamespace(camera=reported)))
+    browser = ClientCamera(cast(viser.ClientHandle, SimpleNamespace(camera=reported)))
     before = browser.camera
     setattr(reported, name, values)
     assert not browser.take()

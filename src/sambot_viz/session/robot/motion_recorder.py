@@ -1,4 +1,4 @@
-"""How joints and driven frames moved in the last minute; never more than that.
+"""Records how joints and driven frames move; the last minute is kept.
 
 It is written at every step of a motion, so a note is a few numbers behind each other:
 one step of 300 joints takes 2.4 kB, and names are kept once as long as they are the
@@ -7,13 +7,13 @@ same.
 
 from __future__ import annotations
 
-import time
 from array import array
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from sambot_viz.geometry import Matrix
+from sambot_viz.session.clock import Clock
 
 LONGEST = 60.0
 """So much is kept [s]."""
@@ -32,7 +32,7 @@ class _Note:
 
 
 @dataclass(frozen=True, slots=True)
-class Moved:
+class MotionSample:
     """Where joints and frames that moved are from a time on.
 
     Attributes:
@@ -46,10 +46,15 @@ class Moved:
     frames: Mapping[str, Matrix]
 
 
-class PastMotion:
-    """Keeps the last minute; not thread-safe, the session holds the lock."""
+class MotionRecorder:
+    """Keeps the last minute; not thread-safe, the session holds the lock.
 
-    def __init__(self) -> None:
+    Args:
+        clock: gives the time of a step.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self._notes: deque[_Note] = deque()
         self._numbers = 0
         self._before: dict[str, float] = {}
@@ -75,7 +80,7 @@ class PastMotion:
             positions: free joint → position [rad or m].
             frames: added frame → (4, 4) T_parent_child; kept, not copied.
         """
-        now = time.monotonic()
+        now = self._clock.now()
         names = tuple([name for name in joints if name in positions])
         numbers = array("d", [positions[name] for name in names])
         last = self._notes[-1] if self._notes else None
@@ -92,20 +97,20 @@ class PastMotion:
         """A frame is about to move from here, T_parent_child (4, 4)."""
         self._frames_before.setdefault(frame, T)
 
-    def last_minute(self) -> tuple[Moved, list[Moved]]:
+    def last_minute(self) -> tuple[MotionSample, list[MotionSample]]:
         """Where everything was before, and the steps since; none when nothing moved."""
-        self._forget(time.monotonic() - LONGEST)
+        self._forget(self._clock.now() - LONGEST)
         notes = self._notes
         # The first step comes after a moment of rest.
         begin = notes[0].time - PERIOD if notes else 0.0
-        return Moved(0.0, dict(self._before), dict(self._frames_before)), list(
+        return MotionSample(0.0, dict(self._before), dict(self._frames_before)), list(
             self._moved(begin)
         )
 
-    def _moved(self, begin: float) -> Iterator[Moved]:
+    def _moved(self, begin: float) -> Iterator[MotionSample]:
         for note in self._notes:
             positions = dict(zip(note.joints, note.positions, strict=True))
-            yield Moved(note.time - begin, positions, dict(note.frames or {}))
+            yield MotionSample(note.time - begin, positions, dict(note.frames or {}))
 
     def _merge(
         self,

@@ -10,8 +10,8 @@ from inside import viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.session import Browser, Session
-from sambot_viz.session.browser.driver_view import DriverView
+from sambot_viz.session import Client, Session
+from sambot_viz.session.clients.follow_view import FollowView
 from sambot_viz.views.camera import vector
 
 START, AWAY, FARTHER = vector(0, 0, 0.1), vector(5, 2, 0.1), vector(6, 2, 0.1)
@@ -20,39 +20,39 @@ START, AWAY, FARTHER = vector(0, 0, 0.1), vector(5, 2, 0.1), vector(6, 2, 0.1)
 @pytest.fixture
 def join(
     viz: Visualizer, session: Session, protocol: Callable[..., ProtocolClient]
-) -> Callable[[], Browser]:
+) -> Callable[[], Client]:
     """Open the page in one more browser, near the robot."""
 
-    def open_page() -> Browser:
-        before = set(session.browsers)
+    def open_page() -> Client:
+        before = set(session.clients.all)
         protocol(urlsplit(viz.url).port or 0).settle(viser_server(viz))
-        (new,) = session.browsers.keys() - before
-        session.browsers[new].view.set("Distance", 2.0)
-        return session.browsers[new]
+        (new,) = session.clients.all.keys() - before
+        session.clients.all[new].view.set("Distance", 2.0)
+        return session.clients.all[new]
 
     return open_page
 
 
 @pytest.fixture
-def driver(join: Callable[[], Browser]) -> Browser:
+def driver(join: Callable[[], Client]) -> Client:
     return join()
 
 
 @pytest.fixture
-def seen(session: Session, driver: Browser) -> DriverView:
+def seen(session: Session, driver: Client) -> FollowView:
     """What the driver sees; the driver's first command was just now."""
-    seen = DriverView(session)
+    seen = session.follow_view
     with session.history.acting(driver.client_id):
         seen.begin()
     return seen
 
 
-def looks_at(browser: Browser) -> tuple[float, ...]:
+def looks_at(browser: Client) -> tuple[float, ...]:
     return tuple(round(float(part), 6) for part in browser.view.camera.look_at[:2])
 
 
 def test_a_robot_that_drives_out_of_the_picture_is_in_its_middle_again(
-    seen: DriverView, driver: Browser
+    seen: FollowView, driver: Client
 ) -> None:
     before = driver.view.camera
     seen.follow(START)
@@ -67,7 +67,7 @@ def test_a_robot_that_drives_out_of_the_picture_is_in_its_middle_again(
     assert now.look_at[2] == before.look_at[2]
 
 
-def test_who_looks_elsewhere_is_left_alone(seen: DriverView, driver: Browser) -> None:
+def test_who_looks_elsewhere_is_left_alone(seen: FollowView, driver: Client) -> None:
     seen.follow(START)
     driver.view.pan(vector(-20, 0, 0))
     before = looks_at(driver)
@@ -77,7 +77,7 @@ def test_who_looks_elsewhere_is_left_alone(seen: DriverView, driver: Browser) ->
 
 
 def test_the_cameras_of_others_stay(
-    seen: DriverView, driver: Browser, join: Callable[[], Browser]
+    seen: FollowView, driver: Client, join: Callable[[], Client]
 ) -> None:
     other = join()
     seen.make_room()
@@ -88,7 +88,7 @@ def test_the_cameras_of_others_stay(
 
 
 def test_there_is_room_to_drive_in_the_picture_at_the_start(
-    seen: DriverView, driver: Browser
+    seen: FollowView, driver: Client
 ) -> None:
     seen.make_room()
     distance = driver.view.values["Distance"]
@@ -101,9 +101,9 @@ def test_there_is_room_to_drive_in_the_picture_at_the_start(
 
 
 def test_a_program_that_drives_moves_no_camera(
-    session: Session, driver: Browser
+    session: Session, driver: Client
 ) -> None:
-    seen = DriverView(session)
+    seen = session.follow_view
     seen.begin()
     seen.make_room()
     seen.follow(START)

@@ -14,7 +14,7 @@ from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer
-from sambot_viz.session import Browser, Session
+from sambot_viz.session import Client, Session
 from sambot_viz.session.signals import connect
 
 PREFIX = "rviz_default_plugins/"
@@ -28,7 +28,7 @@ class Person:
 
     viz: Visualizer
     client: ProtocolClient
-    browser: Browser
+    browser: Client
 
     def settle(self) -> None:
         self.client.settle(viser_server(self.viz))
@@ -60,11 +60,11 @@ def join(viz: Visualizer, session: Session, protocol: Protocol) -> Callable[[], 
     """Open the page in one more browser."""
 
     def open_page() -> Person:
-        before = set(session.browsers)
+        before = set(session.clients.all)
         client = protocol(urlsplit(viz.url).port or 0)
         client.settle(viser_server(viz))
-        (new,) = session.browsers.keys() - before
-        return Person(viz, client, session.browsers[new])
+        (new,) = session.clients.all.keys() - before
+        return Person(viz, client, session.clients.all[new])
 
     return open_page
 
@@ -81,7 +81,7 @@ def leave(session: Session, person: Person, other: Person) -> None:
     while time.monotonic() < end:
         other.settle()
         with session.lock:
-            if person.browser.client_id not in session.browsers:
+            if person.browser.client_id not in session.clients.all:
                 return
     raise AssertionError("the session takes no note")
 
@@ -153,7 +153,7 @@ def test_a_colour_of_a_tool_is_the_documents_and_can_be_undone(
 
     before = colors(b)
     with session.history.acting(a.browser.client_id):
-        session.set_tool_property(MEASURE, "Line color", (1, 2, 3))
+        session.document.set_tool_property(MEASURE, "Line color", (1, 2, 3))
     b.settle()
     assert colors(b) != before
     assert session.history.undo(a.browser.client_id) == "Measure: Line color"
@@ -179,7 +179,7 @@ def test_one_turns_the_camera_and_the_other_sees_nothing_of_it(
     assert b.view.view.kind == f"{PREFIX}Orbit"
     assert (b.view.values, b.view.camera) == (before, camera)
     assert heard == []
-    assert session.config.view.kind == f"{PREFIX}Orbit"
+    assert session.document.config.view.kind == f"{PREFIX}Orbit"
 
 
 def test_fit_shows_the_robot_or_a_box_from_the_same_direction(
@@ -203,15 +203,15 @@ def test_the_document_takes_the_view_of_the_browser_that_saves(
     a.view.set("Distance", 3.0)
     b.view.set("Distance", 5.0)
     a.view.store()
-    assert session.config.view.get("Distance") == 3.0
+    assert session.document.config.view.get("Distance") == 3.0
     assert (a.view.values["Distance"], b.view.values["Distance"]) == (3.0, 5.0)
 
 
 def test_a_program_moves_all_cameras_and_a_late_browser_starts_like_them(
     session: Session, two: tuple[Person, Person], join: Callable[[], Person]
 ) -> None:
-    session.config.view.set("Distance", 6.5)
-    session.show_view()
+    session.document.config.view.set("Distance", 6.5)
+    session.clients.show_view()
     late = join()
     late.browser.view.show()
     for person in (*two, late):
@@ -254,7 +254,7 @@ def test_an_edit_of_a_view_that_is_not_shown_any_more_is_dropped(
     browser = two[0].browser
     with session.history.acting(browser.client_id):
         browser.view.set("Distance", 4.0)
-    session.show_view()
+    session.clients.show_view()
     with pytest.raises(UsageError, match="another view was shown since"):
         session.history.undo(browser.client_id)
 
@@ -263,24 +263,24 @@ def test_saved_views_belong_to_the_document_and_are_undone(
     session: Session, two: tuple[Person, Person]
 ) -> None:
     a, b = (person.browser for person in two)
-    text = session.config.to_yaml()
+    text = session.document.config.to_yaml()
     with session.history.acting(a.client_id):
         saved = a.view.save()
     assert session.history.modified.value
     with session.history.acting(a.client_id):
-        a.view.rename(saved, "near")
+        a.view.saved.rename(saved, "near")
     a.view.set("Distance", 9.0)
     with session.history.acting(b.client_id):
         b.view.use(saved)
     assert a.view.values["Distance"] == 9.0, "only the camera of b is moved"
     with session.history.acting(b.client_id):
-        b.view.remove(saved)
+        b.view.saved.remove(saved)
     with pytest.raises(UsageError, match="the view 'near' was removed"):
         session.history.undo(a.client_id)
     assert session.history.undo(b.client_id) == "Remove view near"
-    assert session.config.saved_views == (saved,)
+    assert session.document.config.saved_views == (saved,)
     assert session.history.undo(a.client_id) == "Save view Orbit"
-    assert session.config.to_yaml() == text
+    assert session.document.config.to_yaml() == text
 
 
 # Coming and going
@@ -290,12 +290,12 @@ def test_listeners_hear_who_comes_and_goes(
     session: Session, join: Callable[[], Person]
 ) -> None:
     heard: list[tuple[int, bool]] = []
-    session.browser_listeners.append(lambda b, here: heard.append((b.client_id, here)))
+    session.clients.listeners.append(lambda b, here: heard.append((b.client_id, here)))
     a = join()
     b = join()
-    assert list(session.browsers) == [a.browser.client_id, b.browser.client_id]
+    assert list(session.clients.all) == [a.browser.client_id, b.browser.client_id]
     leave(session, a, b)
-    assert list(session.browsers) == [b.browser.client_id]
+    assert list(session.clients.all) == [b.browser.client_id]
     assert heard == [
         (a.browser.client_id, True),
         (b.browser.client_id, True),
@@ -308,13 +308,13 @@ def test_what_a_browser_has_left_behind_stays_and_its_history_goes(
 ) -> None:
     a, b = two
     with session.history.acting(a.browser.client_id):
-        session.set_global("Frame Rate", 12)
+        session.document.set_option("Frame Rate", 12)
     a.browser.tools.choose(SELECT)
     a.click_down(0.0, 0.0)
     leave(session, a, b)
     assert session.history.undo(a.browser.client_id) is None
-    assert session.config.global_options.get("Frame Rate") == 12
-    session.set_joint_positions({"drivewhl_l_joint": 0.4})
+    assert session.document.config.global_options.get("Frame Rate") == 12
+    session.robot.set_positions({"drivewhl_l_joint": 0.4})
     assert session.problems.of_saves == {}
 
 
@@ -324,4 +324,4 @@ def test_a_private_session_has_one_browser(protocol: Protocol) -> None:
             client = protocol(urlsplit(viz.url).port or 0)
             client.settle(viser_server(viz))
             sessions = viz.server.sessions()
-            assert [len(s.browsers) for s in sessions] == [1] * count
+            assert [len(s.clients.all) for s in sessions] == [1] * count

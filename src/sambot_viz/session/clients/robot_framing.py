@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Corners
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.views.view import View
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
 
 Size = tuple[int, int]
 """Width and height [pixels]."""
@@ -29,12 +27,22 @@ class RobotFraming:
     size; never after the user has moved the camera.
 
     Args:
-        session: what is shown.
-        client: the browser.
+        client: the client.
+        scene: reads the meshes.
+        robot: what is to be shown.
+        picker: finds how large it is.
     """
 
-    def __init__(self, session: Session, client: viser.ClientHandle) -> None:
-        self._session = session
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        scene: Scene,
+        robot: RobotState,
+        picker: Picker,
+    ) -> None:
+        self._scene = scene
+        self._robot = robot
+        self._picker = picker
         self._client = client
         self._wanted = False
         self._window: Size | None = None
@@ -51,13 +59,13 @@ class RobotFraming:
 
     def box(self) -> Corners | None:
         """The box to show now; None when the camera is to stay as it is."""
-        session, window = self._session, window_of(self._client)
-        if not self._wanted or session.robot is None:
+        if not self._wanted or self._robot.model is None:
             return None
-        all_read = session.context.assets.progress is None
+        window = window_of(self._client)
+        all_read = self._scene.context.assets.progress is None
         if window == self._window and (self._complete or not all_read):
             return None
-        found = session.rays.robot_box()
+        found = self._picker.robot_box()
         if found is not None:
             self._window, self._complete = window, all_read
         return found

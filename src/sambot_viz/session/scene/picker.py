@@ -1,17 +1,16 @@
-"""Rays through what a session draws, followed where nobody has to wait for them."""
+"""Rays through what a session draws, followed without blocking clients."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from sambot_viz.displays.picking.pick_geometry import Corners, Selectable
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
-
-if TYPE_CHECKING:
-    from sambot_viz.session import Session
 
 T = TypeVar("T")
 
@@ -19,16 +18,17 @@ INLINE = 100_000
 """Rays through this many triangles take milliseconds; more are left to a thread."""
 
 
-class PickRays:
-    """Follows the rays of all browsers of a session, one click after the other.
+class Picker:
+    """Follows the rays of all clients of a session, one click after the other.
 
     Args:
-        session: what is drawn.
+        scene: what is drawn.
+        worker: acts on what was found.
     """
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
-        self._scene = PickScene(lambda: session.displays)
+    def __init__(self, scene: Scene, worker: Worker) -> None:
+        self._worker = worker
+        self._scene = PickScene(lambda: scene.displays)
         self._thread = ThreadPoolExecutor(1, "sambot-viz-rays")
         self._lock = threading.Lock()
         self._waiting: dict[object, Callable[[], None]] = {}
@@ -42,7 +42,7 @@ class PickRays:
         """Follow rays through what is drawn now, then act.
 
         A rectangle over millions of triangles takes seconds. A thread of its own does
-        that, so that neither browsers nor the session wait.
+        that, so that neither clients nor the session wait.
 
         Args:
             of: who asks, for what; of several that wait only the latest is followed.
@@ -61,7 +61,7 @@ class PickRays:
             except Exception as error:
                 # It is raised, and reported, in the worker.
                 future.set_exception(error)
-            self._session.worker.post(lambda: then(future.result()))
+            self._worker.post(lambda: then(future.result()))
 
         with self._lock:
             known = of in self._waiting

@@ -1,0 +1,1 @@
+"""What belongs to one client of a session: its view, its tools, its selection."""

@@ -1,0 +1,126 @@
+"""The clients of a session."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+import viser
+
+from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.client_tools import ClientTools
+from sambot_viz.session.clients.client_view import ClientView
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.document.saved_views import SavedViews
+from sambot_viz.session.people.roles import Roles
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Signal
+from sambot_viz.session.undo import History
+from sambot_viz.session.worker import Worker
+
+
+class Clients:
+    """Makes what belongs to each client, and forgets it when the page is closed.
+
+    Args:
+        document: its views and tools come first.
+        scene: what clients look at.
+        robot: views follow it.
+        picker: finds what is clicked on.
+        history: records views.
+        roles: whose view the others may follow.
+        change: tells changes.
+        worker: acts on what clients send.
+
+    Attributes:
+        follow_presenter: whether all clients show what the client shows whose camera
+            moved last, of those that may change the session.
+        listeners: called with a client that joined (True) or left (False), with the
+            session locked.
+    """
+
+    def __init__(
+        self,
+        document: ShownDocument,
+        scene: Scene,
+        robot: RobotState,
+        picker: Picker,
+        history: History,
+        roles: Roles,
+        change: Change,
+        worker: Worker,
+    ) -> None:
+        self.follow_presenter = Signal(change, False)
+        self.listeners: list[Callable[[Client, bool], None]] = []
+        self._document = document
+        self._scene = scene
+        self._robot = robot
+        self._picker = picker
+        self._history = history
+        self._roles = roles
+        self._saved_views = SavedViews(document, history, change)
+        self._worker = worker
+        self._clients: dict[int, Client] = {}
+
+    @property
+    def all(self) -> Mapping[int, Client]:
+        """The clients that see the session, by their numbers; read-only."""
+        return MappingProxyType(self._clients)
+
+    def join(self, handle: viser.ClientHandle) -> Client:
+        """Make what belongs to a client that has opened the page."""
+        change = Change(self._worker, handle)
+        view = ClientView(
+            handle,
+            change,
+            self._document,
+            self._scene,
+            self._robot,
+            self._picker,
+            self._history,
+            self._saved_views,
+            self._worker,
+            self._lead,
+        )
+        tools = ClientTools(
+            handle,
+            change,
+            view,
+            self._document,
+            self._scene,
+            self._robot,
+            self._picker,
+            self._worker,
+        )
+        client = self._clients[handle.client_id] = Client(handle, change, view, tools)
+        for listener in tuple(self.listeners):
+            listener(client, True)
+        return client
+
+    def leave(self, client_id: int) -> None:
+        """Forget what belongs to a client that has closed the page."""
+        client = self._clients.pop(client_id, None)
+        if client is not None:
+            client.close()
+            self._history.leave(client_id)
+            for listener in tuple(self.listeners):
+                listener(client, False)
+
+    def show_view(self) -> None:
+        """Give all clients the document's view."""
+        for client in self._clients.values():
+            client.view.show()
+
+    def close(self) -> None:
+        """Follow nothing any more."""
+        for client in self._clients.values():
+            client.close()
+
+    def _lead(self, view: ClientView) -> None:
+        """Show others the same, where they are to follow."""
+        if self.follow_presenter.value and self._roles.may_edit(view.client_id):
+            for other in tuple(self._clients.values()):
+                if other.view is not view:
+                    other.view.follow(view)

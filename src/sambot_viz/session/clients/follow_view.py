@@ -1,0 +1,144 @@
+"""Pan the camera of the client that drives, so that the robot stays in view."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.clients import Clients
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.robot.drive import ODOM, Drive
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import connect
+from sambot_viz.session.throttle import Throttle
+from sambot_viz.session.undo import History
+from sambot_viz.session.worker import Worker
+from sambot_viz.views.camera import Vector, vector
+
+ROOM = 0.9
+"""So much of the floor round the robot is in the picture when it starts [m]."""
+PERIOD = 0.2
+"""The robot is looked after at most this often [s]."""
+MIDDLE = 0.8
+"""A robot that leaves this part of the picture is brought back to its middle."""
+
+
+class FollowView:
+    """Follows the robot with the view of the client that drives.
+
+    The camera stays where its user has put it, and moves only when the robot drives out
+    of the picture.
+
+    Args:
+        drive: the robot that is driven.
+        document: has the fixed frame.
+        scene: where the robot is.
+        picker: finds how large it is.
+        clients: one of them drives.
+        history: knows who acts.
+        worker: looks after the robot.
+    """
+
+    def __init__(
+        self,
+        drive: Drive,
+        document: ShownDocument,
+        scene: Scene,
+        picker: Picker,
+        clients: Clients,
+        history: History,
+        worker: Worker,
+    ) -> None:
+        self._drive = drive
+        self._document = document
+        self._context = scene.context
+        self._picker = picker
+        self._clients = clients
+        self._history = history
+        self._driver: int | None = None
+        self._before: Vector | None = None
+        self._looking = Throttle(worker, PERIOD, self._look_after)
+        self._lock = worker.lock
+        connect([drive.pose_changed, scene.frames], self._looking.request)
+
+    def close(self) -> None:
+        """Move no camera any more."""
+        self._looking.close()
+
+    def show_motion(self) -> bool:
+        """Make the fixed frame one that the robot moves in, if it moves with the robot.
+
+        That is an edit that can be undone. The robot stays in the picture of the
+        client that drives.
+
+        Returns:
+            Whether the fixed frame was another one.
+
+        Raises:
+            FrameError: the root link cannot be attached to odom.
+        """
+        with self._lock:
+            if self._drive.wheels is None:
+                return False
+            self._drive.enter_odom()
+            self.begin()
+            fixed = self._context.fixed_frame
+            if fixed not in self._context.tree.frames or not self._drive.carries(fixed):
+                return False
+            self._document.set_option("Fixed Frame", ODOM)
+            self.make_room()
+            return True
+
+    def begin(self) -> None:
+        """Follow the robot with the view of the client that acts now."""
+        self._driver = self._history.actor
+
+    def make_room(self) -> None:
+        """Show the floor round the robot, as RViz's user would do by the wheel."""
+        client, box = self._client, self._picker.robot_box()
+        if client is None or box is None:
+            return
+        aside = vector(ROOM, ROOM, 0.0)
+        low, high = box[0] - aside, box[1] + aside
+        corners = (np.where(upper, high, low) for upper in product((0, 1), repeat=3))
+        if not all(_shows(client, corner) for corner in corners):
+            client.view.fit((low, high))
+
+    def follow(self, place: Vector | None) -> None:
+        """Bring the robot back when it leaves the picture by its own motion.
+
+        Args:
+            place: of the robot in the fixed frame [m]; None when it has none.
+        """
+        before, self._before = self._before, place
+        client = self._client
+        if client is None or before is None or place is None:
+            return
+        if _shows(client, before, MIDDLE) and not _shows(client, place, MIDDLE):
+            away = place - client.view.camera.look_at
+            client.view.pan(vector(away[0], away[1], 0.0))
+
+    def _look_after(self) -> None:
+        with self._lock:
+            self.follow(self._place())
+
+    def _place(self) -> Vector | None:
+        """Return where the root link is in the fixed frame [m]."""
+        tree, fixed = self._context.tree, self._context.fixed_frame
+        root = self._drive.root
+        if not root or not tree.can_lookup(fixed, root):
+            return None
+        return tree.lookup(fixed, root).matrix[:3, 3]
+
+    @property
+    def _client(self) -> Client | None:
+        return None if self._driver is None else self._clients.all.get(self._driver)
+
+
+def _shows(client: Client, point: Vector, part: float = 1.0) -> bool:
+    window = client.client.camera
+    width, height = max(1, window.image_width), max(1, window.image_height)
+    return client.view.camera.shows(point, width, height, part)

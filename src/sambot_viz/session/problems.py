@@ -1,0 +1,142 @@
+"""The problems that a session shows: of its model, of saves, and of the program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from sambot_viz.displays.display import robot_displays
+from sambot_viz.errors import Problem, SambotVizError
+from sambot_viz.problems import in_order
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.worker import log_error
+
+Reloaded = Literal["model", "config", "watch", "fault"]
+"""What a save failed to change (model, config), or why saves fail at all."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShownProblems:
+    """What a page shows of problems.
+
+    Attributes:
+        listed: each once, errors first, then in the order of the files.
+        note: what the page shows instead of files with a mistake; or nothing.
+    """
+
+    listed: tuple[Problem, ...] = ()
+    note: str = ""
+
+
+class Problems:
+    """Collects the problems of one session.
+
+    Args:
+        document: has problems of its own.
+        scene: displays report problems of what they draw from.
+        robot: what is shown while a save has a mistake.
+        change: tells changes.
+
+    Attributes:
+        shown: what a page shows of them.
+        of_model: what is wrong with the model that is shown.
+        of_frames: what is wrong with its frames and wheels; `set_model` adds them.
+        of_saves: why the last save is not what is shown.
+    """
+
+    def __init__(
+        self,
+        document: ShownDocument,
+        scene: Scene,
+        robot: RobotState,
+        change: Change,
+    ) -> None:
+        self.shown = Signal(change, ShownProblems())
+        self.of_model: tuple[Problem, ...] = ()
+        self.of_frames: tuple[Problem, ...] = ()
+        self.of_saves: dict[Reloaded, tuple[Problem, ...]] = {}
+        self._document = document
+        self._scene = scene
+        self._robot = robot
+        self._change = change
+        self._collected = Signal(change, None)
+        sources = [document.replaced, scene.statuses, robot.changed, self._collected]
+        connect(sources, self._show)
+
+    def set_model(self, problems: Sequence[Problem]) -> None:
+        """Show what is wrong with the model."""
+        with self._change.lock:
+            self.of_model = (*problems, *self.of_frames)
+            self._collected.touch()
+
+    def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:
+        """Show why the last save is not what is shown; an empty list when it is."""
+        if self.of_saves.get(of, ()) != tuple(problems):
+            with self._change(self._collected):
+                self.of_saves[of] = tuple(problems)
+
+    def report_error(self, error: Exception) -> None:
+        """Show an exception that was not handled, and log it once."""
+        if isinstance(error, SambotVizError):
+            problem = Problem("error", "refused", str(error))
+        else:
+            text = f"internal error: {type(error).__name__}: {error}"
+            hint = "start the program again, and please report it"
+            problem = Problem("error", "internal-error", text, hint)
+        with self._change.lock:
+            if self.of_saves.get("fault") == (problem,):
+                return
+            if not isinstance(error, SambotVizError):
+                log_error(error)
+            self.set_saves("fault", (problem,))
+
+    def _show(self) -> None:
+        self.shown.set(ShownProblems(tuple(self._listed()), self._note()))
+
+    def _listed(self) -> list[Problem]:
+        """List the problems to show.
+
+        While a saved file has a mistake, the problems of what is shown stay listed.
+        What both have is listed once, where it is in the saved file.
+        """
+        saved = self.of_saves
+        shapes = (p for d in robot_displays(self._scene.displays) for p in d.problems)
+        model = _also(saved.get("model", ()), (*self.of_model, *shapes))
+        config = _also(saved.get("config", ()), self._document.config.problems)
+        others = (*saved.get("fault", ()), *saved.get("watch", ()))
+        return in_order((*model, *config, *others))
+
+    def _note(self) -> str:
+        notes: list[str] = []
+        if self._has_error("model"):
+            notes.append(
+                "The model has a mistake: the robot appears as soon as it is fixed."
+                if self._robot.model is None
+                else f"Showing the last good version: {self._what_is_wrong()}."
+            )
+        if self._has_error("config"):
+            notes.append(
+                "The config has a mistake: its displays appear as soon as it is fixed."
+            )
+        return " ".join(notes)
+
+    def _what_is_wrong(self) -> str:
+        """Say what became of the model's file."""
+        for fault in self.of_saves.get("model", ()):
+            if fault.code == "model-not-found" and fault.file is not None:
+                return f"{Path(fault.file).name} is gone"
+        return "what was saved has a mistake"
+
+    def _has_error(self, of: Reloaded) -> bool:
+        return any(fault.severity == "error" for fault in self.of_saves.get(of, ()))
+
+
+def _also(saved: Sequence[Problem], shown: Iterable[Problem]) -> list[Problem]:
+    """Return problems of a save, and those of what is shown that say something else."""
+    said = {(problem.code, problem.message) for problem in saved}
+    return [*saved, *(p for p in shown if (p.code, p.message) not in said)]

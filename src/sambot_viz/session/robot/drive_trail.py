@@ -1,0 +1,51 @@
+"""Draws where a robot was driven."""
+
+from __future__ import annotations
+
+from sambot_viz.displays.scene.ribbons import PathLine
+from sambot_viz.session.robot.drive import ODOM, Drive
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, connect
+from sambot_viz.session.throttle import Throttle
+from sambot_viz.session.worker import Worker
+
+PERIOD = 0.2
+"""The trail is drawn at most this often [s]."""
+
+
+class DriveTrail:
+    """Draws a line on the floor of odom.
+
+    Args:
+        drive: knows where the robot was.
+        robot: another one may have no wheels.
+        scene: where to draw.
+        change: sends the line.
+        worker: draws.
+    """
+
+    def __init__(
+        self,
+        drive: Drive,
+        robot: RobotState,
+        scene: Scene,
+        change: Change,
+        worker: Worker,
+    ) -> None:
+        self._drive = drive
+        self._context = scene.context
+        self._change = change
+        self._line = PathLine(scene.context.scene)
+        self._drawing = Throttle(worker, PERIOD, self._draw)
+        facts = [drive.pose_changed, scene.frames, robot.changed]
+        connect(facts, self._drawing.request)
+
+    def close(self) -> None:
+        """Draw nothing any more."""
+        self._drawing.close()
+
+    def _draw(self) -> None:
+        with self._change():
+            above = self._context.nodes.path(ODOM)
+            self._line.draw(above, self._drive.trail or ((0.0, 0.0),))

@@ -1,0 +1,1 @@
+"""What a session draws: displays, frames, background, and rays through them."""

@@ -1,0 +1,194 @@
+"""What a session draws: the nodes of its frames, its displays, the background."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
+from pathlib import Path
+
+import numpy as np
+
+from sambot_viz.displays.display import Display, DisplayContext, robot_displays
+from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.robot_display import ModelReader
+from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
+from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
+from sambot_viz.displays.status import Status
+from sambot_viz.frames import FrameTree
+from sambot_viz.meshes.cache import MeshCache
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import ConfigItem, DisplayConfig
+from sambot_viz.session.signals import Audience, Change, Signal
+
+
+class Scene:
+    """Draws for one audience; not thread-safe, the session holds the lock.
+
+    Args:
+        audience: where to draw.
+        tree: the frames.
+        change: sends what is drawn.
+        meshes: mesh files that are read already (shared by all sessions).
+        models: reads other models, for a RobotModel from a file.
+        reader: reads mesh files in the background; None reads them while drawing.
+
+    Attributes:
+        context: what displays draw with.
+        displays: the supported displays of the document, in its order.
+        statuses: what displays report, and what has been read for them.
+        frames: the frames that are drawn, their parents and poses, and the fixed frame;
+            moves of joints are told by the robot.
+        progress: how many files of how many have been read; None when all have been.
+    """
+
+    def __init__(
+        self,
+        audience: Audience,
+        tree: FrameTree,
+        change: Change,
+        meshes: MeshCache,
+        models: ModelReader | None = None,
+        reader: Reader | None = None,
+    ) -> None:
+        self.context = DisplayContext(
+            scene=audience.scene,
+            tree=tree,
+            nodes=FrameNodes(audience.scene),
+            assets=SessionAssets(meshes, reader, self._assets_read),
+            models=models,
+            apply=self._apply,
+        )
+        self.displays: list[Display] = []
+        self.statuses = Signal(change, None)
+        self.frames = Signal(change, None)
+        self.progress: Signal[tuple[int, int] | None] = Signal(change, None)
+        self._change = change
+        self._keys = 0
+        self._tree_drawn = tree.version
+        self._background: tuple[int, int, int] | None = None
+        change.finish = self._finish
+
+    # The document
+
+    def make_displays(self, items: Sequence[DisplayConfig]) -> None:
+        """Make the displays of a document and draw them; existing ones are kept."""
+        known = {id(display.config): display for display in self.displays}
+        items = [i for i in walk(items) if i.kind in DISPLAYS]
+        for gone in known.keys() - {id(item) for item in items}:
+            known.pop(gone).show(False)
+        self.displays = [
+            known.get(id(item))
+            or DISPLAYS[item.kind](self.context, item, self._next_key())
+            for item in items
+        ]
+        self.apply_enabled()
+
+    def apply_enabled(self) -> None:
+        """Show the displays that are enabled, with all groups above them."""
+        for display in self.displays:
+            display.show(display.config.active)
+        self.statuses.touch()
+
+    def display_of(self, config: DisplayConfig) -> Display | None:
+        """Return what draws a display of the document; None for an unsupported one."""
+        found = (d for d in self.displays if d.config is config)
+        return next(found, None)
+
+    def take_options(self, options: ConfigItem) -> None:
+        """Take the fixed frame and the background of a document."""
+        self.context.fixed_frame = str(options.get("Fixed Frame"))
+        background = options.get("Background Color")
+        if background != self._background:
+            self._background = self.context.background = background
+            pixel = np.array([[background]], dtype=np.uint8)
+            self.context.scene.set_background_image(pixel, format="png")
+
+    # Drawing
+
+    def take_robot(self, robot: Robot, moving: dict[str, str]) -> None:
+        """Take the robot that displays draw.
+
+        Args:
+            robot: the robot.
+            moving: child frame → the joint type that moves it.
+        """
+        self.context.robot, self.context.moving = robot, moving
+        self.context.assets.look_again()
+
+    def draw_frames(self) -> None:
+        """Draw after a change of frames or of the fixed frame."""
+        self._tree_drawn = self.context.tree.version
+        self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
+        self.redraw()
+        self.frames.touch()
+
+    def redraw(self) -> None:
+        """Draw all displays that are shown; what is the same is not sent again."""
+        for display in self.displays:
+            if display.shown:
+                display.draw()
+        self.statuses.touch()
+
+    def refresh(self) -> None:
+        """Draw what has changed in the files; what has not is not sent again."""
+        with self._change():
+            self.context.assets.look_again()
+            self.redraw()
+
+    def place(self, frames: Set[str]) -> None:
+        """Send the poses of frames that moved."""
+        self.context.nodes.place(self.context.tree, self.context.fixed_frame, frames)
+        for display in self.displays:
+            display.frames_moved(frames)
+
+    def publish(self) -> None:
+        """Let the displays set their own frames in a tree that was cleared."""
+        for display in robot_displays(self.displays):
+            display.publish()
+
+    def files_saved(self, files: Iterable[Path]) -> None:
+        """Read again the robots that displays have from some of these files."""
+        saved = frozenset(files)
+        with self._change(self.statuses):
+            for display in robot_displays(self.displays):
+                if not saved.isdisjoint(display.files):
+                    display.read_again()
+
+    def global_status(self) -> Status:
+        """Return RViz's Global Status, Fixed Frame."""
+        fixed = self.context.fixed_frame
+        frames = self.context.tree.frames
+        if fixed in frames:
+            return Status("Ok", "OK")
+        text = f"Frame [{fixed}] does not exist"
+        if frames:
+            return Status("Error", text)
+        return Status("Warn", f"No tf data.  Actual error: {text}")
+
+    def _apply(self, action: Callable[[], object]) -> None:
+        with self._change(self.statuses):
+            action()
+
+    def _assets_read(self) -> None:
+        """Draw mesh files and textures that have been read in the background."""
+        with self._change(self.statuses):
+            for display in robot_displays(self.displays):
+                display.assets_read()
+
+    def _finish(self) -> None:
+        """Draw what a change made outdated, before it is sent."""
+        if self.context.tree.version != self._tree_drawn:
+            # A display, or an undone edit, has set frames.
+            self.draw_frames()
+        self.progress.set(self.context.assets.progress)
+
+    def _next_key(self) -> str:
+        """Return a name that begins no other display's node names."""
+        self._keys += 1
+        return f"~{short_id(self._keys)}"
+
+
+def walk(items: Sequence[DisplayConfig]) -> Iterator[DisplayConfig]:
+    """Yield all displays of a tree, groups before their members."""
+    for item in items:
+        yield item
+        yield from walk(item.displays)
