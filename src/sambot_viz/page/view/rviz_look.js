@@ -12,207 +12,203 @@
  * server sends a toon material for what is unlit (RViz's white links without a
  * transform).
  */
-(() => {
-  "use strict";
-  if (window.sambotVizLook) return;
-  const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0, backgrounds: 0 };
-  window.sambotVizLook = look;
 
-  const ENCODE = `
+const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0, backgrounds: 0 };
+window.sambotVizLook = look;
+
+const ENCODE = `
 vec3 sambotEncode(vec3 c) {
   c = clamp(c, 0.0, 1.0);
   return mix(1.055 * pow(c, vec3(0.41666)) - 0.055, c * 12.92,
              vec3(lessThanEqual(c, vec3(0.0031308))));
 }
 `;
-  const NO_CONVERSION = ["#include <tonemapping_fragment>", "#include <colorspace_fragment>"];
+const NO_CONVERSION = ["#include <tonemapping_fragment>", "#include <colorspace_fragment>"];
 
-  /**
-   * Give a material of three.js another last step of its shader.
-   * @param {any} material
-   * @param {"lit" | "unlit"} kind
-   * @param {string} shade GLSL that sets outgoingLight
-   */
-  const rewrite = (material, kind, shade) => {
-    const anchor = "#include <opaque_fragment>";
-    material.onBeforeCompile = (/** @type {any} */ shader) => {
-      let source = shader.fragmentShader;
-      if (!source.includes(anchor) || !source.includes("void main() {")) return;
-      source = source.replace("void main() {", ENCODE + "void main() {");
-      source = source.replace(anchor, shade + "\n" + anchor);
-      for (const chunk of NO_CONVERSION) source = source.replace(chunk, "");
-      shader.fragmentShader = source;
-      look[kind] += 1;
-    };
-    material.customProgramCacheKey = () => "sambot-" + kind;
-    material.needsUpdate = true;
+/**
+ * Give a material of three.js another last step of its shader.
+ * @param {any} material
+ * @param {"lit" | "unlit"} kind
+ * @param {string} shade GLSL that sets outgoingLight
+ */
+const rewrite = (material, kind, shade) => {
+  const anchor = "#include <opaque_fragment>";
+  material.onBeforeCompile = (/** @type {any} */ shader) => {
+    let source = shader.fragmentShader;
+    if (!source.includes(anchor) || !source.includes("void main() {")) return;
+    source = source.replace("void main() {", ENCODE + "void main() {");
+    source = source.replace(anchor, shade + "\n" + anchor);
+    for (const chunk of NO_CONVERSION) source = source.replace(chunk, "");
+    shader.fragmentShader = source;
+    look[kind] += 1;
   };
+  material.customProgramCacheKey = () => "sambot-" + kind;
+  material.needsUpdate = true;
+};
 
-  const ON_SCREEN = "varying float vOnScreen;\n";
-  const boxes = new WeakSet();
-  /** Make names white and hide their boxes. What has a size on the screen instead of in
-   * the scene is no name of RViz: it keeps its box. @param {any} material */
-  const adoptLabels = (material) => {
-    const source = material.fragmentShader;
-    if (source.includes("0.85 * vAlpha")) {
-      material.fragmentShader =
-        ON_SCREEN + source.replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen");
-      boxes.add(material);
-      look.boxes += 1;
-    } else if (source.includes("gl_FragColor = vec4(0.0, 0.0, 0.0, a)")) {
-      material.fragmentShader =
-        ON_SCREEN + source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(vec3(1.0 - vOnScreen), a)");
-      look.names += 1;
-    } else return;
-    // RViz puts the baseline 0.75 em below the frame; viser's top anchor puts it
-    // 1.02 em below (measured in tests/golden).
-    const corner = "vec2 local = (aRect.xy + corner * aRect.zw) * scale;";
-    material.vertexShader =
-      ON_SCREEN +
-      material.vertexShader.replace(
-        corner,
-        corner +
-          "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;",
-      );
-    material.needsUpdate = true;
-  };
-
-  /**
-   * Let the background fill the picture whatever the camera. viser draws it on a
-   * plane 1 m in front of the camera, which a near plane beyond 1 m cuts away.
-   * @param {any} object
-   */
-  const adoptBackground = (object) => {
-    const material = object.material;
-    const anchor = "gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);";
-    if (!material.vertexShader.includes(anchor)) return;
-    material.vertexShader = material.vertexShader.replace(
-      anchor,
-      "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);",
+const ON_SCREEN = "varying float vOnScreen;\n";
+const boxes = new WeakSet();
+/** Make names white and hide their boxes. What has a size on the screen instead of in
+ * the scene is no name of RViz: it keeps its box. @param {any} material */
+const adoptLabels = (material) => {
+  const source = material.fragmentShader;
+  if (source.includes("0.85 * vAlpha")) {
+    material.fragmentShader =
+      ON_SCREEN + source.replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen");
+    boxes.add(material);
+    look.boxes += 1;
+  } else if (source.includes("gl_FragColor = vec4(0.0, 0.0, 0.0, a)")) {
+    material.fragmentShader =
+      ON_SCREEN + source.replace("vec4(0.0, 0.0, 0.0, a)", "vec4(vec3(1.0 - vOnScreen), a)");
+    look.names += 1;
+  } else return;
+  // RViz puts the baseline 0.75 em below the frame; viser's top anchor puts it
+  // 1.02 em below (measured in tests/golden).
+  const corner = "vec2 local = (aRect.xy + corner * aRect.zw) * scale;";
+  material.vertexShader =
+    ON_SCREEN +
+    material.vertexShader.replace(
+      corner,
+      corner + "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;",
     );
-    material.needsUpdate = true;
-    object.frustumCulled = false;
-    look.backgrounds += 1;
-  };
+  material.needsUpdate = true;
+};
 
-  const known = new WeakSet();
-  /** Change a material when it is seen first. @param {any} material @param {any} object */
-  const adopt = (material, object) => {
-    if (!known.has(material)) {
-      known.add(material);
-      if (material.isMeshStandardMaterial) {
-        rewrite(
-          material,
-          "lit",
-          "outgoingLight = sambotEncode(totalEmissiveRadiance)" +
-            " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);",
-        );
-      } else if (material.isMeshToonMaterial) {
-        rewrite(material, "unlit", "outgoingLight = sambotEncode(diffuseColor.rgb);");
-      } else if (material === window.__viserMutable?.backgroundMaterial) {
-        adoptBackground(object);
-      } else if (material.isShaderMaterial) {
-        adoptLabels(material);
-      }
+/**
+ * Let the background fill the picture whatever the camera. viser draws it on a
+ * plane 1 m in front of the camera, which a near plane beyond 1 m cuts away.
+ * @param {any} object
+ */
+const adoptBackground = (object) => {
+  const material = object.material;
+  const anchor = "gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);";
+  if (!material.vertexShader.includes(anchor)) return;
+  material.vertexShader = material.vertexShader.replace(
+    anchor,
+    "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);",
+  );
+  material.needsUpdate = true;
+  object.frustumCulled = false;
+  look.backgrounds += 1;
+};
+
+const known = new WeakSet();
+/** Change a material when it is seen first. @param {any} material @param {any} object */
+const adopt = (material, object) => {
+  if (!known.has(material)) {
+    known.add(material);
+    if (material.isMeshStandardMaterial) {
+      rewrite(
+        material,
+        "lit",
+        "outgoingLight = sambotEncode(totalEmissiveRadiance)" +
+          " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);",
+      );
+    } else if (material.isMeshToonMaterial) {
+      rewrite(material, "unlit", "outgoingLight = sambotEncode(diffuseColor.rgb);");
+    } else if (material === window.__viserMutable?.backgroundMaterial) {
+      adoptBackground(object);
+    } else if (material.isShaderMaterial) {
+      adoptLabels(material);
     }
-    if (material.isMeshStandardMaterial) material.depthWrite = !material.transparent;
-  };
+  }
+  if (material.isMeshStandardMaterial) material.depthWrite = !material.transparent;
+};
 
-  let labels = 0;
-  /** Look at an object and all below it. @param {any} object */
-  const visit = (object) => {
-    const material = object.material;
-    if (material !== undefined) {
-      if (Array.isArray(material)) for (const one of material) adopt(one, object);
-      else adopt(material, object);
-      if (boxes.has(material)) labels += object.geometry.instanceCount;
-    }
-    for (const child of object.children) visit(child);
-  };
+let labels = 0;
+/** Look at an object and all below it. @param {any} object */
+const visit = (object) => {
+  const material = object.material;
+  if (material !== undefined) {
+    if (Array.isArray(material)) for (const one of material) adopt(one, object);
+    else adopt(material, object);
+    if (boxes.has(material)) labels += object.geometry.instanceCount;
+  }
+  for (const child of object.children) visit(child);
+};
 
-  // RViz draws translucent things from far to near by the distance of their origins;
-  // three.js goes by their depth along the view, which is another order.
-  /** The camera's matrixWorld. @type {any} */
-  let eye = null;
-  /** The squared distance of an object from the camera. @param {any} object */
-  const distance = (object) => {
-    const m = object.matrixWorld.elements;
-    const e = eye.elements;
-    return (m[12] - e[12]) ** 2 + (m[13] - e[13]) ** 2 + (m[14] - e[14]) ** 2;
-  };
-  /** @param {any} a @param {any} b */
-  const farFirst = (a, b) =>
-    a.groupOrder - b.groupOrder ||
-    a.renderOrder - b.renderOrder ||
-    distance(b.object) - distance(a.object) ||
-    a.id - b.id;
+// RViz draws translucent things from far to near by the distance of their origins;
+// three.js goes by their depth along the view, which is another order.
+/** The camera's matrixWorld. @type {any} */
+let eye = null;
+/** The squared distance of an object from the camera. @param {any} object */
+const distance = (object) => {
+  const m = object.matrixWorld.elements;
+  const e = eye.elements;
+  return (m[12] - e[12]) ** 2 + (m[13] - e[13]) ** 2 + (m[14] - e[14]) ** 2;
+};
+/** @param {any} a @param {any} b */
+const farFirst = (a, b) =>
+  a.groupOrder - b.groupOrder ||
+  a.renderOrder - b.renderOrder ||
+  distance(b.object) - distance(a.object) ||
+  a.id - b.id;
 
-  // viser has no orthographic camera: the server sends a far one with a field of view
-  // below 1 degree, and the mouse zooms by moving it. The near plane must follow, or it
-  // cuts everything away; it cannot stay at the camera, as depth would lose all digits.
-  const HIGHEST = 500;
-  /** @param {any} camera */
-  const followZoom = (camera) => {
-    const { camera: main, cameraControl } = window.__viserMutable || {};
-    if (camera !== main || !cameraControl || !(camera.fov < 1)) return;
-    const away = cameraControl.distance;
-    const near = Math.max(0.01, away - HIGHEST);
-    const far = Math.max(100000, 2 * away);
-    if (camera.near === near && camera.far === far) return;
-    camera.near = near;
-    camera.far = far;
-    camera.updateProjectionMatrix();
-  };
+// viser has no orthographic camera: the server sends a far one with a field of view
+// below 1 degree, and the mouse zooms by moving it. The near plane must follow, or it
+// cuts everything away; it cannot stay at the camera, as depth would lose all digits.
+const HIGHEST = 500;
+/** @param {any} camera */
+const followZoom = (camera) => {
+  const { camera: main, cameraControl } = window.__viserMutable || {};
+  if (camera !== main || !cameraControl || !(camera.fov < 1)) return;
+  const away = cameraControl.distance;
+  const near = Math.max(0.01, away - HIGHEST);
+  const far = Math.max(100000, 2 * away);
+  if (camera.near === near && camera.far === far) return;
+  camera.near = near;
+  camera.far = far;
+  camera.updateProjectionMatrix();
+};
 
-  /** @type {any} */
-  let hooked = null;
-  const hook = () => {
-    const mutable = window.__viserMutable;
-    const scene = mutable && mutable.scene;
-    if (!scene || scene === hooked) return;
-    hooked = scene;
-    scene.onBeforeRender = (
-      /** @type {any} */ renderer,
-      /** @type {any} */ _,
-      /** @type {any} */ camera,
-    ) => {
-      renderer.toneMapping = 0;
-      followZoom(camera);
-      eye = camera.matrixWorld;
-      renderer.setTransparentSort(farFirst);
-      labels = 0;
-      visit(scene);
-      look.labels = labels;
-      look.frames += 1;
-    };
-    if (mutable.requestRender) mutable.requestRender();
+/** @type {any} */
+let hooked = null;
+const hook = () => {
+  const mutable = window.__viserMutable;
+  const scene = mutable && mutable.scene;
+  if (!scene || scene === hooked) return;
+  hooked = scene;
+  scene.onBeforeRender = (
+    /** @type {any} */ renderer,
+    /** @type {any} */ _,
+    /** @type {any} */ camera,
+  ) => {
+    renderer.toneMapping = 0;
+    followZoom(camera);
+    eye = camera.matrixWorld;
+    renderer.setTransparentSort(farFirst);
+    labels = 0;
+    visit(scene);
+    look.labels = labels;
+    look.frames += 1;
   };
-  // viser's notice about software rendering covers the picture, and a machine without a
-  // GPU, where this program is often used, cannot change it. What was downloaded is said
-  // by the browser and in the status bar.
-  const tidy = () => {
-    /** @type {NodeListOf<HTMLElement>} */
-    const notes = document.querySelectorAll(".mantine-Notification-root");
-    for (const note of notes) {
-      if (/^(Software WebGL|Receiv)/.test(note.textContent || "")) note.style.display = "none";
-    }
-    // Below a path of a proxy, the address of the server stands behind the page's, from
-    // address.js and from viser. It goes when viser, which unpacks itself first, has read it.
-    const query = new URLSearchParams(location.search);
-    if (!window.__viserMutable || !query.has("websocket")) return;
-    query.delete("websocket");
-    history.replaceState(null, "", query.size ? `?${query}` : location.pathname);
-  };
+  if (mutable.requestRender) mutable.requestRender();
+};
+// viser's notice about software rendering covers the picture, and a machine without a
+// GPU, where this program is often used, cannot change it. What was downloaded is said
+// by the browser and in the status bar.
+const tidy = () => {
+  /** @type {NodeListOf<HTMLElement>} */
+  const notes = document.querySelectorAll(".mantine-Notification-root");
+  for (const note of notes) {
+    if (/^(Software WebGL|Receiv)/.test(note.textContent || "")) note.style.display = "none";
+  }
+  // Below a path of a proxy, the address of the server stands behind the page's, from
+  // address.js and from viser. It goes when viser, which unpacks itself first, has read it.
+  const query = new URLSearchParams(location.search);
+  if (!window.__viserMutable || !query.has("websocket")) return;
+  query.delete("websocket");
+  history.replaceState(null, "", query.size ? `?${query}` : location.pathname);
+};
 
-  // The page keeps its scene for its whole life, but it is made some frames after
-  // this script may run, and again after a lost WebGL context.
+// The page keeps its scene for its whole life, but it is made some frames after
+// this script may run, and again after a lost WebGL context.
+hook();
+setInterval(() => {
   hook();
-  setInterval(() => {
-    hook();
-    tidy();
-  }, 100);
+  tidy();
+}, 100);
 
-  // viser only reconnects a page that has the focus: a wall display never would.
-  document.hasFocus = () => true;
-  document.title = "sambot-viz";
-})();
+// viser only reconnects a page that has the focus: a wall display never would.
+document.hasFocus = () => true;
+document.title = "sambot-viz";

@@ -30,6 +30,25 @@ export function menuKey(event, entries) {
 }
 
 /**
+ * Close what is open at a press outside of it.
+ * @param {{current: HTMLElement | null}[]} elements
+ * @param {() => void} close
+ * @param {boolean} [open]
+ */
+export function usePressOutside(elements, close, open = true) {
+  useEffect(() => {
+    if (!open) return undefined;
+    /** @param {Event} event */
+    const press = (event) => {
+      const at = /** @type {Node} */ (event.target);
+      if (!elements.some(({ current }) => current?.contains(at))) close();
+    };
+    addEventListener("pointerdown", press, true);
+    return () => removeEventListener("pointerdown", press, true);
+  }, [open]);
+}
+
+/**
  * The menu; it closes itself. The focus then goes back to where it was.
  * @param {{items: Item[], at: Place, label: string, close: () => void}} props
  */
@@ -47,17 +66,10 @@ export function Menu({ items, at, label, close }) {
     element.current.style.top = `${Math.max(0, at.y + height > innerHeight ? at.y - height : at.y)}px`;
     entries()[0]?.focus();
   }, []);
+  usePressOutside([element], close);
   useEffect(() => {
-    /** @param {Event} event */
-    const outside = (event) => {
-      if (!element.current?.contains(/** @type {Node} */ (event.target))) close();
-    };
-    addEventListener("pointerdown", outside, true);
     addEventListener("resize", close);
-    return () => {
-      removeEventListener("pointerdown", outside, true);
-      removeEventListener("resize", close);
-    };
+    return () => removeEventListener("resize", close);
   }, []);
   const end = () => {
     close();

@@ -8,7 +8,7 @@ import { About, Keys } from "../dialogs/help.js";
 import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./files.js";
 import { Icon } from "./icons.js";
 import { copyPermalink } from "../wire/permalink.js";
-import { menuKey } from "./menu.js";
+import { menuKey, usePressOutside } from "./menu.js";
 import { EDITS } from "./toolbar.js";
 import { useCommand, useData } from "../state.js";
 
@@ -86,15 +86,10 @@ const menus = (panels, hideAll) => [
  */
 export function MenuBar({ panels, hideAll, small }) {
   const all = menus(panels, hideAll);
+  /** @returns {Entry[]} */
+  const joined = () => all.flatMap((menu, i) => [...(i ? [null] : []), ...menu.entries()]);
   /** @type {MenuOf[]} */
-  const bar = small
-    ? [
-        {
-          name: "Menu",
-          entries: () => all.flatMap((menu, i) => [...(i ? [null] : []), ...menu.entries()]),
-        },
-      ]
-    : all;
+  const bar = small ? [{ name: "Menu", entries: joined }] : all;
   const [opened, setOpened] = useState(-1);
   const [stop, setStop] = useState(0);
   /** @type {Ref} */
@@ -106,14 +101,17 @@ export function MenuBar({ panels, hideAll, small }) {
     setStop(i);
     headOf(i)?.focus();
   };
+  /** @param {number} i */
+  const openMenu = (i) => {
+    setStop(i);
+    setOpened(i);
+  };
   /** @param {number} by */
   const next = (by) => {
-    const from = opened >= 0 ? opened : stop,
-      to = (from + by + bar.length) % bar.length;
-    if (opened >= 0) {
-      setStop(to);
-      setOpened(to);
-    } else focusHead(to);
+    const from = opened >= 0 ? opened : stop;
+    const to = (from + by + bar.length) % bar.length;
+    if (opened >= 0) openMenu(to);
+    else focusHead(to);
   };
   /** @param {Key} event */
   const key = (event) => {
@@ -127,19 +125,12 @@ export function MenuBar({ panels, hideAll, small }) {
     event.preventDefault();
     event.stopPropagation();
   };
+  usePressOutside([element], () => setOpened(-1), opened >= 0);
   useEffect(() => {
-    if (opened < 0) return undefined;
-    /** @param {Event} event */
-    const outside = (event) => {
-      if (!element.current?.contains(/** @type {Node} */ (event.target))) setOpened(-1);
-    };
-    addEventListener("pointerdown", outside, true);
-    addEventListener("blur", outside);
-    return () => {
-      removeEventListener("pointerdown", outside, true);
-      removeEventListener("blur", outside);
-    };
-  }, [opened < 0]);
+    const close = () => setOpened(-1);
+    addEventListener("blur", close);
+    return () => removeEventListener("blur", close);
+  }, []);
   /** @param {Entry} entry */
   const choose = (entry) => {
     focusHead(Math.max(0, opened));
@@ -151,23 +142,13 @@ export function MenuBar({ panels, hideAll, small }) {
     ${bar.map(
       (menu, i) => html`<div class="menu-place" key=${menu.name}>
       <button class="tool menu-head" role="menuitem" aria-haspopup="menu"
-        aria-expanded=${String(opened === i)}
-        aria-label=${menu.name} tabindex=${i === stop ? 0 : -1}
-        onClick=${() => {
-          setStop(i);
-          setOpened(opened === i ? -1 : i);
-        }}
+        aria-expanded=${String(opened === i)} aria-label=${menu.name}
+        tabindex=${i === stop ? 0 : -1} onClick=${() => (opened === i ? setOpened(-1) : openMenu(i))}
         onPointerEnter=${(/** @type {Press} */ e) => {
-          if (opened >= 0 && e.pointerType === "mouse") {
-            setStop(i);
-            setOpened(i);
-          }
-        }}
-        >${small ? html`<${Icon} name="menu" />` : menu.name}</button>
+          if (opened >= 0 && e.pointerType === "mouse") openMenu(i);
+        }}>${small ? html`<${Icon} name="menu" />` : menu.name}</button>
       ${
-        opened === i &&
-        html`<${Menu} menu=${menu} choose=${choose} leave=${() => setOpened(-1)}
-        />`
+        opened === i && html`<${Menu} menu=${menu} choose=${choose} leave=${() => setOpened(-1)} />`
       }
     </div>`,
     )}

@@ -4,6 +4,7 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { isTyping, meaning } from "./keys.js";
+import { usePressOutside } from "./menu.js";
 
 const EDGE = 4;
 
@@ -25,22 +26,16 @@ export function Popup({ label, name, role, title, children }) {
   useLayoutEffect(() => {
     if (open) place(button.current, panel.current);
   });
+  usePressOutside([panel, button], () => setOpen(false), open);
   useLayoutEffect(() => {
     if (!open) return undefined;
     (panel.current.querySelector("button, input") || panel.current).focus();
-    /** @param {Event} event */
-    const elsewhere = (event) => {
-      const at = /** @type {Node} */ (event.target);
-      if (!panel.current?.contains(at) && !button.current.contains(at)) setOpen(false);
-    };
     /** What had the focus may be gone. @param {KeyboardEvent} event */
     const lost = (event) => {
       if (event.key === "Escape" && document.activeElement === document.body) close();
     };
-    addEventListener("pointerdown", elsewhere, true);
     addEventListener("keydown", lost);
     return () => {
-      removeEventListener("pointerdown", elsewhere, true);
       removeEventListener("keydown", lost);
     };
   }, [open]);
