@@ -9,10 +9,14 @@ import json
 import re
 from collections.abc import Iterator
 from contextlib import closing
+from pathlib import Path
 
 import pytest
 
+import sambot_viz.page
 from sambot_viz import Visualizer
+
+PAGE = Path(sambot_viz.page.__file__).parent
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +53,10 @@ def test_the_page_has_our_scripts_and_our_style_sheet(port: int) -> None:
         assert response.headers["Content-Type"] == "text/html; charset=utf-8"
         html = content.decode()
         assert 'import "sambot/main.js"' in html
-        assert "#sambot .row" in html
+        sheets = [p for p in PAGE.rglob("*.css") if p.name != "player.css"]
+    assert len(sheets) > 3
+    for sheet in sheets:
+        assert sheet.read_text("utf-8") in html, sheet
         assert 'id="root"' in html
 
 

@@ -22,8 +22,14 @@ _PREFIX = "sambot/"
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before viser's own script."""
-_STYLES = ("window/window.css", "tree/tree.css", "dialogs/dialogs.css")
-_PLAYER_STYLES = ("window/window.css", "player/player.css")
+_WINDOW_STYLES = (
+    "window/window.css",
+    "cells/cells.css",
+    "panels/panels.css",
+    "window/shapes.css",
+)
+_STYLES = (*_WINDOW_STYLES, "tree/tree.css", "dialogs/dialogs.css")
+_PLAYER_STYLES = (*_WINDOW_STYLES, "player/player.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _ONLY_ITSELF = (
     "default-src 'none'; base-uri 'none'; form-action 'none'; "
