@@ -384,3 +384,46 @@ def test_rows_nested_under_links_are_read_in_the_style_of_a_tree(show: Show) -> 
     links, joints = model_of(session).entries()
     assert joints.item("shoulder").get("Show Axes") is True
     assert links.item("upper").get("Alpha") == 0.25
+
+
+def test_an_edit_draws_its_display_only_and_sends_what_it_changes(
+    show: Show, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = show(config=TWO_DISPLAYS)
+    model, grid = session.displays
+    drawn: list[str] = []
+    sent: list[str] = []
+    for display in (model, grid):
+        draw = display.draw
+        monkeypatch.setattr(
+            display, "draw", lambda d=display, draw=draw: (drawn.append(d.key), draw())
+        )
+    buffer = session.audience.scene._websock_interface
+    queue = buffer.queue_message
+    monkeypatch.setattr(
+        buffer,
+        "queue_message",
+        lambda message: (sent.append(type(message).__name__), queue(message)),
+    )
+    session.set_property(model, "Alpha", 0.25)
+    assert (drawn, sent) == ([model.key], 2 * ["SceneNodeUpdateMessage"])
+    session.set_property(model, "Alpha", 0.25)
+    assert len(sent) == 2
+    session.set_property(grid, "Cell Size", 0.5)
+    assert drawn == [model.key, model.key, grid.key]
+    assert sent.count("GlbMessage") == sent.count("RemoveSceneNodeMessage") == 1
+    assert sent.count("SceneNodeUpdateMessage") == 2
+
+
+TWO_DISPLAYS = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Enabled: true
+      Name: Robot
+    - Class: rviz_default_plugins/Grid
+      Enabled: true
+      Name: Grid
+  Global Options:
+    Fixed Frame: base
+"""

@@ -102,7 +102,7 @@ class ShapeNode:
                 return
             self._create(look)
         for piece in self._pieces:
-            piece.paint(look)
+            piece.paint(look, self._look)
         self._look = look
 
     def draw_again(self) -> None:

@@ -72,14 +72,22 @@ class ShapePiece:
     alpha: float
     textured: bool = False
 
-    def paint(self, look: ShapeLook) -> None:
-        """Give the node the colour and opacity of a look."""
+    def paint(self, look: ShapeLook, before: ShapeLook | None) -> None:
+        """Give the node the colour and opacity of a look.
+
+        Args:
+            look: how it is to be drawn.
+            before: how it is drawn now; None when it was just made.
+        """
         self.handle.visible = look.visible
-        if isinstance(self.handle, Painted):
-            alpha = opacity_of(look.alpha * self.alpha)
+        if not isinstance(self.handle, Painted):
+            return
+        # viser sends no value twice, but takes longer to find that out than to send it.
+        if before is None or look.error != before.error:
             self.handle.color = ERROR_WHITE if look.error else self.color
-            self.handle.opacity = None if look.error else alpha
             self.handle.material = UNLIT if look.error else "standard"
+        opacity = None if look.error else opacity_of(look.alpha * self.alpha)
+        self.handle.opacity = opacity
 
 
 def rgb255(rgba: Rgba) -> Rgb:
