@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, Problem, RobotError, UsageError
 from sambot_viz.options import Options, PathLike
-from sambot_viz.robot.opened_model import OpenedModel, open_model
+from sambot_viz.robot.model_source import OpenedModel, open_model
 
 # The page is there before what is only needed to draw in it has been imported.
 if TYPE_CHECKING:

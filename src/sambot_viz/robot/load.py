@@ -9,8 +9,14 @@ from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.model_source import ModelSource, first_xacro, only_names_files
-from sambot_viz.robot.opened_model import OpenedModel, PathLike, open_model
+from sambot_viz.robot.model_source import (
+    ModelSource,
+    OpenedModel,
+    PathLike,
+    first_xacro,
+    only_names_files,
+    open_model,
+)
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.read_urdf import read_urdf

@@ -1,4 +1,4 @@
-"""The text of a model, and whether xacro has to expand it."""
+"""The text of a model as XML, and whether xacro has to expand it."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError, did_you_mean
-from sambot_viz.robot.xml.decode import decode, repaired_prolog
+from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.element import Element
+from sambot_viz.robot.xml.parse import parse_xml
+
+PathLike = str | os.PathLike[str]
 
 TEXT_LABEL = "<text>"
 """The file name in problems of a model that was given as text."""
@@ -41,7 +44,41 @@ class ModelSource:
         return None if self.path is None else self.path.absolute().parent
 
 
-def read_source(model: str | os.PathLike[str]) -> ModelSource:
+@dataclass(frozen=True, slots=True)
+class OpenedModel:
+    """A model that is well-formed XML; xacro and URDF's rules come later.
+
+    Attributes:
+        source: the text and the file it is from.
+        document: its root element.
+    """
+
+    source: ModelSource
+    document: Element
+
+
+def open_model(model: PathLike) -> OpenedModel:
+    """Read the text of a model as XML, for `load_robot`.
+
+    Args:
+        model: the file, or the XML text itself.
+
+    Raises:
+        RobotError: it cannot be read, or it is not well-formed.
+    """
+    label = os.fspath(model)
+    try:
+        source = read_source(model)
+        label = source.label
+        return OpenedModel(source, parse_xml(source.text, label))
+    except XmlFault as fault:
+        # Only a model that is not XML needs the rules that explain why.
+        from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+
+        raise RobotError(explain_xml(fault.text, label, fault)) from None
+
+
+def read_source(model: PathLike) -> ModelSource:
     """Read a model from a path, or take it as text when it looks like XML.
 
     Raises:
