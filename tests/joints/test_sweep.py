@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 
 from sambot_viz.joints import JointState
-from sambot_viz.joints.sweep import LONGEST, sweep
+from sambot_viz.joints.animation import LONGEST, sweep
 from sambot_viz.robot.joint import Joint, Limit
 from sambot_viz.robot.model import Robot
 

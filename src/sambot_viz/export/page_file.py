@@ -16,7 +16,7 @@ from sambot_viz import page
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.export.recorded_scene import recorded
 from sambot_viz.joints import JointState
-from sambot_viz.joints.sweep import sweep
+from sambot_viz.joints.animation import sweep
 from sambot_viz.server.page_files import page_of_viser
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client

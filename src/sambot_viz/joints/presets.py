@@ -10,8 +10,9 @@ from typing import cast
 import yaml
 
 from sambot_viz.errors import JointError, did_you_mean
-from sambot_viz.files import read_limited, write_atomically
+from sambot_viz.files import write_atomically
 from sambot_viz.geometry import finite
+from sambot_viz.joints.values import first_document
 
 LARGEST = 1_000_000
 """A larger file of poses is not read [bytes]."""
@@ -87,13 +88,7 @@ class Presets:
 
 
 def _load(path: Path) -> dict[str, Pose]:
-    try:
-        document: object = yaml.safe_load(read_limited(path, LARGEST).decode())
-    except (OSError, UnicodeDecodeError) as error:
-        raise JointError(f"cannot read the poses in {path}: {error}") from error
-    except yaml.YAMLError as error:
-        reason = " ".join(str(error).split())
-        raise JointError(f"{path} is not yaml: {reason}") from error
+    document = first_document(path, "the poses in ", LARGEST)
     if document is None:
         return {}
     if not isinstance(document, dict):

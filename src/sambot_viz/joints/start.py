@@ -11,7 +11,7 @@ from sambot_viz.robot.model import Robot
 
 @dataclass(frozen=True, slots=True)
 class StartPose:
-    """Return what ``--zeros``, ``--joint-state`` and ``--joint`` say, in this order.
+    """The pose that ``--zeros``, ``--joint-state`` and ``--joint`` give, in this order.
 
     Attributes:
         zeros: joint → start value [rad or m], which Center goes back to.
@@ -28,7 +28,7 @@ class StartPose:
     positions: Mapping[str, float] = field(default_factory=dict[str, float])
 
     def state(self, robot: Robot) -> JointState:
-        """A joint state of a robot in this pose.
+        """Make the joint state of a robot in this pose.
 
         Raises:
             JointError: `zeros` or `positions` name a joint that is not there or
@@ -43,6 +43,6 @@ class StartPose:
         return state
 
     def passed_over(self, state: JointState) -> tuple[str, ...]:
-        """The names of the recorded message that the robot does not know at all."""
+        """Return the names of the recorded message that the robot does not know."""
         known = {*state.joints, *state.skipped}
         return tuple(name for name in self.recorded if name not in known)

@@ -65,14 +65,8 @@ def load_joint_state(path: Path) -> dict[str, float]:
     Raises:
         JointError: the file cannot be read or is neither of the two.
     """
-    try:
-        text = read_limited(path, LARGEST, pipe=True).decode()
-        # ros2 topic echo ends each message with a document mark.
-        document: object = next(iter(yaml.safe_load_all(text)), None)
-    except (OSError, UnicodeDecodeError) as error:
-        raise JointError(f"cannot read {path}: {_reason(error)}") from error
-    except yaml.YAMLError as error:
-        raise JointError(f"{path} is not yaml: {_one_line(error)}") from error
+    # ros2 topic echo ends each message with a document mark.
+    document = first_document(path, "", LARGEST, pipe=True)
     if not isinstance(document, dict):
         raise JointError(
             f"{path} is not a joint state: expected the lists 'name' and 'position', "
@@ -82,6 +76,33 @@ def load_joint_state(path: Path) -> dict[str, float]:
     if isinstance(mapping.get("name"), list):
         mapping = _paired(mapping, path)
     return {str(name): _value(name, v, path) for name, v in mapping.items()}
+
+
+def first_document(
+    path: Path, what: str, largest: int, *, pipe: bool = False
+) -> object:
+    """Read the first document of a yaml file.
+
+    Args:
+        path: the file.
+        what: what it holds, for a message: "the poses in ".
+        largest: a larger file is not read [bytes].
+        pipe: a pipe is read too.
+
+    Raises:
+        JointError: the file cannot be read, or is not yaml.
+    """
+    try:
+        text = read_limited(path, largest, pipe=pipe).decode()
+        return next(iter(yaml.safe_load_all(text)), None)
+    except (OSError, UnicodeDecodeError) as error:
+        reason = "it is not UTF-8 text"
+        if isinstance(error, OSError):
+            reason = (error.strerror or str(error)).lower()
+        raise JointError(f"cannot read {what}{path}: {reason}") from error
+    except yaml.YAMLError as error:
+        reason = " ".join(str(error).split())
+        raise JointError(f"{path} is not yaml: {reason}") from error
 
 
 def _paired(message: dict[object, object], path: Path) -> dict[object, object]:
@@ -159,13 +180,3 @@ def _exact(value: float) -> str:
     text = repr(float(value) + 0.0)
     mantissa, e, exponent = text.partition("e")
     return f"{mantissa}.0e{exponent}" if e and "." not in mantissa else text
-
-
-def _reason(error: OSError | UnicodeDecodeError) -> str:
-    if isinstance(error, OSError):
-        return (error.strerror or str(error)).lower()
-    return "it is not UTF-8 text"
-
-
-def _one_line(error: yaml.YAMLError) -> str:
-    return " ".join(str(error).split())
