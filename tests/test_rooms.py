@@ -367,6 +367,72 @@ def test_no_two_rooms_import_each_other(repository: Path) -> None:
             assert names in RINGS, f"these import each other: {sorted(names)}"
 
 
+HOLDERS = {
+    # Those that build a session, or find the one of a client.
+    "export/recorded_scene.py",
+    "panels/browser.py",
+    "panels/window.py",
+    "server/reload.py",
+    "server/server.py",
+    "server/sessions.py",
+    "session/__init__.py",
+    "visualizer.py",
+    # To be given parts.
+    "commands/snapshot.py",
+    "export/page_file.py",
+    "panels/displays/display_commands.py",
+    "panels/displays/displays.py",
+    "panels/drive.py",
+    "panels/files.py",
+    "panels/frames/frames.py",
+    "panels/joints/joints.py",
+    "panels/people.py",
+    "panels/permalink/permalink.py",
+    "panels/selection.py",
+    "panels/session_info.py",
+    "panels/status_rows.py",
+    "panels/tools.py",
+    "panels/undo.py",
+    "panels/views.py",
+    "server/config_store.py",
+}
+"""Modules that may name `Session`: all others get the parts that they use."""
+
+
+def test_only_few_modules_take_a_whole_session(repository: Path) -> None:
+    """Also for type checkers only; a module that no longer does leaves the list."""
+    root = source(repository)
+    found = {
+        path.relative_to(root).as_posix()
+        for path in root.rglob("*.py")
+        for each in imports(path)
+        if each.name in ("sambot_viz.session.Session", f"{_SESSION}.session.Session")
+    }
+    assert found == HOLDERS
+
+
+def test_no_two_modules_of_a_session_import_each_other(repository: Path) -> None:
+    """Also in a ring of several, and for type checkers only: parts have one way."""
+    root = source(repository)
+    paths = {
+        ".".join(path.relative_to(root.parent).with_suffix("").parts): path
+        for path in (root / "session").rglob("*.py")
+    }
+    graph = {
+        name: {
+            module
+            for each in imports(path)
+            for module in (each.name, each.name.rpartition(".")[0])
+            if module in paths and module != name
+        }
+        for name, path in paths.items()
+    }
+    assert list(rings(graph)) == []
+
+
+_SESSION = "sambot_viz.session"
+
+
 def neighbours(folder: Path, above: str) -> dict[str, set[str]]:
     """Module or folder in a folder → those beside it that it imports."""
     known: dict[str, set[str]] = {}
