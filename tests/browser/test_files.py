@@ -119,55 +119,6 @@ def test_keys_of_the_window_do_nothing_while_a_dialog_is_open(desk: Desk) -> Non
     user.row("Displays", "Grid")
 
 
-def test_a_name_and_enter_save_the_config_and_say_where(
-    user: User, folder: Path
-) -> None:
-    user.keys("Control+Shift+s")
-    dialog = user.find("dialog", "Save Config As")
-    assert str(folder) in dialog.text
-    user.type("hinmsc")
-    user.keys("Enter")
-    user.gone("dialog")
-    user.reads(f"Saved hinmsc.rviz in {folder}")
-    assert load_config(folder / "hinmsc.rviz").displays
-    assert user.find("button", "Interact").state("pressed")
-    user.until(lambda: title(user).startswith("hinmsc.rviz"))
-
-
-def test_a_file_is_replaced_after_a_question_and_a_bad_name_is_kept(
-    user: User, folder: Path
-) -> None:
-    change_the_frame_rate(user, 12)
-    user.keys("Control+Shift+s")
-    user.find("dialog", "Save Config As")
-    user.type("a/b")
-    user.keys("Enter")
-    user.reads("Give a name without folders")
-    assert user.find("textbox", "Name").value == "a/b"
-    user.keys("Control+a")
-    user.type("other")
-    user.keys("Enter")
-    user.reads("other.rviz already exists. Replace it?")
-    assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 30
-    assert user.find("button", "Cancel", ("dialog", "Save Config As")).state("focused")
-    user.click("button", "Replace")
-    user.gone("dialog")
-    assert load_config(folder / "other.rviz").global_options.get("Frame Rate") == 12
-
-
-def test_ctrl_s_takes_what_is_typed_and_the_mark_goes_away(
-    user: User, folder: Path
-) -> None:
-    change_the_frame_rate(user, 12)
-    field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
-    user.click_on(field)
-    user.keys("Control+a")
-    user.type("17")
-    user.keys("Control+s")
-    user.until(lambda: title(user).startswith("mine.rviz "))
-    assert load_config(folder / "mine.rviz").global_options.get("Frame Rate") == 17
-
-
 def test_opening_asks_about_changes_and_shows_what_was_saved(
     user: User, viz: Visualizer, folder: Path
 ) -> None:

@@ -58,11 +58,15 @@ def test_task_32_save_the_config_under_a_new_name(desk: Desk) -> None:
     file = desk.folder / "my look.rviz"
     file.unlink(missing_ok=True)
     cell_size(desk, "0.5")
-    desk.user.menu("File", re.compile("^Save Config As"))
+    desk.user.keys("Control+Shift+s")
     assert str(desk.folder) in desk.user.find(*DIALOG).text
-    desk.user.enter(desk.user.find("textbox", "Name", DIALOG), "my look")
+    desk.user.type("my look")
+    desk.user.keys("Enter")
     desk.user.gone(*DIALOG)
+    desk.user.reads(f"Saved my look.rviz in {desk.folder}")
     assert size_in(file) == 0.5
+    # No letter of the name was the key of a tool.
+    assert desk.user.find("button", "Interact", ("toolbar", "Tools")).is_on
     desk.user.until(lambda: desk.user.see().name.startswith("my look.rviz -"))
     other = desk.folder / "of another.rviz"
     other.write_text(file.read_text("utf-8"), "utf-8")
@@ -70,12 +74,13 @@ def test_task_32_save_the_config_under_a_new_name(desk: Desk) -> None:
     save_as(desk, "of another")
     desk.user.reads("already exists. Replace it?")
     assert size_in(other) == 0.5
+    assert desk.user.find("button", "Cancel", DIALOG).state("focused")
     desk.user.click("button", "Replace", DIALOG)
     desk.user.gone(*DIALOG)
     assert size_in(other) == 0.75
     save_as(desk, "in/another/folder")
-    refused = desk.user.until(lambda: desk.user.find(*DIALOG).all("alert"))
-    assert refused[0].text
+    desk.user.until(lambda: desk.user.find(*DIALOG).all("alert"))
+    desk.user.reads("Give a name without folders")
     assert desk.user.find("textbox", "Name", DIALOG).value == "in/another/folder"
     desk.user.keys("Escape")
     desk.user.gone(*DIALOG)
@@ -120,8 +125,12 @@ def test_task_35_save_with_ctrl_s(desk: Desk) -> None:
     save_as(desk, "by key")
     desk.user.gone(*DIALOG)
     cell_size(desk, "0.6")
+    # What is typed and not entered yet is saved too.
+    desk.user.click_into(desk.user.row("Displays", "Cell Size").one("textbox"))
+    desk.user.keys("Control+a")
+    desk.user.type("0.7")
     desk.user.keys("Control+s")
-    desk.user.until(lambda: size_in(desk.folder / "by key.rviz") == pytest.approx(0.6))
+    desk.user.until(lambda: size_in(desk.folder / "by key.rviz") == pytest.approx(0.7))
     desk.user.until(lambda: "*" not in name_of_config(desk))
 
 
