@@ -8,10 +8,11 @@ robot written in two files is equal.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.geometry import Matrix, Rgba, Vector3
@@ -164,7 +165,7 @@ class Robot:
     def forward_kinematics(
         self, positions: Mapping[str, float] | None = None
     ) -> dict[str, Matrix]:
-        """Poses of all links in the root link.
+        """Return the poses of all links in the root link.
 
         Args:
             positions: joint name → position [rad or m]. A joint that is not given
@@ -182,19 +183,22 @@ class Robot:
         return Kinematics(self).forward(positions or {})
 
     def to_yourdfpy(self) -> yourdfpy.URDF:
-        """The same robot as a `yourdfpy.URDF`, meshes not loaded."""
-        from sambot_viz.robot.yourdfpy_bridge import to_yourdfpy
+        """Return the same robot as a `yourdfpy.URDF`, meshes not loaded."""
+        import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
-        return to_yourdfpy(self.urdf)
+        # This text is validated: yourdfpy silently repairs broken ones.
+        return yourdfpy.URDF.load(  # pyright: ignore[reportUnknownMemberType]
+            io.BytesIO(self.urdf.encode()), build_scene_graph=True, load_meshes=False
+        )
 
     @classmethod
     def from_yourdfpy(cls, urdf: yourdfpy.URDF) -> Robot:
-        """The robot of a `yourdfpy.URDF`, with the mesh files that yourdfpy finds.
+        """Read the robot of a `yourdfpy.URDF`, with the mesh files that it finds.
 
         Raises:
             RobotError: ROS would refuse the model.
         """
         from sambot_viz.robot import load_robot
-        from sambot_viz.robot.yourdfpy_bridge import text_of
 
-        return load_robot(text_of(urdf))
+        untyped: Any = urdf
+        return load_robot(untyped.write_xml_string().decode())
