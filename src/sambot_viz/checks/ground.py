@@ -17,7 +17,7 @@ _SHARE_OF_RADIUS = 0.1
 
 
 def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
-    """Wheels above or below height 0 of base_footprint, in one finding.
+    """Report wheels above or below height 0 of base_footprint, in one finding.
 
     Navigation puts base_footprint on the floor, so a wheel above it floats. Gaps up to
     10 mm or a tenth of the wheel's radius are tolerated: tyres are often modelled so.

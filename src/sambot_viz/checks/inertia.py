@@ -28,7 +28,7 @@ def inertia_on_root(subject: Subject) -> Iterator[Problem]:
 
 
 def missing_inertia(subject: Subject) -> Iterator[Problem]:
-    """A simulator drops links that have a collision shape and no mass."""
+    """Report links with a collision shape and no mass, which a simulator drops."""
     links = subject.robot.links
     if not any(link.inertial for link in links.values()):
         # No sign that this model is meant for a simulator.
@@ -53,7 +53,7 @@ def missing_inertia(subject: Subject) -> Iterator[Problem]:
 
 
 def impossible_inertia(subject: Subject) -> Iterator[Problem]:
-    """A mass or inertia that no real body has."""
+    """Report a mass or inertia that no real body has."""
     for link in subject.robot.links.values():
         if link.inertial is None:
             continue
@@ -94,7 +94,7 @@ def _why_impossible(inertial: Inertial) -> str:
 
 
 def zero_mass(subject: Subject) -> Iterator[Problem]:
-    """A simulator leaves out or refuses a link without mass."""
+    """Report links without mass, which a simulator leaves out or refuses."""
     zero = {
         link.name: link.inertial.place or link.place
         for link in subject.robot.links.values()

@@ -102,19 +102,19 @@ def _python(path: Path) -> ast.Module | None:
 
 
 def launch_files(folder: Path) -> list[Path]:
-    """The Python launch files of a package, at most fifty."""
+    """Find the Python launch files of a package, at most fifty."""
     return sorted(folder.glob("launch/**/*launch.py"))[:50]
 
 
 def calls_in(path: Path) -> tuple[ast.Module | None, list[ast.Call]]:
-    """A Python file and the calls in it, from top to bottom."""
+    """Read a Python file and the calls in it, from top to bottom."""
     tree = _python(path)
     found = [n for n in ast.walk(tree) if isinstance(n, ast.Call)] if tree else []
     return tree, sorted(found, key=lambda call: (call.lineno, call.col_offset))
 
 
 def call_name(function: ast.expr) -> str:
-    """The name of what is called: "Node" in ``actions.Node(…)``."""
+    """Return the name of what is called: "Node" in ``actions.Node(…)``."""
     if isinstance(function, ast.Attribute):
         return function.attr
     return function.id if isinstance(function, ast.Name) else ""

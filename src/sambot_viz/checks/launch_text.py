@@ -28,7 +28,7 @@ _SHORTEST_WORDS = 4
 
 
 def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
-    """The first text that YAML cannot read, when a launch file makes YAML of it."""
+    """Find the first text that YAML cannot read where a launch file makes it YAML."""
     if not subject.files:
         return
     model = Path(subject.files[0])

@@ -33,7 +33,7 @@ class PlanarPose:
         )
 
     def inverse(self) -> PlanarPose:
-        """The pose of the parent in the child."""
+        """Return the pose of the parent in the child."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         return PlanarPose(
             -(c * self.x + s * self.y), s * self.x - c * self.y, -self.yaw
@@ -41,7 +41,7 @@ class PlanarPose:
 
 
 def arc(way: float, turned: float) -> PlanarPose:
-    """The exact motion along an arc, in the directions at its beginning.
+    """Compute the exact motion along an arc, in the directions at its beginning.
 
     Args:
         way: the length of the arc [m], forwards positive.

@@ -48,7 +48,7 @@ def find_wheel_pair(
     radius: float | None = None,
     separation: float | None = None,
 ) -> WheelPair:
-    """The two continuous joints that turn about one level axis, and their measures.
+    """Find the two continuous joints about one level axis, and their measures.
 
     What is given counts; the rest is taken from the model, with all joints at their
     start values. Among several pairs the one with the largest wheels is taken.

@@ -91,7 +91,7 @@ class Transform:
     def from_xyz_rpy(
         cls, xyz: Sequence[float] = (0, 0, 0), rpy: Sequence[float] = (0, 0, 0)
     ) -> Transform:
-        """From a translation [m] and fixed-axis roll, pitch, yaw [rad].
+        """Make one from a translation [m] and fixed-axis roll, pitch, yaw [rad].
 
         Args:
             xyz: where the child's origin is in the parent.
@@ -109,7 +109,7 @@ class Transform:
     def from_xyz_xyzw(
         cls, xyz: Sequence[float], xyzw: Sequence[float] = (0, 0, 0, 1)
     ) -> Transform:
-        """From a translation [m] and a quaternion (x, y, z, w).
+        """Make one from a translation [m] and a quaternion (x, y, z, w).
 
         Raises:
             TransformRefused: a number that is not finite (TF_NAN_INPUT), or a squared

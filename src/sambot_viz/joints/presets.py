@@ -37,7 +37,7 @@ class Presets:
             self._poses = _load(path)
 
     def in_memory(self) -> Presets:
-        """A copy that writes no file: for a visitor, who may not change it."""
+        """Make a copy that writes no file, for clients who may not change it."""
         copy = Presets()
         copy._poses = dict(self._poses)
         return copy
@@ -48,7 +48,7 @@ class Presets:
         return tuple(self._poses)
 
     def get(self, name: str) -> Pose:
-        """A copy of one pose.
+        """Return a copy of one pose.
 
         Raises:
             JointError: an unknown pose.

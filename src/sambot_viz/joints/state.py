@@ -137,7 +137,7 @@ class JointState:
         return self._moved(changed)
 
     def checked(self, name: str, value: float) -> float:
-        """The value as a number, if it is finite and the joint can be set.
+        """Return a value as a number, if it is finite and the joint can be set.
 
         Raises:
             JointError: an unknown joint, one that cannot be set, no finite number.
@@ -146,7 +146,7 @@ class JointState:
         return _number(name, value)
 
     def start(self, name: str) -> float:
-        """The start value [rad or m]: `zeros`, else 0, else the middle of the range.
+        """Return the start value [rad or m]: `zeros`, else 0, else mid-range.
 
         Raises:
             JointError: an unknown joint.
@@ -197,7 +197,7 @@ class JointState:
         self._problems = (*self._problems, *found)
 
     def over_limit(self) -> tuple[str, ...]:
-        """The joints whose position is outside their range, followers included.
+        """Return the joints whose position is outside their range, with followers.
 
         A continuous joint has no limit (its range is the slider's), and neither has a
         mimic joint whose file gives none.

@@ -131,17 +131,17 @@ def _value(name: object, value: object, path: Path) -> float:
 
 
 def as_yaml(positions: Mapping[str, float]) -> str:
-    """Positions as the yaml of a sensor_msgs/JointState, exact; ends with a newline."""
+    """Write positions as the yaml of a sensor_msgs/JointState, exact."""
     lines = ["name:", *(f"- {_word(name)}" for name in positions)]
     lines += ["position:", *(f"- {_exact(value)}" for value in positions.values())]
     return "\n".join(lines) + "\n" if positions else "name: []\nposition: []\n"
 
 
 def as_topic_pub(positions: Mapping[str, float], topic: str = "/joint_states") -> str:
-    """The shell command that publishes the positions once, with the time of then.
+    """Write the shell command that publishes positions once, with the time of then.
 
-    robot_state_publisher drops messages with the stamp 0 , so
-    the header asks for the present time.
+    robot_state_publisher drops messages with the stamp 0, so the header asks for the
+    present time.
     """
     names = ", ".join(_word(name) for name in positions)
     values = ", ".join(_exact(value) for value in positions.values())
@@ -151,13 +151,13 @@ def as_topic_pub(positions: Mapping[str, float], topic: str = "/joint_states") -
 
 
 def as_arguments(positions: Mapping[str, float]) -> str:
-    """Positions as arguments of this program for a shell: ``--joint NAME=VALUE …``."""
+    """Write positions as arguments of this program: ``--joint NAME=VALUE …``."""
     words = (shlex.quote(f"{name}={_exact(v)}") for name, v in positions.items())
     return " ".join(f"--joint {word}" for word in words)
 
 
 def as_launch_parameters(positions: Mapping[str, float]) -> str:
-    """Positions as the start values of joint_state_publisher, for a launch file.
+    """Write positions as start values of joint_state_publisher, for a launch file.
 
     It is the Python that the argument `parameters` of a Node takes.
     """

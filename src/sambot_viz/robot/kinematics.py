@@ -91,7 +91,7 @@ class Kinematics:
         self._slides = axes[self._slide]
 
     def positions(self, given: Mapping[str, float]) -> dict[str, float]:
-        """The position of every joint [rad or m].
+        """Return the position of every joint [rad or m].
 
         Args:
             given: joint name → position. A joint that is not given has its start

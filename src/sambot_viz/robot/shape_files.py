@@ -26,7 +26,7 @@ def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset 
 
 
 def shapes_of(robot: Robot) -> Iterator[Shape]:
-    """All shapes of all links."""
+    """Yield all shapes of all links."""
     for link in robot.links.values():
         yield from link.visuals
         yield from link.collisions

@@ -49,7 +49,7 @@ class _ModelFile:
 
 
 def models_in(folder: Path) -> list[Path]:
-    """The files of a folder that may be shown by themselves, sorted.
+    """Return the files of a folder that may be shown by themselves, sorted.
 
     Files without links, with nothing but macros, or included by another file are
     left out. Models for tests count only when there are no others.
@@ -77,7 +77,7 @@ def _complete_models(paths: Sequence[Path]) -> list[Path]:
 
 
 def choose_model(folder: Path, models: Sequence[Path]) -> Path | None:
-    """The obvious one of several models, or None when none is.
+    """Choose the obvious one of several models, or None.
 
     It is the only one, the one that is named like the package, the only one that a
     launch file names, the one whose name the others extend ("arm" beside "arm_gazebo"),

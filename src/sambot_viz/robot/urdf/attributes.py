@@ -57,7 +57,7 @@ class AttributeReader:
         return Unreadable(message)
 
     def required(self, element: Element, name: str, example: str) -> str:
-        """The attribute's text.
+        """Return the attribute's text.
 
         Raises:
             Unreadable: it is absent.
@@ -73,7 +73,7 @@ class AttributeReader:
         return text
 
     def number(self, element: Element, name: str, example: str = "1.0") -> float:
-        """A required number.
+        """Read a required number.
 
         Raises:
             Unreadable: it is absent or no number.
@@ -95,7 +95,7 @@ class AttributeReader:
         return self._bounded(element, name, (value,))[0]
 
     def optional(self, element: Element, name: str, default: float) -> float:
-        """A number, or the default when the attribute is absent.
+        """Read a number, or return the default when the attribute is absent.
 
         Raises:
             Unreadable: it is not a number.
@@ -128,7 +128,7 @@ class AttributeReader:
         return (x, y, z)
 
     def origin(self, parent: Element) -> Origin:
-        """The first <origin> below an element; the identity when there is none.
+        """Read the first <origin> below an element; the identity when there is none.
 
         Raises:
             Unreadable: its numbers are wrong.

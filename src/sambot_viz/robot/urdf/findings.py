@@ -27,7 +27,7 @@ class UrdfFindings(Findings):
         *,
         cause: str | None = None,
     ) -> None:
-        """An error for which ROS refuses the whole model."""
+        """Report an error for which ROS refuses the whole model."""
         self.rejected = True
         self._add("error", code, message, hint, at, attribute, cause)
 
@@ -41,7 +41,7 @@ class UrdfFindings(Findings):
         *,
         cause: str | None = None,
     ) -> None:
-        """An error that ROS does not report, or that affects only part of the robot."""
+        """Report an error that ROS does not, or that affects only part of the robot."""
         self._add("error", code, message, hint, at, attribute, cause)
 
     def warn(
@@ -54,7 +54,7 @@ class UrdfFindings(Findings):
         *,
         cause: str | None = None,
     ) -> None:
-        """A doubtful part of the model, which is drawn anyway."""
+        """Report a doubtful part of the model, which is drawn anyway."""
         self._add("warning", code, message, hint, at, attribute, cause)
 
     def _add(
@@ -78,6 +78,6 @@ class UrdfFindings(Findings):
 
 
 def tag_text(element: Element) -> str:
-    """The element as a reader recognises it: ``<link name="arm">`` or ``<axis>``."""
+    """Name an element for a message: ``<link name="arm">`` or ``<axis>``."""
     name = element.get("name")
     return f'<{element.tag} name="{name}">' if name else f"<{element.tag}>"

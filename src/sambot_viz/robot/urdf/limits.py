@@ -32,7 +32,7 @@ class LimitReader:
         self._findings = findings
 
     def limit(self) -> Limit | None:
-        """The <limit>; None when there is none."""
+        """Read the <limit>; None when there is none."""
         element = self._element.find("limit")
         if element is None:
             if self._kind in ("revolute", "prismatic"):
@@ -107,7 +107,7 @@ class LimitReader:
             )
 
     def soft_limit(self) -> SoftLimit | None:
-        """The soft limits of <safety_controller>; None when there is none."""
+        """Read the soft limits of <safety_controller>; None when there is none."""
         element = self._element.find("safety_controller")
         if element is None:
             return None

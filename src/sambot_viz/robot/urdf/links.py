@@ -46,7 +46,7 @@ class LinkReader:
         self._find_mesh = find_mesh
 
     def read(self, element: Element, name: str) -> Link:
-        """The link as ROS would keep it; everything wrong in it is reported."""
+        """Read the link as ROS would keep it, and report what is wrong in it."""
         inertial, complete = self._inertial(element, name)
         visuals, complete = self._visuals(element, name, complete)
         current = next((v.material for v in reversed(visuals) if v.material), None)

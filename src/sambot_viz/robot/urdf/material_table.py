@@ -79,7 +79,7 @@ class MaterialTable:
         self._known[name] = _Known(material or Material(name, _BLACK), element)
 
     def of_visual(self, element: Element) -> Material | None:
-        """The material that a <material> inside a visual means; None is RViz's red."""
+        """Find the material that a <material> in a visual means; None is RViz's red."""
         name = element.get("name") or ""
         inline = self._defined(name, element)
         if not name:

@@ -41,7 +41,7 @@ class PlacedBuilder(expatbuilder.ExpatBuilderNS):
 
 
 def parse_placed(text: str, file: str) -> Any:
-    """A minidom document with places.
+    """Parse a text into a minidom document with places.
 
     Raises:
         XmlFault: the text is not well-formed.
@@ -86,7 +86,7 @@ class PlaceKeeper:
 
 
 def elements(root: Any) -> Iterator[Any]:
-    """All elements in document order."""
+    """Yield all elements in document order."""
     stack = [root]
     while stack:
         node = stack.pop()
