@@ -376,3 +376,20 @@ def test_a_removed_display_comes_back_as_the_same_row(
     session.history.undo(1)
     assert displays.named("Robot").id == before
     assert displays.order()[0] == "Robot"
+
+
+def test_a_number_makes_only_the_rows_of_its_display_again(displays: Displays) -> None:
+    before = displays.all()
+    displays.change("Ground", "Floor", "Cell Size", to=2.5)
+    after = displays.all()
+    assert displays.named("Ground", "Floor", "Cell Size").value == 2.5
+    made = {row_id for row_id, row in after.items() if row is not before[row_id]}
+    grid = displays.named("Ground", "Floor").id
+    of_displays = {row_id for row_id in made if row_id.startswith("d")}
+    assert of_displays and all(
+        row_id == grid or row_id.startswith(f"{grid}/") for row_id in of_displays
+    )
+    # A box may change what other displays report.
+    displays.change("Ground", "Floor", to=False)
+    robot = displays.named("Robot").id
+    assert displays.all()[robot] is not after[robot]

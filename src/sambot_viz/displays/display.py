@@ -105,6 +105,7 @@ class Display:
         properties: the declaration of everything a user can set.
         config: this display in the document: name, enabled, values.
         status: the rows RViz shows under "Status".
+        revision: grows when a user sets a value of it.
     """
 
     kind: ClassVar[str]
@@ -123,6 +124,7 @@ class Display:
         self.config = config
         self.key = key
         self.status = StatusList()
+        self.revision = 0
         self.shown = False
 
     def show(self, shown: bool) -> None:

@@ -20,6 +20,7 @@ from sambot_viz.panels.unfolded import LazyRows, keep_expanded, mark_expanded
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import GROUP, row_text
 from sambot_viz.session import Session
+from sambot_viz.session.signals import connect
 
 OPTIONS = "options"
 
@@ -38,7 +39,7 @@ class DisplaysPanel(Panel):
     name = "displays"
 
     def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        self.remade_by = (
+        whole = (
             session.document.replaced,
             session.document.options,
             session.document.displays,
@@ -47,11 +48,30 @@ class DisplaysPanel(Panel):
             session.robot.changed,
             session.problems.shown,
         )
+        self.remade_by = (*whole, session.document.values)
         self.moved_by = (session.robot.positions,)
         self._session = session
         self._ids = Ids[DisplayConfig]("d")
-        self._lazy = LazyRows("displays/unfold", lambda: remake(self))
-        self._facts: list[tuple[str, EntryList, str]] = []
+        self._remake = remake
+        self._lazy = LazyRows("displays/unfold", self._unfolded)
+        # Rows as they were made at a revision of their display; the last number that
+        # was set makes only the rows of its display again.
+        self._made: dict[DisplayConfig, tuple[int, list[Row]]] = {}
+        self._facts: dict[DisplayConfig, list[tuple[str, EntryList, str]]] = {}
+        self._disconnect = connect(whole, self._forget)
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._disconnect()
+
+    def _forget(self) -> None:
+        self._made.clear()
+        self._facts.clear()
+        self._lazy.clear()
+
+    def _unfolded(self) -> None:
+        self._forget()
+        self._remake(self)
 
     def rows(self) -> Sequence[Row]:
         """Return all rows, each after its parent."""
@@ -66,8 +86,6 @@ class DisplaysPanel(Panel):
         keep_expanded(self._session.document.config, self._tree(), unfolded)
 
     def _tree(self) -> list[Row]:
-        self._facts.clear()
-        self._lazy.clear()
         configs = self._session.document.config.displays
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
@@ -75,7 +93,8 @@ class DisplaysPanel(Panel):
         """What is shown of links and frames that are unfolded."""
         return {
             _fact_id(row_id, key): value
-            for row_id, entries, name in self._facts
+            for facts in self._facts.values()
+            for row_id, entries, name in facts
             for key, value in entries.facts(name).items()
         }
 
@@ -113,15 +132,26 @@ class DisplaysPanel(Panel):
             id(display.config): display for display in self._session.scene.displays
         }
         for config in configs:
-            row_id, display = self.id_of(config), displays.get(id(config))
-            yield self._head(config, display, row_id, parent)
-            if display is None:
-                yield _unsupported(config, row_id)
-            elif config.kind != GROUP:
-                if display.shown:
-                    yield from self._status_rows(display, row_id)
-                yield from self._property_rows(display, row_id)
-            yield from self._display_rows(config.displays, row_id)
+            display = displays.get(id(config))
+            revision = 0 if display is None else display.revision
+            if config not in self._made or self._made[config][0] != revision:
+                self._facts[config] = []
+                rows = [*self._rows_of(config, display, parent)]
+                self._made[config] = (revision, rows)
+            yield from self._made[config][1]
+            yield from self._display_rows(config.displays, self.id_of(config))
+
+    def _rows_of(
+        self, config: DisplayConfig, display: Display | None, parent: str
+    ) -> Iterator[Row]:
+        row_id = self.id_of(config)
+        yield self._head(config, display, row_id, parent)
+        if display is None:
+            yield _unsupported(config, row_id)
+        elif config.kind != GROUP:
+            if display.shown:
+                yield from self._status_rows(display, row_id)
+            yield from self._property_rows(display, row_id)
 
     def _head(
         self, config: DisplayConfig, display: Display | None, row_id: str, parent: str
@@ -202,7 +232,7 @@ class DisplaysPanel(Panel):
             )
             if not unfolded:
                 continue
-            self._facts.append((row_id, entries, name))
+            self._facts[display.config].append((row_id, entries, name))
             for path in wanted:
                 if path != "Value" and path in item.declared:
                     yield property_row(item, item.declared[path], row_id, change)

@@ -85,7 +85,8 @@ class ClientTools:
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
-        drawn = [robot.positions, robot.changed, scene.frames, scene.statuses]
+        shapes = [scene.frames, scene.statuses, document.values]
+        drawn = [robot.positions, robot.changed, *shapes]
         self._disconnect = (
             connect([document.replaced, document.tools], self._take_document),
             connect(drawn, self._follow_selection),

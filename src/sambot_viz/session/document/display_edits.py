@@ -14,16 +14,25 @@ from typing import Any
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
 from sambot_viz.errors import UsageError
-from sambot_viz.rviz import DisplayConfig
+from sambot_viz.rviz import (
+    ColorProperty,
+    Declared,
+    DisplayConfig,
+    FloatProperty,
+    IntProperty,
+    TopicProperty,
+    VectorProperty,
+)
 from sambot_viz.rviz.class_name import short_name
 from sambot_viz.rviz.display_list import Removed
 from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.limits import MOST_DISPLAYS, require_room
 from sambot_viz.session.scene.scene import Scene, walk
-from sambot_viz.session.signals import Change
+from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.undo import History
 
+_NUMBERS = (IntProperty, FloatProperty, VectorProperty, ColorProperty)
 _COUNTED = re.compile(r"^(.*) \(\d+\)$", re.DOTALL)
 """A name that ends with a number, as copies have it."""
 
@@ -59,7 +68,7 @@ class DisplayEdits:
             UsageError: the value cannot be meant, or the display refuses it.
         """
         config = display.config
-        with self._change(self._document.displays, self._scene.statuses):
+        with self._change(*self._told(display, config.declared.get(path))):
             robot_display = display.robot_display
             refusal = robot_display and robot_display.refusal(path, value)
             if refusal is None:
@@ -90,10 +99,26 @@ class DisplayEdits:
             raise UsageError(
                 f"'{display.config.name}' has no {entries.singular} '{name}'"
             )
-        with self._change(self._document.displays, self._scene.statuses):
+        declared = entries.item(name).declared.get(path)
+        with self._change(*self._told(display, declared)):
             with self._setting(display.config, f"{name}/{path}", (title, name, path)):
                 entries.set(name, path, value)
                 display.property_changed(f"{title}/{path}")
+
+    def _told(
+        self, display: Display, declared: Declared | None
+    ) -> tuple[Signal[Any], ...]:
+        """Return what changes with a value of a display.
+
+        A number or a colour changes the picture and the status of its display; a frame,
+        a file, a box or what is set of a topic may change what others show.
+        """
+        display.revision += 1
+        if declared is not None and isinstance(declared.property, _NUMBERS):
+            above = declared.above
+            if above is None or not isinstance(above.property, TopicProperty):
+                return (self._document.values,)
+        return (self._document.displays, self._scene.statuses)
 
     def _setting(
         self, config: DisplayConfig, what: str, merge: object

@@ -28,6 +28,7 @@ class ShownDocument:
         replaced: another document is shown.
         options: the Global Options.
         displays: which displays there are, in which order, and their values.
+        values: numbers and colours of displays, on which nothing else depends.
         tools: the settings of tools.
         views: the saved views.
         file: the file of the document; None when it was never in one.
@@ -41,6 +42,7 @@ class ShownDocument:
         self.replaced = Signal(change, None)
         self.options = Signal(change, None)
         self.displays = Signal(change, None)
+        self.values = Signal(change, None)
         self.tools = Signal(change, None)
         self.views = Signal(change, None)
         self.file = Signal(change, config.file)

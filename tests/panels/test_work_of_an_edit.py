@@ -1,0 +1,149 @@
+"""What one edit makes the panels do while all of them are open: counted as work."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+import threading
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import pytest
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.panels.panel import Panel
+from sambot_viz.session.worker import Worker
+
+JOINT = "drivewhl_l_joint"
+STEPS = 4
+
+
+def all_panels(kind: type[Panel] = Panel) -> Iterator[type[Panel]]:
+    """The classes of all panels."""
+    for one in kind.__subclasses__():
+        yield one
+        yield from all_panels(one)
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """How often each panel has made its rows, or its data where it has no rows."""
+    counts: Counter[str] = Counter()
+
+    def counting(make: Callable[[Panel], Sequence[Any]]) -> Callable[[Panel], Any]:
+        @functools.wraps(make)
+        def counted(panel: Panel) -> Sequence[Any]:
+            counts[panel.name] += 1
+            return make(panel)
+
+        return counted
+
+    for kind in all_panels():
+        what = "rows" if "rows" in vars(kind) else "data"
+        if what in vars(kind):
+            monkeypatch.setattr(kind, what, counting(vars(kind)[what]))
+    return counts
+
+
+class Disk:
+    """Counts what the threads of sessions ask of the file system."""
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+        self.counts = False
+
+    def note(self, what: str) -> None:
+        if self.counts and isinstance(threading.current_thread(), Worker):
+            self.asked.append(what)
+
+
+@pytest.fixture
+def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Disk]:
+    disk = Disk()
+
+    def hook(event: str, arguments: tuple[Any, ...]) -> None:
+        if event == "open" or event.startswith("os."):
+            disk.note(event)
+
+    # It cannot be taken away again, and counts nothing after this test.
+    sys.addaudithook(hook)
+
+    def noting(name: str, call: Callable[..., Any]) -> Callable[..., Any]:
+        def noted(*arguments: Any, **more: Any) -> Any:
+            disk.note(name)
+            return call(*arguments, **more)
+
+        return noted
+
+    # Nothing is audited of these.
+    for name in ("stat", "lstat", "access", "readlink"):
+        monkeypatch.setattr(os, name, noting(name, getattr(os, name)))
+    yield disk
+    disk.counts = False
+
+
+def open_all(client: ProtocolClient, viz: Visualizer) -> None:
+    """Open every panel, unfold all rows, and select a link."""
+    client.settle(viz.viser)
+    client.act("frames/show", True)
+    client.act("permalink/open", ["select", "v"], ["link:base_link", "1"])
+    done: set[str] = set()
+    while lazy := {i for i, row in client.rows.items() if row.get("lazy")} - done:
+        for row_id in lazy:
+            client.act(f"{client.rows[row_id]['panel']}/unfold", row_id)
+        done |= lazy
+        client.settle(viz.viser)
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0, watch=False) as viz:
+        yield viz
+
+
+@pytest.fixture
+def clients(
+    viz: Visualizer, protocol: Callable[..., ProtocolClient]
+) -> list[ProtocolClient]:
+    clients = [protocol(viz.viser.get_port()) for _ in range(3)]
+    for client in clients:
+        open_all(client, viz)
+    assert any(row["id"].startswith("selected/") for row in clients[0].rows.values())
+    return clients
+
+
+def drag(client: ProtocolClient, viz: Visualizer, *row: str) -> None:
+    """A few steps of one gesture, each shown before the next."""
+    first: float = client.shown(*row)
+    for step in range(1, STEPS + 1):
+        wanted = first + step / 64
+        client.edit(client.id_of(*row), wanted, gesture=1)
+        client.wait_until(lambda wanted=wanted: client.shown(*row) == wanted)
+    client.settle(viz.viser)
+
+
+def test_a_step_makes_no_rows_again_and_asks_no_disk(
+    viz: Visualizer, clients: list[ProtocolClient], made: Counter[str], disk: Disk
+) -> None:
+    drag(clients[0], viz, "joints", JOINT)
+    made.clear()
+    disk.counts = True
+    drag(clients[0], viz, "joints", JOINT)
+    assert set(made) <= {"edit"} and made["edit"] <= len(clients)
+    assert disk.asked == []
+
+
+def test_a_number_of_a_display_makes_only_displays_again(
+    viz: Visualizer, clients: list[ProtocolClient], made: Counter[str], disk: Disk
+) -> None:
+    drag(clients[0], viz, "displays", "Grid", "Cell Size")
+    made.clear()
+    disk.counts = True
+    drag(clients[0], viz, "displays", "Grid", "Cell Size")
+    assert set(made) <= {"edit", "displays"}
+    # Once for all clients, however many there are.
+    assert made["displays"] <= STEPS + 1 and made["edit"] <= len(clients)
+    assert disk.asked == []
