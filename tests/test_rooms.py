@@ -105,7 +105,7 @@ ROOMS: Mapping[str, Row] = {
     "panels": Row(
         "_version displays drive frames joints options page problems "
         "robot rviz session tools views viser_private",
-        "numpy viser",
+        "msgspec numpy viser",
     ),
     "server": Row(
         "displays inputs joints meshes options page panels robot rviz session "

@@ -1,22 +1,16 @@
 // What happens to edits when the connection is lost.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
+import { mock, test } from "node:test";
+import { gzipSync } from "node:zlib";
 
-/** @type {any[]} */
-let received = [];
-const works = (/** @type {any} */ message) => received.push(message.updates.value);
-const fails = () => {
-  /* Tried to send, but the websocket is not connected! */
-};
-const page = { sendMessage: works };
-Object.assign(globalThis, { window: { __viserMutable: page } });
+import { last, opened, received, say } from "./fake_socket.js";
 
-const { act, connect, CUT, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } =
+const { act, connect, CUT, disconnect, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } =
   await import("../../src/sambot_viz/page/wire/channel.js");
 
-rows.take("session", "rows", {
-  base: 0,
+rows.take("session", {
+  all: true,
   panels: {
     p: [
       { id: "a", in: "", kind: "float", value: 0 },
@@ -35,22 +29,33 @@ const back = () => {
   goOnline();
   return sendHeldBack();
 };
+const clear = () => received.splice(0);
+mock.timers.enable({ apis: ["setTimeout", "setInterval", "Date"] });
+connect();
 
-test("an edit of the first moment without a connection is kept, and an action says that it is not done", () => {
+test("nothing is sent before the server knows the page", async () => {
+  send("a", 1);
+  assert.deepEqual(received, []);
+  await say({ of: "browser", all: true, panels: {} });
   send("a", 1);
   assert.deepEqual(received, [["a", 1]]);
-  page.sendMessage = fails;
-  // Nothing has looked after the connection yet.
-  send("b", 2);
+  const { address, protocols } = /** @type {any} */ (last());
+  assert.deepEqual([address, protocols], ["ws://server/?ticket=1", ["sambot-viz-1"]]);
+});
+
+test("an edit of the first moment without a connection is kept, and an action says that it is not done", async () => {
+  last().onclose();
   assert.deepEqual(heard, [CUT]);
+  send("b", 2);
   send("b", 3);
   act("do");
   act("p/unfold", ["x"]);
   assert.deepEqual(heard, [CUT, NOT_DONE]);
   // What waits is shown.
   assert.deepEqual([rows.value("a"), rows.value("b")], [1, 3]);
-  page.sendMessage = works;
-  received = [];
+  clear();
+  mock.timers.tick(100);
+  await say({ of: "browser", all: true, panels: {} });
   back();
   // What was sent just before may not have come through, and is sent again.
   assert.deepEqual(received, [
@@ -61,7 +66,7 @@ test("an edit of the first moment without a connection is kept, and an action sa
 
 test("what was sent long before is not sent again, and nothing is sent twice", (context) => {
   context.mock.method(performance, "now", () => 1e9);
-  received = [];
+  clear();
   send("a", 5);
   context.mock.method(performance, "now", () => 1e9 + 5000);
   act("do");
@@ -85,7 +90,7 @@ test("a colour that waits is shown when the page can read it", () => {
     send("c", typed);
     assert.deepEqual(rows.value("c"), shown);
   }
-  received = [];
+  clear();
   back();
   assert.deepEqual(received, [["c", "red"]]);
 });
@@ -93,7 +98,7 @@ test("a colour that waits is shown when the page can read it", () => {
 test("what waits goes to the row that it is now, waits on, or is dropped", () => {
   goOffline();
   for (const id of ["a", "b", "later"]) send(id, 7);
-  received = [];
+  clear();
   goOnline();
   /** @type {Record<string, any>} */
   const now = { a: "x", b: null };
@@ -109,36 +114,55 @@ test("what waits goes to the row that it is now, waits on, or is dropped", () =>
   ]);
 });
 
-test("rows of another connection than before show that it was interrupted, however short", () => {
-  /** @param {string} from @param {number} base */
-  const whole = (from, base) => ({
-    dataset: { sambot: "rows", of: "browser" },
-    textContent: JSON.stringify({
-      from,
-      base,
-      panels: { q: [{ id: "q", in: "", kind: "readonly", value: from }] },
-    }),
-  });
-  /** @type {any[]} */
-  let elements = [];
-  Object.assign(globalThis, {
-    MutationObserver: class {
-      observe() {}
-    },
-    document: { body: null, querySelectorAll: () => elements },
-  });
-  const shown = rows.listen(CUT, () => heard.push(rows.value("q")));
+test("a server that does not answer is left, and tried again more slowly", async () => {
   heard.length = 0;
-  for (const element of [whole("one", 0), whole("one", 1)]) {
-    elements = [element];
-    connect();
+  const first = last();
+  mock.timers.tick(10_000);
+  assert.equal(first.pings, 1);
+  mock.timers.tick(1000);
+  await say("pong");
+  for (let second = 0; second < 13; second++) mock.timers.tick(1000);
+  assert.equal(first.pings, 2);
+  assert.equal(last(), first);
+  for (let second = 0; second < 2; second++) mock.timers.tick(1000);
+  assert.deepEqual(heard, [CUT]);
+  const count = opened.length - 1;
+  // The close of a connection that was given up says nothing any more.
+  first.onclose();
+  assert.equal(opened.length, count + 1);
+  for (const wait of [1000, 1000]) {
+    last().onclose();
+    mock.timers.tick(wait - 1);
+    const before = opened.length;
+    mock.timers.tick(1);
+    assert.equal(opened.length, before + 1);
   }
-  assert.deepEqual(heard, []);
-  elements = [whole("two", 0)];
-  connect();
-  shown();
-  // What was there before can still be noted then.
-  assert.deepEqual(heard, [CUT, "one"]);
-  assert.equal(rows.value("q"), "two");
+  assert.deepEqual(heard, [CUT]);
+  await say({ of: "browser", all: true, panels: {} });
   back();
+});
+
+test("a long message is unpacked, and those behind it wait for it", async () => {
+  const content = JSON.stringify({ of: "browser", all: true, panels: { q: [{ id: "q" }] } });
+  const packed = new Uint8Array([1, ...gzipSync(content)]);
+  /** @type {any[]} */
+  const order = [];
+  const stop = rows.listen("whole:browser", () => order.push("whole"));
+  const stopRow = rows.listen("q", () => order.push(rows.value("q")));
+  last().onmessage({ data: packed.buffer });
+  last().onmessage({ data: JSON.stringify({ of: "browser", rows: { q: { value: 1 } } }) });
+  while (order.length < 3) await new Promise((done) => setImmediate(done));
+  stop();
+  stopRow();
+  assert.deepEqual(order, ["whole", undefined, 1]);
+});
+
+test("a page that is left says so, and does not come again", () => {
+  const socket = last();
+  const count = opened.length;
+  disconnect();
+  assert.equal(socket.code, 4002);
+  socket.onclose();
+  mock.timers.tick(60_000);
+  assert.equal(opened.length, count);
 });

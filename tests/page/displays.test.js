@@ -1,14 +1,13 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
+import { received as sent, say } from "./fake_socket.js";
 
 // What the page's scripts want of a browser when they are read.
 Object.assign(globalThis, {
   localStorage: { getItem: () => null, setItem: () => {} },
   matchMedia: () => ({ matches: false }),
-  addEventListener: () => {},
-  document: { addEventListener: () => {}, querySelectorAll: () => [] },
 });
-const { rows } = await import("../../src/sambot_viz/page/wire/channel.js");
+const { connect, rows } = await import("../../src/sambot_viz/page/wire/channel.js");
 const { folds } = await import("../../src/sambot_viz/page/state.js");
 const { members, moveBy, nearest, neighbour, place, places } =
   await import("../../src/sambot_viz/page/panels/display_order.js");
@@ -28,8 +27,8 @@ const get = (id) => /** @type {any} */ (rows.get(id));
 /** a, a group g with p and q, b; every row is 10 high, in the order of the page. */
 beforeEach(() => {
   folds.set({});
-  rows.take("session", "rows", {
-    base: 1,
+  rows.take("session", {
+    all: true,
     panels: {
       displays: [
         { id: "options", in: "", kind: "group", name: "Global Options" },
@@ -77,24 +76,18 @@ test("a folded group is passed in one step", () => {
 test("after a removal the next display is selected, else the one before, else the group", () => {
   assert.equal(neighbour(get("a")), "g");
   assert.equal(neighbour(get("b")), "g");
-  rows.take("session", "changes", {
-    base: 1,
+  rows.take("session", {
     panels: { displays: [display("g", "", { group: true }), display("p", "g")] },
   });
   assert.equal(neighbour(get("p")), "g");
 });
 
-test("of two steps in quick succession the second waits for the first", () => {
-  /** @type {any[]} */
-  const sent = [];
-  Object.assign(globalThis, {
-    window: {
-      __viserMutable: { sendMessage: (/** @type {any} */ m) => sent.push(m.updates.value) },
-    },
-  });
+test("of two steps in quick succession the second waits for the first", async (context) => {
+  context.mock.timers.enable({ apis: ["setInterval"] });
+  connect();
+  await say({ of: "browser", all: true });
   const order = (/** @type {string[]} */ ...ids) =>
-    rows.take("session", "changes", {
-      base: 1,
+    rows.take("session", {
       panels: {
         displays: [
           ...ids.map((id) => display(id)),

@@ -3,18 +3,11 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
+import { received, say } from "./fake_socket.js";
+
 // What the page's scripts want of a browser when they are read.
-Object.assign(globalThis, {
-  localStorage: { getItem: () => null, setItem: () => {} },
-  window: {
-    __viserMutable: {
-      sendMessage: (/** @type {any} */ message) => received.push(message.updates.value),
-    },
-  },
-});
-/** @type {any[]} */
-const received = [];
-const { rows } = await import("../../src/sambot_viz/page/wire/channel.js");
+Object.assign(globalThis, { localStorage: { getItem: () => null, setItem: () => {} } });
+const { connect, rows } = await import("../../src/sambot_viz/page/wire/channel.js");
 const { folds } = await import("../../src/sambot_viz/page/state.js");
 const {
   foldsNow,
@@ -64,13 +57,13 @@ const again = (/** @type {any} */ first = {}, still = true) => [
 /** A program with these rows. @param {string} session @param {Record<string, any[]>} panels @param {any} [file] */
 function start(session, panels, file = {}) {
   const none = { displays: [], joints: [], joints_again: [], poses: [] };
-  rows.take("session", "rows", {
-    base: 0,
+  rows.take("session", {
+    all: true,
     panels: { ...none, names: [data("names/session", { id: session })], ...panels },
   });
   const state = { name: "a.rviz", own: true, folder: "/f", ...file };
-  rows.take("browser", "rows", {
-    base: 0,
+  rows.take("browser", {
+    all: true,
     panels: {
       files: [data("file/state", state)],
       frames: panels.frames || [],
@@ -80,6 +73,12 @@ function start(session, panels, file = {}) {
 }
 
 beforeEach(() => folds.set({}));
+
+test("the page has a connection", async (context) => {
+  context.mock.timers.enable({ apis: ["setInterval"] });
+  connect();
+  await say({ of: "session", all: true });
+});
 
 test("joints that were moved come back, the others stay", () => {
   start("1", {

@@ -8,8 +8,8 @@ const row = (id, more = {}) => ({ id, in: "", kind: "float", ...more });
 /** Rows of one panel, and what its listeners have heard. */
 function grid() {
   const rows = new Rows();
-  rows.take("session", "rows", {
-    base: 1,
+  rows.take("session", {
+    all: true,
     panels: {
       displays: [row("a", { value: 1 }), row("a/x", { in: "a", value: 2 }), row("b", { value: 3 })],
     },
@@ -29,42 +29,41 @@ test("rows are in order below the row that holds them", () => {
 
 test("a change of one row is heard by that row alone", () => {
   const { rows, heard } = grid();
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { "a/x": { value: 5 } } });
+  rows.take("session", { rows: { "a/x": { value: 5 } } });
   assert.equal(rows.value("a/x"), 5);
   assert.deepEqual(heard, ["a/x"]);
 });
 
 test("a change that says what is known already is not heard", () => {
   const { rows, heard } = grid();
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 1 } } });
+  rows.take("session", { rows: { a: { value: 1 } } });
   assert.deepEqual(heard, []);
 });
 
 test("null takes a field away", () => {
   const { rows } = grid();
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { level: "warn" } } });
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { level: null } } });
+  rows.take("session", { rows: { a: { level: "warn" } } });
+  rows.take("session", { rows: { a: { level: null } } });
   assert.equal("level" in (rows.get("a") || {}), false);
 });
 
 test("changes of other rows than these are left alone", () => {
   const { rows } = grid();
-  rows.take("session", "changes", { base: 2, panels: {}, rows: { a: { value: 9 } } });
-  assert.equal(rows.value("a"), 1);
+  rows.take("session", { rows: { gone: { value: 9 } } });
+  assert.equal(rows.get("gone"), undefined);
 });
 
 test("a row that moves is heard by its panel, and by no row that stays as it is", () => {
   const { rows, heard } = grid();
   const [a, x, b] = ["a", "a/x", "b"].map((id) => /** @type {any} */ (rows.get(id)));
-  rows.take("session", "changes", { base: 1, panels: { displays: [b, a, x] } });
+  rows.take("session", { panels: { displays: [b, a, x] } });
   assert.deepEqual(rows.children("panel:displays"), ["b", "a"]);
   assert.deepEqual(heard, ["panel:displays"]);
 });
 
 test("a row that goes is heard, and is not there any more", () => {
   const { rows, heard } = grid();
-  rows.take("session", "changes", {
-    base: 1,
+  rows.take("session", {
     panels: { displays: [/** @type {any} */ (rows.get("b"))] },
   });
   assert.equal(rows.get("a/x"), undefined);
@@ -74,9 +73,9 @@ test("a row that goes is heard, and is not there any more", () => {
 
 test("the rows of a session and those of a browser do not touch each other", () => {
   const { rows } = grid();
-  rows.take("browser", "rows", { base: 7, panels: { tools: [row("tool", { value: 1 })] } });
-  rows.take("browser", "changes", { base: 7, panels: {}, rows: { tool: { value: 2 } } });
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 4 } } });
+  rows.take("browser", { all: true, panels: { tools: [row("tool", { value: 1 })] } });
+  rows.take("browser", { rows: { tool: { value: 2 } } });
+  rows.take("session", { rows: { a: { value: 4 } } });
   assert.deepEqual([rows.value("tool"), rows.value("a")], [2, 4]);
 });
 
@@ -91,7 +90,7 @@ test("the numbers of a vector are rows of their own", () => {
     parts: ["X", "Y"],
     value: [1, 2],
   };
-  rows.take("session", "rows", { base: 1, panels: { displays: [vector] } });
+  rows.take("session", { all: true, panels: { displays: [vector] } });
   assert.deepEqual(rows.children("v"), ["v/.X", "v/.Y"]);
   assert.deepEqual(rows.get("v/.Y"), {
     id: "v/.Y",
@@ -105,10 +104,10 @@ test("the numbers of a vector are rows of their own", () => {
   /** @type {string[]} */
   const heard = [];
   for (const key of ["v", "v/.X", "v/.Y"]) rows.listen(key, () => heard.push(key));
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { v: { value: [1, 5] } } });
+  rows.take("session", { rows: { v: { value: [1, 5] } } });
   assert.equal(rows.value("v/.Y"), 5);
   assert.deepEqual(heard, ["v", "v/.Y"]);
-  rows.take("session", "changes", { base: 1, panels: { displays: [] } });
+  rows.take("session", { panels: { displays: [] } });
   assert.equal(rows.get("v/.X"), undefined);
 });
 
@@ -124,7 +123,7 @@ test("a value that is hoped for is shown, and put back when it is refused", () =
 test("what the server says counts more than what is hoped for", () => {
   const { rows } = grid();
   rows.hope("a", 7);
-  rows.take("session", "changes", { base: 1, panels: {}, rows: { a: { value: 7 } } });
+  rows.take("session", { rows: { a: { value: 7 } } });
   rows.putBack("a");
   assert.equal(rows.value("a"), 7);
 });
@@ -134,7 +133,7 @@ test("a server that was started again with fewer panels leaves no old rows", () 
   /** @type {string[]} */
   const heard = [];
   rows.listen("whole:session", () => heard.push("whole"));
-  rows.take("session", "rows", { base: 0, panels: { names: [] } });
+  rows.take("session", { all: true, panels: { names: [] } });
   assert.deepEqual(rows.children("panel:displays"), []);
   assert.equal(rows.get("a"), undefined);
   assert.deepEqual(heard, ["whole"]);
@@ -142,8 +141,8 @@ test("a server that was started again with fewer panels leaves no old rows", () 
 
 test("who watches cannot set what others see, and their own rows they can", () => {
   const { rows } = grid();
-  rows.take("browser", "rows", {
-    base: 1,
+  rows.take("browser", {
+    all: true,
     panels: {
       views: [
         { id: "mine", in: "", kind: "float", value: 1, local: true },
@@ -174,7 +173,7 @@ test("data and commands are beside the rows, and follow the server too", () => {
   for (const key of ["x/names", "x/do", "x/mine", "panel:x"])
     rows.listen(key, () => heard.push(key));
   const part = (/** @type {any[]} */ ...items) =>
-    rows.take("browser", "rows", { base: 5, panels: { x: items } });
+    rows.take("browser", { all: true, panels: { x: items } });
   const names = { id: "x/names", in: "", kind: "data", value: ["a"] };
   const doIt = { id: "x/do", in: "", kind: "command" };
   const mine = { id: "x/mine", in: "", kind: "command", local: true };
@@ -183,11 +182,7 @@ test("data and commands are beside the rows, and follow the server too", () => {
   assert.deepEqual(rows.children("panel:x"), []);
   assert.deepEqual([rows.data("x/names"), rows.get("x/names")], [["a"], undefined]);
   assert.deepEqual([rows.can("x/do"), rows.can("x/mine"), rows.can("x/no")], [true, true, false]);
-  rows.take("browser", "changes", {
-    base: 5,
-    panels: {},
-    rows: { "x/names": { value: ["a", "b"] } },
-  });
+  rows.take("browser", { rows: { "x/names": { value: ["a", "b"] } } });
   assert.deepEqual(rows.data("x/names"), ["a", "b"]);
   rows.watch(true);
   assert.deepEqual([rows.can("x/do"), rows.can("x/mine")], [false, true]);

@@ -12,7 +12,7 @@ import msgspec.msgpack
 import numpy as np
 import pytest
 import viser
-from protocol_client import CAMERA, ProtocolClient
+from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
@@ -80,7 +80,7 @@ def test_a_browser_without_a_camera_changes_nothing(
 ) -> None:
     before = witness.shown(*names)
     stranger = protocol(viz.viser.get_port(), camera=False)
-    stranger.edit(stranger.id_of(*names), value)
+    stranger.edit(witness.id_of(*names), value)
     stranger.send_camera()
     stranger.settle(viz.viser)
     witness.settle(viz.viser)
@@ -127,7 +127,7 @@ def test_a_value_of_another_type_changes_no_row_and_is_answered(
     witness.settle(viz.viser)
     assert witness.since(mark) == []
     (answer,) = client.since(own)
-    assert answer.type == "GuiUpdateMessage"
+    assert answer.type == ROW_PATCH
     assert client.row("notice")["value"]["row"] == row
     assert client.shown(*names) == before
 
@@ -142,7 +142,6 @@ def test_an_upload_does_nothing(
     client.wait_until(lambda: "take" in client.widgets)
     upload(client, client.uuid_of("take"), b"hello")
     upload(client, client.uuid_of("take"), b"x" * 1000, parts=2)
-    upload(client, inbound_filter.EDITS, b"hello")
     client.send_camera()
     client.settle(viz.viser)
     assert client.types()["FileTransferPartAck"] == 0
@@ -170,16 +169,27 @@ def test_a_browser_cannot_break_the_widgets_of_its_private_session(
         first, second = (protocol(viz.viser.get_port()) for _ in range(2))
         for client in (first, second):
             client.settle(viz.viser)
-        html = [m for m in first.messages if m.type == "GuiHtmlMessage"]
-        uuids = [inbound_filter.EDITS, *(m.fields["uuid"] for m in html)]
-        assert len(uuids) > 2
+        own = [c.gui.add_text("own", "mine") for c in viz.viser.get_clients().values()]
+        first.wait_until(lambda: "own" in first.widgets)
+        uuid = first.uuid_of("own")
         for updates in ({"removed": True}, {"props": None}, {"content": "<b>"}):
-            for uuid in uuids:
-                first.send("GuiUpdateMessage", uuid=uuid, updates=updates)
+            first.send("GuiUpdateMessage", uuid=uuid, updates=updates)
+        first.set_value(uuid, "changed")
         first.settle(viz.viser)
+        assert {text.value for text in own} == {"mine", "changed"}
         viz.set_joint_positions({SLIDER[1]: 0.5})
         for client in (first, second):
             client.wait_until(lambda c=client: c.shown(*SLIDER) == 0.5)
+
+
+def test_an_edit_of_a_row_in_the_form_of_a_widget_s_value_is_refused(
+    viz: Visualizer, witness: ProtocolClient, protocol: Connect
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.set_value("sambot-viz", [client.id_of(*SLIDER), 0.5])
+    client.settle(viz.viser)
+    assert viz.joint_positions[SLIDER[1]] == 0.0
+    assert still_works(viz, witness, protocol)
 
 
 def test_hidden_and_disabled_widgets_take_no_value(
@@ -256,7 +266,7 @@ def test_a_flood_of_bad_values_is_one_line_in_the_log(
     with caplog.at_level(logging.DEBUG, "asyncio"):
         for _ in range(300):
             client.edit(client.id_of(*SLIDER), "fast")
-            client.set_value(inbound_filter.EDITS, ["no edit"])
+            client.send_edit(["no edit"])
         client.settle(viz.viser)
     assert len(caplog.records) <= 1
     assert all("dropped" in record.getMessage() for record in caplog.records)

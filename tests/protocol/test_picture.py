@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import pytest
 from PIL import Image
-from protocol_client import ProtocolClient
+from protocol_client import ROW_PATCH, ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.session import picture
@@ -26,13 +26,13 @@ def client(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> Protocol
 
 
 def press_save(client: ProtocolClient) -> None:
-    client.set_value("sambot-viz", ["file/picture", [1280, 720]])
+    client.act("file/picture", 1280, 720)
 
 
 def said(client: ProtocolClient) -> str:
     """All that the server has sent to the page in rows."""
-    kinds = ("GuiHtmlMessage", "GuiUpdateMessage")
-    return "".join(str(m.fields) for m in client.messages if m.type in kinds)
+    patches = (m for m in client.messages if m.type == ROW_PATCH)
+    return "".join(str(patch.fields) for patch in patches)
 
 
 def ask(client: ProtocolClient) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from protocol_client import ProtocolClient
+from protocol_client import ROW_PATCH, ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.meshes.asset import Asset
@@ -162,7 +162,7 @@ def test_an_edit_of_the_model_sends_no_mesh_again(opened: Opened) -> None:
     model = opened.folder / "robot.urdf"
     content = model.read_text("utf-8")
     model.write_text(content.replace("</robot>", '<link name="new"/></robot>'), "utf-8")
-    opened.client.wait_until(lambda: opened.client.types(mark)["GuiUpdateMessage"] > 0)
+    opened.client.wait_until(lambda: opened.client.types(mark)[ROW_PATCH] > 0)
     joint = JOINT.format(i=9).replace("l9", "new")
     model.write_text(
         content.replace("</robot>", f'<link name="new"/>{joint}</robot>'), "utf-8"

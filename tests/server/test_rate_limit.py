@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from protocol_client import ProtocolClient
+from protocol_client import ROW_PATCH, ProtocolClient
 
 from sambot_viz.options import Options
+from sambot_viz.panels.row_store import ClientRows, RowStore
 from sambot_viz.server.inbound_filter import NoSessions
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.rate_limit import WINDOW
@@ -25,6 +26,10 @@ def test_what_a_session_has_not_done_yet_waits_in_the_connection(
     taken: list[object] = []
     waiting: list[Callable[[], None]] = []
 
+    stores = RowStore("session"), RowStore("browser")
+    for store in stores:
+        store.replace("panel", [])
+
     class Slow(NoSessions):
         def take_edit(self, client_id: int, edit: object) -> None:
             taken.append(edit)
@@ -32,8 +37,13 @@ def test_what_a_session_has_not_done_yet_waits_in_the_connection(
         def behind(self, client_id: int, action: Callable[[], None]) -> None:
             waiting.append(action)
 
-    listener.handler = Slow()
+        def rows_of(self, client_id: int) -> ClientRows:
+            return ClientRows(stores)
+
+    listener.give(Slow())
     client = protocol(listener.viser.get_port())
+    listener.tell_joined()
+    client.wait_until(lambda: ROW_PATCH in client.types())
     last = 5 * WINDOW
     for number in range(last):
         client.edit("row", number)

@@ -22,7 +22,6 @@ from websockets.typing import Subprotocol
 from sambot_viz.options import Options
 from sambot_viz.server import inbound_filter, listener, outbox
 from sambot_viz.server.client_writer import ClientWriter
-from sambot_viz.server.inbound_filter import NoSessions
 
 Early = Callable[[viser.ViserServer], object]
 
@@ -106,14 +105,12 @@ def test_the_filter_sees_all_that_a_client_sends_while_the_program_starts(
             clients[0].send(msgspec.msgpack.encode(message))
         assert clients[0].ping().wait(10.0)
 
-    class Taker(NoSessions):
-        def take_edit(self, client_id: int, edit: object) -> None:
-            taken.set()
-
     with started(early, monkeypatch) as made:
-        made.handler = Taker()
-        edit = {"uuid": inbound_filter.EDITS, "updates": {"value": ["row", 1]}}
-        clients[0].send(msgspec.msgpack.encode({"type": "GuiUpdateMessage", **edit}))
+        number = made.viser.gui.add_number("number", 1.0)
+        number.on_update(lambda _: taken.set())
+        (uuid,) = cast(Any, made.viser.gui)._gui_input_handle_from_uuid
+        update = {"type": "GuiUpdateMessage", "uuid": uuid, "updates": {"value": 2.0}}
+        clients[0].send(msgspec.msgpack.encode(update))
         assert taken.wait(10.0), "the camera was not seen"
         dropped = [record.getMessage() for record in caplog.records]
         assert [m for m in dropped if "not one of the messages" in m], dropped

@@ -1,59 +1,57 @@
-"""The rows that a page has, from the elements that carry them to it."""
+"""The rows that a page has, from what its channel has brought."""
 
 from __future__ import annotations
 
+import gzip
 import json
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+
+from sambot_viz.panels.row_store import COMPRESSED
 
 Row = dict[str, Any]
 """As the page gets it, what differs from the defaults by name; and its "panel"."""
 
-_ELEMENT = re.compile(
-    r'<script type="application/json" data-sambot="(?P<what>\w+)" '
-    r'data-of="(?P<scope>\w+)">(?P<data>.*)</script>',
-    re.DOTALL,
-)
+
+def decode(message: str | bytes) -> Any:
+    """What a message of the channel says, from a text or a binary frame."""
+    if isinstance(message, bytes):
+        assert message.startswith(COMPRESSED), message[:20]
+        return json.loads(gzip.decompress(message[len(COMPRESSED) :]))
+    return json.loads(message)
 
 
-def rows_in(contents: Iterable[str]) -> dict[str, Row]:
-    """The rows by id, in the order of their panels.
+class PageRows:
+    """The rows of the session and of one client, with all patches in them."""
 
-    Args:
-        contents: of viser's HTML elements, as they are now. Those that carry no rows
-            are left out.
-    """
-    parts: dict[tuple[str, str], Any] = {}
-    for content in contents:
-        found = _ELEMENT.fullmatch(content)
-        if found:
-            parts[found["scope"], found["what"]] = json.loads(found["data"])
-    rows: dict[str, Row] = {}
-    for (scope, what), part in parts.items():
-        if what == "rows":
-            rows |= _merged(part, parts.get((scope, "changes")))
-    return rows
+    def __init__(self) -> None:
+        self.scopes: dict[str, dict[str, list[Row]]] = {}
+
+    def take(self, patch: Mapping[str, Any]) -> None:
+        """Apply a patch."""
+        scope = patch["of"]
+        if patch.get("all"):
+            self.scopes[scope] = {}
+        panels = self.scopes[scope]
+        panels.update(patch.get("panels", {}))
+        changes = patch.get("rows", {})
+        for name, rows in panels.items():
+            if any(row["id"] in changes for row in rows):
+                panels[name] = [_patched(row, changes.get(row["id"])) for row in rows]
+
+    def by_id(self) -> dict[str, Row]:
+        """The rows by id, in the order of their panels."""
+        return {
+            row["id"]: {**row, "panel": name}
+            for panels in list(self.scopes.values())
+            for name, rows in list(panels.items())
+            for row in rows
+        }
 
 
-def _merged(whole: Any, changes: Any) -> dict[str, Row]:
-    panels: dict[str, list[Row]] = dict(whole["panels"])
-    patches: dict[str, Row] = {}
-    if changes is not None and changes["base"] == whole["base"]:
-        panels |= changes["panels"]
-        patches = changes["rows"]
-    rows = {
-        row["id"]: {**row, "panel": name}
-        for name, panel in panels.items()
-        for row in panel
-    }
-    for row_id, patch in patches.items():
-        if row_id in rows:
-            new = rows[row_id] | patch
-            rows[row_id] = {
-                key: value for key, value in new.items() if value is not None
-            }
-    return rows
+def _patched(row: Row, patch: Row | None) -> Row:
+    new = row | (patch or {})
+    return {key: value for key, value in new.items() if value is not None}
 
 
 def named(rows: Mapping[str, Row], names: Sequence[str]) -> Row:

@@ -31,9 +31,10 @@ What it offers:
 `settle` proves without sleeping that "nothing arrived" is final. The client writes to
 a text field of its own; the server's answer takes the same way as everything
 that was queued before it, once through the buffer of all browsers and once through the
-buffer of this one. viser keeps the order in both directions, so what was sent before
-`settle` has been handled (as far as its callbacks are `async def` and wait for nothing
-but the sessions' workers), and every message that came of it has arrived, changes of
+buffer of this one; and a ping of the page's own channel is answered behind the rows.
+Both keep the order in both directions, so what was sent before has been handled
+(as far as its callbacks are `async def` and wait for nothing but the sessions'
+workers), and every message that came of it has arrived, changes of
 rows too, which are held back for a moment. What a program holds back for longer, such
 as the later poses of a stream, comes when its timer says so: wait for that with
 `wait_until`. The messages of the fence itself are left out of `messages`.
@@ -42,6 +43,9 @@ as the later poses of a stream, comes when its timer says so: wait for that with
 from __future__ import annotations
 
 import asyncio
+import json
+import math
+import secrets
 import threading
 import time
 import weakref
@@ -54,16 +58,20 @@ from typing import Any, cast
 import msgspec.msgpack
 import viser
 import zstandard
-from page_rows import Row, named, rows_in
+from page_rows import PageRows, Row, decode, named
 from patience import patience
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
+from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
-from sambot_viz.panels.publisher import PERIOD
-from sambot_viz.server.inbound_filter import EDITS
+from sambot_viz.panels.row_sync import PERIOD
+from sambot_viz.server.channel import PING, PONG, SUBPROTOCOL
 from sambot_viz.session.worker import Worker
 
+ROW_PATCH = "RowPatch"
+"""The type in `messages` of what the channel brings: changes of rows."""
+ROWS_TIME = 5.0
+"""How long the first rows are waited for [s]."""
 FENCE_REQUEST = "~fence request"
 FENCE_REPLY = "~fence reply"
 CAMERA: dict[str, Any] = {
@@ -134,17 +142,29 @@ class ProtocolClient:
         # What goes out to all does not reach a browser with a copy of its own.
         self._sides = ("own",) if path.startswith("/copy") else ("all", "own")
         self._frames = 0
+        self._page_rows = PageRows()
+        self._pongs = 0
         self.replayed = False
         self.closed = False
-        self._socket = connect(
-            f"ws://{host}:{port}{path}",
-            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
-            additional_headers=headers,
-            max_size=None,
-            compression=None,
-        )
-        self._thread = threading.Thread(target=self._read, daemon=True)
-        self._thread.start()
+        ticket = f"{'&' if '?' in path else '?'}ticket={secrets.token_urlsafe(16)}"
+
+        def open_socket(subprotocol: str) -> ClientConnection:
+            return connect(
+                f"ws://{host}:{port}{path}{ticket}",
+                subprotocols=[Subprotocol(subprotocol)],
+                additional_headers=headers,
+                max_size=None,
+                compression=None,
+            )
+
+        self._socket = open_socket(f"viser-v{viser.__version__}")
+        self._channel = open_socket(SUBPROTOCOL)
+        self._threads = [
+            threading.Thread(target=read, daemon=True)
+            for read in (self._read, self._read_channel)
+        ]
+        for thread in self._threads:
+            thread.start()
         self.wait_until(lambda: self.replayed)
         if camera:
             self.send_camera()
@@ -209,13 +229,10 @@ class ProtocolClient:
     @property
     def rows(self) -> dict[str, Row]:
         """The rows of all panels by id, in order, as the page has them now."""
-        contents: dict[str, str] = {}
-        for message in self.messages:
-            fields = message.fields
-            content = fields.get("props", fields.get("updates", {})).get("content")
-            if isinstance(content, str) and "uuid" in fields:
-                contents[fields["uuid"]] = content
-        return rows_in(contents.values())
+        with self._changed:
+            scopes = self._page_rows.scopes
+            self._changed.wait_for(lambda: len(scopes) == 2 or self.closed, ROWS_TIME)
+            return self._page_rows.by_id()
 
     def row(self, row_id: str) -> Row:
         """The row with this id."""
@@ -257,7 +274,11 @@ class ProtocolClient:
     def edit(self, row_id: str, value: Any, gesture: int | None = None) -> None:
         """Set a row; with the same number for all values of one drag."""
         edit = [row_id, value] if gesture is None else [row_id, value, gesture]
-        self.set_value(EDITS, edit)
+        self.send_edit(edit)
+
+    def send_edit(self, edit: Any) -> None:
+        """Send anything through the channel, as the page sends edits."""
+        self._channel.send(json.dumps(_as_in_a_page(edit)))
 
     def act(self, row_id: str, *values: Any) -> None:
         """Do what an action row does."""
@@ -297,16 +318,31 @@ class ProtocolClient:
             return self._fence_request is not None
 
         self.wait_until(is_built, timeout)
+        # What was sent through the channel is handled before the fence is.
+        self._ping(timeout)
         self._fence_count += 1
         wanted = {f"{side} {id(self)} {self._fence_count}" for side in self._sides}
         uuid = cast(str, self._fence_request)
         self.set_value(uuid, f"{id(self)} {self._fence_count}")
         self.wait_until(lambda: wanted <= set(self._fence_values.values()), timeout)
+        # The answer comes behind all rows that have changed so far.
+        self._ping(timeout)
+
+    def _ping(self, timeout: float) -> None:
+        wanted = self._pongs + 1
+        try:
+            self._channel.send(PING)
+        except ConnectionClosed:
+            # A server of viser alone has no channels.
+            return
+        self.wait_until(lambda: self._pongs >= wanted, timeout)
 
     def close(self) -> None:
-        """End the connection and the thread that reads it."""
+        """End both connections and the threads that read them."""
+        self._channel.close()
         self._socket.close()
-        self._thread.join(timeout=5.0)
+        for thread in self._threads:
+            thread.join(timeout=5.0)
 
     # The reading thread.
 
@@ -328,6 +364,33 @@ class ProtocolClient:
                 self.closed = True
                 self._changed.notify_all()
 
+    def _read_channel(self) -> None:
+        try:
+            for frame in self._channel:
+                with self._changed:
+                    self._take_channel(frame)
+                    self._changed.notify_all()
+        except ConnectionClosed:
+            pass
+        finally:
+            with self._changed:
+                # One that has brought nothing may belong to a server without panels.
+                self.closed = self.closed or bool(self._page_rows.scopes)
+                self._changed.notify_all()
+
+    def _take_channel(self, frame: str | bytes) -> None:
+        if frame == PONG:
+            self._pongs += 1
+            return
+        patch = decode(frame)
+        self._page_rows.take(patch)
+        size, on_wire = len(json.dumps(patch)), len(frame)
+        now = time.perf_counter()
+        self._messages.append(
+            Received(ROW_PATCH, patch, size, self._frames, on_wire, now)
+        )
+        self._frames += 1
+
     def _record(self, message: Received) -> None:
         fields = message.fields
         label = fields.get("props", {}).get("label")
@@ -343,6 +406,15 @@ class ProtocolClient:
         else:
             self._messages.append(message)
             self.replayed = self.replayed or message.type == "ReplayDoneMessage"
+
+
+def _as_in_a_page(value: Any) -> Any:
+    """What JSON of a page has in place of a value: it has no infinite numbers."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    if isinstance(value, list | tuple):
+        return [_as_in_a_page(part) for part in cast(list[Any], value)]
+    return value
 
 
 def decode_frame(data: bytes, number: int = 0) -> list[Received]:

@@ -1,17 +1,23 @@
 // @ts-check
-/* What is taken from the page's address before viser reads it.
+/* What is taken from the page's address before viser reads it, and what is put into it.
  *
- * Where the websocket is: in the folder of the page. viser leaves the slash at the end
+ * Where the websockets are: in the folder of the page. viser leaves the slash at the end
  * away, and for /robot/ would ask for /robot, which some proxies (that of Jupyter) answer with
  * a redirect, and a websocket follows none. viser takes the address out of the query; it is
- * gone again when the page is there (rviz_look.js). This runs before viser, not as a module. */
+ * gone again when the page is there (rviz_look.js). The ticket in it belongs to this page as
+ * long as it is open: by it, the server knows which connections are those of one page.
+ * This runs before viser, not as a module. */
 
 // What `permalink.js` opens: viser would drop it.
 window.sambotPermalink = location.hash;
 if (location.hash) history.replaceState(null, "", location.pathname + location.search);
 
-if (location.pathname !== "/" && location.pathname.endsWith("/")) {
+{
+  const ticket = Array.from(crypto.getRandomValues(new Uint8Array(16)), (n) =>
+    n.toString(16).padStart(2, "0"),
+  ).join("");
+  window.sambotSocket = `${location.origin.replace(/^http/, "ws")}${location.pathname}?ticket=${ticket}`;
   const query = new URLSearchParams(location.search);
-  query.set("websocket", location.origin.replace(/^http/, "ws") + location.pathname);
+  query.set("websocket", window.sambotSocket);
   history.replaceState(null, "", `?${query}`);
 }

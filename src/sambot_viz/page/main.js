@@ -12,7 +12,6 @@ import { followPermalinks } from "./wire/permalink.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
 import { followRole } from "./window/people.js";
-import { followScript } from "./window/script_panel.js";
 import { toolKeys } from "./window/toolbar.js";
 import { Window } from "./window/window.js";
 
@@ -36,7 +35,6 @@ const start = () => {
   followConnection();
   followRole();
   followPermalinks();
-  followScript();
   connect();
 };
 // The script may be there before the page's body is.

@@ -15,6 +15,8 @@ interface Window {
   sambotViz?: { view?: { kind: string; focalSize: number; focalFixed: boolean } };
   /** What rviz_look.js has changed, for tests. */
   sambotPermalink?: string;
+  /** The address of the page's own websocket. */
+  sambotSocket?: string;
   sambotVizLook?: Record<string, number>;
   /** The type of view that rviz_mouse.js follows, for tests. */
   sambotVizMouse?: { kind: string };

@@ -11,17 +11,14 @@ from sambot_viz.panels.frames.frames import FramesPanel
 from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.people import OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
-from sambot_viz.panels.publisher import Publisher
-from sambot_viz.panels.row import Answer, Data, Json, Level, Row
+from sambot_viz.panels.row import Answer, Data, Json, Level, LongText, Row
+from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
-
-_PART = 1000
-"""Characters of a part of a text for the clipboard."""
 
 
 class BrowserPanels:
@@ -34,6 +31,9 @@ class BrowserPanels:
         ask_page: makes a page of what is seen; None leaves that out.
         displays: the rows of the displays, for everyone.
         shared_row: finds a row that everyone sees, by its id.
+
+    Attributes:
+        store: the rows, for the page.
     """
 
     def __init__(
@@ -49,12 +49,10 @@ class BrowserPanels:
         self._displays = displays
         self._shared_row = shared_row
         self._browser = browser
-        self._publisher = Publisher(
-            browser.client,
-            session.worker,
-            self._panels(session, files, ask_page),
-            "browser",
+        self._sync = RowSync(
+            session.worker, self._panels(session, files, ask_page), "browser"
         )
+        self.store = self._sync.store
 
     def _panels(
         self, session: Session, files: Files | None, ask_page: AskPage | None
@@ -76,19 +74,19 @@ class BrowserPanels:
 
     def close(self) -> None:
         """Follow the browser no longer."""
-        self._publisher.close()
+        self._sync.close()
 
     def item(self, item_id: str) -> Item | None:
         """Return a row, data or command of this browser."""
-        return self._publisher.item(item_id)
+        return self._sync.item(item_id)
 
     def say(self, sentence: str, level: Level) -> None:
         """Show a sentence in this browser."""
         self._notices.say(sentence, level)
-        self._publisher.remake(self._notices)
+        self._sync.remake(self._notices)
 
     def _remake(self, panel: Panel) -> None:
-        self._publisher.remake(panel)
+        self._sync.remake(panel)
 
     def answer(self, item_id: str, sentence: str) -> None:
         """Say why a value was refused; the page shows the value that holds again.
@@ -99,12 +97,12 @@ class BrowserPanels:
         begin = re.match(r"[a-z]+[ ,]", sentence)
         said = sentence[:1].upper() + sentence[1:] if begin else sentence
         self._notices.say(said, "error", item_id)
-        self._publisher.remake(self._notices)
+        self._sync.remake(self._notices)
 
     def give(self, answer: Answer) -> None:
         """Say something to the browser's user, and fill the clipboard."""
         self._notices.say(answer.say, answer.level, copy=answer.copy)
-        self._publisher.remake(self._notices)
+        self._sync.remake(self._notices)
 
 
 class NoticePanel(Panel):
@@ -126,8 +124,7 @@ class NoticePanel(Panel):
             "text": sentence,
             "level": level,
             "row": row_id,
-            # In parts, because a long line of a value is cut.
-            "copy": [copy[at : at + _PART] for at in range(0, len(copy), _PART)],
+            "copy": LongText(copy),
         }
 
     def data(self) -> Sequence[Data]:

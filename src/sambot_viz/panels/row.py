@@ -38,6 +38,12 @@ LONGEST_NAME = 200
 LONGEST_TEXT = 2000
 
 
+class LongText(str):
+    """A text whose lines may have any length, such as one for the clipboard."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Answer:
     """What the client that has sent a value gets back, from a row's `set` or a command.
@@ -157,8 +163,8 @@ class Data:
 def safe(value: Json) -> Json:
     """Make the texts of a value such that any browser can show them; lines stay."""
     if isinstance(value, str):
-        lines = value.split("\n")
-        return "\n".join(text(line, LONGEST_TEXT) for line in lines)
+        longest = len(value) if isinstance(value, LongText) else LONGEST_TEXT
+        return "\n".join(text(line, longest) for line in value.split("\n"))
     if isinstance(value, dict):
         parts = cast("dict[str, Json]", value)
         return {text(key): safe(part) for key, part in parts.items()}

@@ -15,8 +15,9 @@ from sambot_viz.panels.joints.joints import JointsPanel, PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import PeoplePanel
 from sambot_viz.panels.problems import ProblemsPanel
-from sambot_viz.panels.publisher import Publisher
 from sambot_viz.panels.row import Answer, Row
+from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
@@ -45,9 +46,7 @@ class Window:
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
         self._displays = DisplaysPanel(session, self._remake)
-        self._shared = Publisher(
-            session.audience, session.worker, self._panels(joints), "session"
-        )
+        self._shared = RowSync(session.worker, self._panels(joints), "session")
         session.clients.listeners.append(self._browser)
         for browser in session.clients.all.values():
             self._browser(browser, True)
@@ -93,6 +92,13 @@ class Window:
             panels = self._browsers.pop(browser.client_id, None)
             if panels is not None:
                 panels.close()
+
+    def rows_of(self, client_id: int) -> ClientRows | None:
+        """Return the rows that a client sees; None when it has none yet."""
+        browser = self._browsers.get(client_id)
+        if browser is None:
+            return None
+        return ClientRows((self._shared.store, browser.store))
 
     # What browsers send
 

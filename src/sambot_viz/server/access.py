@@ -30,8 +30,8 @@ import re
 import socket
 from collections.abc import Awaitable, Callable, Generator, Sequence
 from functools import partial
-from typing import Any
-from urllib.parse import urlsplit
+from typing import Any, cast
+from urllib.parse import parse_qs, urlsplit
 
 import viser
 import websockets.asyncio.server
@@ -42,6 +42,7 @@ from websockets.protocol import State
 
 from sambot_viz.options import Options
 from sambot_viz.server import page_files
+from sambot_viz.server.channel import SUBPROTOCOL, Channels
 from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.connection_limit import ConnectionLimiter
 from sambot_viz.server.token_check import TokenCheck
@@ -54,6 +55,7 @@ _NOT_FOR_SALE = (".local", ".lan", ".internal", ".home.arpa")
 """Names with these ends are only known in one network."""
 COPY = "/copy"
 """Below this path, a page shows a private copy of the shared robot."""
+_TICKET = re.compile(r"[A-Za-z0-9_-]{16,64}")
 _ONCE = ("Origin", "Upgrade", "If-None-Match", "Accept-Encoding")
 """Headers that are read, and so may be there once at most."""
 
@@ -164,7 +166,10 @@ def _hostname(host: str) -> str:
 
 @contextlib.contextmanager
 def checked(
-    options: Options, listening: socket.socket | None, largest_message: int
+    options: Options,
+    listening: socket.socket | None,
+    largest_message: int,
+    channels: Channels,
 ) -> Generator[asyncio.Event]:
     """Check every request to a server that is started in here before viser does.
 
@@ -176,6 +181,7 @@ def checked(
         options: where the server listens, and for whom.
         listening: a socket of the file system that listens in place of a port, or None.
         largest_message: a connection that sends a longer one is closed [bytes].
+        channels: serves the channels of the pages.
 
     Yields:
         The event after which clients are given to viser, to be set on the event loop
@@ -193,7 +199,7 @@ def checked(
 
         def check(
             connection: Connection, request: Request
-        ) -> Response | Awaitable[Response] | None:
+        ) -> Response | Awaitable[Response | None] | None:
             refused = _refusal(request, options) or check_token.refusal(request)
             if refused:
                 return refused
@@ -202,11 +208,10 @@ def checked(
             request.path = without_base(request.path, options.base_path)
             request.path, copy = without_copy(request.path)
             presenter = check_token.is_presenter(request)
-            is_page = page_files.is_page(request) and not presenter
-            if is_page and limiter.is_full(connection):
+            connection.context = _context(request, presenter, copy)
+            is_page = page_files.is_page(request) and not connection.context.channel
+            if is_page and not presenter and limiter.is_full(_pages(connection)):
                 return limiter.refusal()
-            if page_files.is_websocket(request):
-                connection.context = ClientContext(presenter, copy)
             try:
                 response = page_files.answer(request, options.panels)
                 if response is None and answer:
@@ -214,6 +219,8 @@ def checked(
             except (OSError, ValueError):
                 # The file name is too long for the system, or contains a NUL.
                 return _plain(http.HTTPStatus.NOT_FOUND, "No such page.")
+            if page_files.is_websocket(request):
+                return response or channels.claim(connection)
             if response is not None:
                 response.headers["Content-Security-Policy"] = content_policy(
                     request.headers["Host"], options.host, options.allowed_origins
@@ -222,7 +229,9 @@ def checked(
             return response
 
         async def handle(connection: ServerConnection) -> None:
-            if connection.subprotocol == _PROTOCOL:
+            if connection.subprotocol == SUBPROTOCOL:
+                await channels.serve(cast(Connection, connection))
+            elif connection.subprotocol == _PROTOCOL:
                 await ready.wait()
                 # One that has left meanwhile has nothing that could be prepared.
                 if connection.state is State.OPEN:
@@ -231,6 +240,13 @@ def checked(
                 # viser would write a line on the terminal for every attempt.
                 await connection.close(_VERSION_MISMATCH, "Version mismatch.")
 
+        select_viser = settings["select_subprotocol"]
+
+        def select(connection: Connection, offered: Sequence[str]) -> Any:
+            own = SUBPROTOCOL in offered
+            return SUBPROTOCOL if own else select_viser(connection, offered)
+
+        settings["select_subprotocol"] = select
         settings["process_request"] = check
         settings["create_connection"] = partial(Connection, limiter)
         # Also for what is sent before the filter reads it.
@@ -244,6 +260,22 @@ def checked(
         yield ready
     finally:
         module.serve = original  # type: ignore[assignment, misc]
+
+
+def _context(request: Request, presenter: bool, copy: bool) -> ClientContext:
+    """Return what a request says of its client."""
+    query = parse_qs(request.path.partition("?")[2])
+    ticket = query.get("ticket", [""])[-1]
+    offered = ",".join(request.headers.get_all("Sec-WebSocket-Protocol"))
+    channel = SUBPROTOCOL in map(str.strip, offered.split(","))
+    known = ticket if _TICKET.fullmatch(ticket) else ""
+    return ClientContext(presenter, copy, known, channel)
+
+
+def _pages(connection: Connection) -> int:
+    """Return how many pages are open: their channels are not counted."""
+    open_now = cast("set[Connection]", connection.server.connections)
+    return sum(not one.context.channel for one in open_now)
 
 
 def _refusal(request: Request, options: Options) -> Response | None:

@@ -43,11 +43,15 @@ class ClientWriter:
             with suppress(OSError):
                 line.setsockopt(socket.IPPROTO_TCP, option, PIECE)
 
-    async def send(self, message: bytes) -> None:
-        """Send a message; disconnect a client that does not take it."""
+    async def send(self, message: str | bytes) -> None:
+        """Send a message; disconnect a client that does not take it.
+
+        Args:
+            message: bytes, or a text that is shorter than a piece.
+        """
         timer = StallTimer(self)
         try:
-            if len(message) <= PIECE:
+            if isinstance(message, str) or len(message) <= PIECE:
                 self._given += len(message)
                 await self._connection.send(message)
             else:

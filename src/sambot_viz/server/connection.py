@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection
-from websockets.exceptions import ProtocolError
+from websockets.exceptions import ConnectionClosed, ProtocolError
 from websockets.frames import CTRL_OPCODES, Frame, Opcode
+from websockets.protocol import State
 from websockets.typing import Data
 
 from sambot_viz.server.client_writer import ClientWriter
@@ -30,10 +31,14 @@ class ClientContext:
     Attributes:
         presenter: whether it was opened by the presenter's link.
         copy: whether it is to show a private copy of the shared session.
+        ticket: which page it belongs to; "" for a program that has sent none.
+        channel: whether it is a page's channel, and not viser's connection.
     """
 
     presenter: bool = False
     copy: bool = False
+    ticket: str = ""
+    channel: bool = False
 
 
 class Connection(ServerConnection):
@@ -47,6 +52,9 @@ class Connection(ServerConnection):
         writer: sends to it.
         read: reads the next message that may be handled; the inbound filter when
             there is one.
+        client_id: viser's number of the client; None for a channel.
+        client: for a channel, the connection to viser of the same page.
+        on_lost: called when the connection has ended.
     """
 
     def __init__(
@@ -56,6 +64,9 @@ class Connection(ServerConnection):
         self.context = ClientContext()
         self.writer = ClientWriter(self)
         self.read: Callable[[], Awaitable[Data]] = self.receive
+        self.client_id: int | None = None
+        self.client: Connection | None = None
+        self.on_lost: Callable[[], object] = lambda: None
         self._limiter = limiter
         self._limit_small_frames()
 
@@ -85,6 +96,24 @@ class Connection(ServerConnection):
         """Return the next message, whatever it is."""
         return await super().recv()
 
+    async def answers(self, timeout: float) -> bool:
+        """Return whether the other side answers a ping in time [s], or reads on."""
+        if self.state is State.CONNECTING:
+            return True
+
+        async def ping() -> None:
+            await (await self.ping())
+
+        taken = self.writer.taken()
+        try:
+            await asyncio.wait_for(ping(), timeout)
+        except ConnectionClosed:
+            return False
+        except asyncio.TimeoutError:
+            # On a slow line the ping waits behind what is sent.
+            return self.writer.taken() > taken
+        return True
+
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Count a new connection."""
         super().connection_made(transport)
@@ -102,4 +131,5 @@ class Connection(ServerConnection):
     def connection_lost(self, exc: Exception | None) -> None:
         """Make place for another one."""
         self._limiter.lost(self)
+        self.on_lost()
         super().connection_lost(exc)

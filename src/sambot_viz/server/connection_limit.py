@@ -19,8 +19,9 @@ from sambot_viz.server.page_files import plain_page
 
 MOST_PAGES = 200
 """So many pages may be open."""
-MOST_CONNECTIONS = 500
-"""So many connections, also of those that have not asked for anything yet."""
+MOST_CONNECTIONS = 600
+"""So many connections, two for each page; also of those that have not asked for
+anything yet."""
 _OWN_FILES = 400
 """Of the system's file numbers, so many are left: for files, and for connections that
 the event loop accepts, 100 at a time, before they are counted."""
@@ -45,9 +46,9 @@ class ConnectionLimiter:
         """Forget a connection that has ended."""
         self._open.discard(connection)
 
-    def is_full(self, connection: ServerConnection) -> bool:
-        """Return whether so many pages are open that this one has no place."""
-        return len(connection.server.connections) >= MOST_PAGES
+    def is_full(self, pages: int) -> bool:
+        """Return whether so many pages are open that one more has no place."""
+        return pages >= MOST_PAGES
 
     def refusal(self) -> Response:
         """Return the answer to a page too many."""

@@ -2,12 +2,13 @@
 
 viser itself takes any message from anyone: any attribute of a widget, uploads of any
 size, values that cannot be sent to the other browsers. Here a client may report its
-camera, edit a row of the panels, set a visible and enabled widget that a script has
+camera, set a visible and enabled widget that a script has
 added to a value of the widget's type, click or draw a rectangle with the current tool,
 and send the picture that it was asked for. Everything else is dropped: clicks on nodes,
 drags, transform controls, buttons that are held, keys of commands, forms, uploads.
 Nothing is accepted from a browser before its first camera, because viser runs no
-callback, and so none of our checks, before that.
+callback, and so none of our checks, before that. What concerns our rows comes through
+the page's own channel (`server.channel`).
 
 A message is limited in size, and a browser in messages per second: one that sends more
 is slowed down, by reading less from its connection. One that does not read what it is
@@ -27,7 +28,7 @@ import viser
 from websockets.protocol import State
 
 from sambot_viz import viser_private
-from sambot_viz.panels import validation
+from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.server.client_messages import (
     CameraMoved,
     ClientMessage,
@@ -55,9 +56,6 @@ _LARGEST_INT = 2**53
 
 _log = logging.getLogger(__name__)
 
-EDITS = "sambot-viz"
-"""A value for the widget of this id is an edit of one of our rows."""
-
 
 class ClientHandler(Protocol):
     """Takes what has passed the filter; the clients are named by their numbers."""
@@ -74,6 +72,10 @@ class ClientHandler(Protocol):
         """Run an action, in any thread, behind all that a client has caused."""
         ...
 
+    def rows_of(self, client_id: int) -> ClientRows | None:
+        """Return the rows that a client sees; None when it has none yet."""
+        ...
+
 
 class NoSessions:
     """Handles clients as long as there is no session: their edits are dropped."""
@@ -88,6 +90,10 @@ class NoSessions:
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
         """Run an action."""
         action()
+
+    def rows_of(self, client_id: int) -> ClientRows | None:
+        """Return that there are no rows."""
+        return None
 
 
 class InboundFilter:
@@ -129,10 +135,7 @@ class InboundFilter:
             message = decode(raw) if isinstance(raw, bytes) else None
             reason = self._reason_against(message)
             if reason is not None:
-                _report(self._client_id, reason)
-            elif isinstance(message, SetValue) and message.uuid == EDITS:
-                edit = message.updates["value"]
-                self._handler().take_edit(self._client_id, edit)
+                report(self._client_id, reason)
             else:
                 return cast(bytes, raw)
 
@@ -158,9 +161,6 @@ class InboundFilter:
     def _reason_against_value(self, message: SetValue) -> str | None:
         if set(message.updates) != {"value"}:
             return "an attribute of a widget other than its value"
-        if message.uuid == EDITS:
-            known = validation.read(message.updates["value"]) is not None
-            return None if known else "what is not an edit"
         handle = self._usable(message.uuid)
         if handle is None:
             return "a value for a widget that is not there, hidden or disabled"
@@ -215,9 +215,9 @@ def _reason_against_gesture(message: Point) -> str | None:
 _next_report = 0.0
 
 
-def _report(client_id: int, reason: str) -> None:
+def report(client_id: int | None, reason: str) -> None:
     """Log that a message was dropped; rarely, because there may be many."""
     global _next_report
     if (now := time.monotonic()) >= _next_report:
         _next_report = now + LOG_PERIOD
-        _log.warning("browser %d: dropped %s", client_id, reason)
+        _log.warning("client %s: dropped %s", client_id, reason)

@@ -20,13 +20,13 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import access, outbox
+from sambot_viz.server.channel import Channels
 from sambot_viz.server.connection import Connection
 from sambot_viz.server.inbound_filter import (
     CLOSE_TIME,
     LARGEST_MESSAGE,
     ClientHandler,
     InboundFilter,
-    NoSessions,
 )
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
@@ -39,15 +39,17 @@ class Listener:
     Args:
         server: the viser server; it has no client yet.
         options: the address, the base path, and the secrets of the links.
+        channels: the channels of the pages.
 
     Attributes:
         viser: the viser server.
-        handler: takes what the clients edit.
     """
 
-    def __init__(self, server: viser.ViserServer, options: Options) -> None:
+    def __init__(
+        self, server: viser.ViserServer, options: Options, channels: Channels
+    ) -> None:
         self.viser = server
-        self.handler: ClientHandler = NoSessions()
+        self._channels = channels
         self._options = options
         self._socket_file = options.unix_socket
         outbox.prepare(server)
@@ -56,10 +58,24 @@ class Listener:
     def _prepare(self, client_id: int, connection: ServerConnection) -> None:
         """Prepare the connection of a client before anything is read or sent."""
         own = cast(Connection, connection)
+        own.client_id = client_id
         own.writer.prepare()
         outbox.prepare_own(self.viser, client_id)
         own.close_timeout = CLOSE_TIME
-        own.read = InboundFilter(self.viser, lambda: self.handler, client_id, own).read
+        own.read = InboundFilter(
+            self.viser, lambda: self._channels.handler, client_id, own
+        ).read
+
+    def give(self, handler: ClientHandler) -> None:
+        """Give what the clients edit to a program, which has the rows of the pages."""
+        self._channels.handler = handler
+
+    def tell_joined(self) -> None:
+        """Send rows to the clients that have some now; in any thread."""
+        # A loop that has ended already has no clients.
+        with suppress(RuntimeError):
+            loop = self.viser.get_event_loop()
+            loop.call_soon_threadsafe(self._channels.tell_joined)
 
     def url(self, host: str = "", *, presenter: bool = False) -> str:
         """Return the address to open in a browser: "http://127.0.0.1:8080".
@@ -141,10 +157,11 @@ def listen(options: Options) -> Listener:
         listening = _bind_in_file_system(path)
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
-    checked = access.checked(options, listening, LARGEST_MESSAGE)
+    channels = Channels()
+    checked = access.checked(options, listening, LARGEST_MESSAGE, channels)
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
-    listener = Listener(server, options)
+    listener = Listener(server, options, channels)
     # Clients that were quicker than this wait for it; also those of a server that is
     # closed at once, which would wait for them.
     server.get_event_loop().call_soon_threadsafe(ready.set)

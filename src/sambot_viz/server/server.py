@@ -67,7 +67,8 @@ class Server:
             self._viser, options, make_config, models, poses, files, ask_page
         )
         self._sessions = sessions
-        self._listener.handler = sessions
+        sessions.on_joined = self._listener.tell_joined
+        self._listener.give(sessions)
         prepare_page(self._viser)
         outbox.keep_apart(self._viser, sessions.has_copy)
         if options.session == "shared":

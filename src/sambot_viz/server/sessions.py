@@ -17,6 +17,7 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.panels.files import AskPage, Files
+from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
@@ -49,6 +50,7 @@ class Sessions:
         shared: the session of all browsers; None when each has its own.
         meshes: what was read of mesh files, for all of them.
         robot: what is shown in all of them.
+        on_joined: called when a client has its rows, in any thread.
     """
 
     def __init__(
@@ -79,6 +81,7 @@ class Sessions:
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._closed = False
+        self.on_joined: Callable[[], object] = lambda: None
 
     def open_shared(self) -> None:
         """Open the session of all browsers.
@@ -159,6 +162,7 @@ class Sessions:
                 self._windows[session] = Window(
                     session, self._options.gui, files, self._ask_page
                 )
+        self.on_joined()
 
     def refresh(self) -> None:
         """Draw again what comes from mesh files and textures that have changed."""
@@ -254,6 +258,12 @@ class Sessions:
         if window is not None:
             window.receive(client_id, edit)
 
+    def rows_of(self, client_id: int) -> ClientRows | None:
+        """Return the rows that a client sees; None when it has none yet."""
+        session = self._session_of(client_id)
+        window = None if session is None else self._windows.get(session)
+        return None if window is None else window.rows_of(client_id)
+
     def may_edit(self, client_id: int) -> bool:
         """Whether a browser may use the widgets of a program, which all have."""
         return self.shared is None or self.shared.roles.may_edit(client_id)
@@ -311,6 +321,7 @@ class Sessions:
         session.join(client, presenter=context.presenter)
         with self._joined:
             self._joined.notify_all()
+        self.on_joined()
 
     def _open_copy(
         self, shared: Session, client: viser.ClientHandle, worker: Worker

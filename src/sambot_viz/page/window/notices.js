@@ -59,7 +59,7 @@ rows.listen(WATCHING, () => tell("View only: request control, or open your own c
 
 rows.listen("notice", () => {
   const said = rows.data("notice");
-  if (!said || said.copy?.length) return;
+  if (!said || said.copy) return;
   if (said.row) sayRefused(said.row, said.text);
   else notice.set(said);
 });

@@ -1,15 +1,13 @@
 // @ts-check
-/* The way between the rows and the server.
- *
- * Rows arrive as JSON in elements that viser puts into its own, hidden, control panel.
- * Edits leave as the message that viser's own widgets send. This is the only module
- * that uses viser's names for that.
- */
+/* The way between the rows and the server: rows arrive, and edits leave, on the page's own
+ * websocket. Edits wait here while there is no connection. */
 
 import { Rows, same } from "./rows.js";
+import { Socket } from "./socket.js";
 
 export const rows = new Rows();
-export const CHANNEL = "sambot-viz";
+/** @type {Socket | null} */
+let socket = null;
 
 /** What is heard by those who listen to this key: a user has changed something. */
 export const EDITED = "edited";
@@ -49,25 +47,13 @@ export function send(id, value, gesture) {
   }
   if (!byItself(id)) rows.notify(EDITED);
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
-  const command = rows.knows(id),
-    there = isConnected();
-  // Who hears it notes how things were, and holds edits back.
-  if (online && !there && sent.size) rows.notify(CUT);
+  const command = rows.knows(id);
   if (online) {
-    post(edit);
+    socket?.send(edit);
     waiting.delete(id);
-    if (there) sent.set(id, { edit, at: command ? -Infinity : performance.now() });
+    if (socket?.ready) sent.set(id, { edit, at: command ? -Infinity : performance.now() });
   } else if (!command) holdBack([edit]);
   else if (!byItself(id)) rows.notify(NOT_DONE);
-}
-
-/** @param {any[]} edit */
-function post(edit) {
-  window.__viserMutable?.sendMessage({
-    type: "GuiUpdateMessage",
-    uuid: CHANNEL,
-    updates: { value: edit },
-  });
 }
 
 let online = true;
@@ -80,29 +66,8 @@ const waiting = new Map();
 /** The edits that wait for the connection. */
 export const heldBack = () => [...waiting.values()];
 
-/** Whether there is a connection. */
-export function isConnected() {
-  const sender = window.__viserMutable?.sendMessage;
-  // viser then has a function in this place that only complains.
-  return Boolean(sender) && !String(sender).includes("not connected");
-}
-
 /** End the connection for good: this page has to be loaded again. */
-export function disconnect() {
-  // viser's socket is in a worker that only viser knows; it is found by what is sent to it.
-  const { postMessage } = Worker.prototype;
-  /** @type {Worker | undefined} */
-  let worker;
-  Worker.prototype.postMessage = /** @this {Worker} */ function () {
-    worker = this;
-  };
-  try {
-    post([]);
-  } finally {
-    Worker.prototype.postMessage = postMessage;
-  }
-  worker?.terminate();
-}
+export const disconnect = () => socket?.leave();
 
 /** Hold edits back from now on. */
 export function goOffline() {
@@ -153,7 +118,7 @@ export function sendHeldBack(now = (id) => id) {
     if (there === undefined) continue;
     waiting.delete(id);
     if (there === null) dropped += 1;
-    else post([there, ...edit.slice(1)]);
+    else socket?.send([there, ...edit.slice(1)]);
   }
   return dropped;
 }
@@ -170,30 +135,11 @@ export function mayChange() {
   return !rows.watching;
 }
 
-/** @type {WeakMap<Node, string>} */
-const taken = new WeakMap();
-
-function take() {
-  /** @type {NodeListOf<HTMLScriptElement>} */
-  const elements = document.querySelectorAll("script[data-sambot]");
-  // All rows before what has changed since.
-  for (const what of /** @type {const} */ (["rows", "changes"])) {
-    for (const element of elements) {
-      const { sambot, of: scope = "session" } = element.dataset;
-      const text = element.textContent || "";
-      if (sambot !== what || taken.get(element) === text) continue;
-      taken.set(element, text);
-      const part = JSON.parse(text);
-      const before = rows.whole.get(scope);
-      // A short interruption, or one while the tab was in the background, was not seen.
-      if (what === "rows" && before && before.from !== part.from) rows.notify(CUT);
-      rows.take(scope, what, part);
-    }
-  }
-}
-
-/** Take rows from now on. */
-export function connect() {
-  new MutationObserver(take).observe(document.body, { childList: true, subtree: true });
-  take();
+/** Take rows from now on. @param {string} [address] of the server */
+export function connect(address = window.sambotSocket || "") {
+  socket = new Socket(address, {
+    take: (part) => rows.take(part.of, part),
+    // Who hears it notes how things were, and holds edits back.
+    lost: () => rows.notify(CUT),
+  });
 }

@@ -1,6 +1,6 @@
 // @ts-check
 /* What the page says when it has lost its connection to the server, and when it is back.
- * viser reconnects by itself, once a second. A browser slows that down after some failures,
+ * Both connections are tried again once a second. A browser slows that down after some failures,
  * until viser never gets through: then the page is loaded again, with view and folds.
  * So it is when a user comes back to a page that the browser has kept while another address
  * was shown: it would stay connected, and count as one that is looked at. */
@@ -14,7 +14,6 @@ import {
   goOnline,
   heldBack,
   holdBack,
-  isConnected,
   rows,
   sendHeldBack,
   WAITING,
@@ -37,8 +36,6 @@ import { Cell, folds, useData, useRow } from "../state.js";
 /** @typedef {import("./reconnect.js").Memory} Memory */
 /** @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is loaded again has kept */
 
-/** How often the page looks [ms]. */
-const PERIOD = 250;
 /** How long the server answers without viser getting through, before a new start [ms]. */
 const STUCK = 6000;
 /** Where the page keeps what it must not forget when it is loaded again. */
@@ -52,8 +49,7 @@ const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
 export function followConnection() {
-  let was = false,
-    lost = false,
+  let lost = false,
     stuck = false;
   let kept = takeKept();
   /** How things were before the connection was lost. @type {Memory | null} */
@@ -75,11 +71,6 @@ export function followConnection() {
     );
   };
   rows.listen(CUT, cut);
-  setInterval(() => {
-    const now = isConnected();
-    if (was && !now) cut();
-    was = now;
-  }, PERIOD);
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
     if (!before || !(lost || kept)) return;

@@ -2,8 +2,8 @@
 /* What the server describes: rows, which trees show, data, which scripts read, and
  * commands, which the page can call.
  *
- * They come in two parts: all of them, and all that has changed since. Some are of the
- * session, for everyone, and some of this browser alone.
+ * All of them come first, and then what changes. Some are of the session, for everyone, and
+ * some of this client alone.
  */
 
 /**
@@ -15,8 +15,9 @@
  * }} Row
  *   local: viewers may set it too
  * @typedef {{id: string, kind: "data" | "command", value?: any, local?: boolean}} Other
- * @typedef {{base: number, from?: string, panels: Record<string, (Row | Other)[]>, rows?: Record<string, any>}} Part
- *   from: another one is of another connection or program
+ * @typedef {{all?: boolean, panels?: Record<string, (Row | Other)[]>, rows?: Record<string, any>}}
+ *   Part
+ *   all: nothing of what came before holds
  */
 
 export class Rows {
@@ -32,8 +33,8 @@ export class Rows {
     /** The ids of the rows below a row, by its id; those at the top by "panel:NAME".
      * @type {Map<string, string[]>} */
     this.below = new Map();
-    /** @type {Map<string, Part>} */
-    this.whole = new Map();
+    /** The names of the panels, by whose rows they show. @type {Map<string, string[]>} */
+    this.names = new Map();
     /** @type {Map<string, Set<() => void>>} */
     this.listeners = new Map();
     /** What the server has said of rows that show something newer. @type {Map<string, any>} */
@@ -52,24 +53,21 @@ export class Rows {
   }
 
   /**
-   * Take a part that the server has sent.
+   * Take what the server has sent.
    * @param {string} scope "session" or "browser"
-   * @param {"rows" | "changes"} what
    * @param {Part} part
    */
-  take(scope, what, part) {
+  take(scope, { all = false, panels = {}, rows: patches = {} }) {
     const touched = new Set();
-    if (what === "rows") {
+    if (all) {
       // A server that was started again may have fewer panels.
-      for (const name of Object.keys(this.whole.get(scope)?.panels || {}))
-        if (!(name in part.panels)) this.replace(name, [], touched);
-      this.whole.set(scope, part);
+      for (const name of this.names.get(scope) || [])
+        if (!(name in panels)) this.replace(name, [], touched);
+      this.names.set(scope, Object.keys(panels));
       touched.add(`whole:${scope}`);
-      for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
-    } else if (this.whole.get(scope)?.base === part.base) {
-      for (const [name, rows] of Object.entries(part.panels)) this.replace(name, rows, touched);
-      for (const [id, patch] of Object.entries(part.rows || {})) this.patch(id, patch, touched);
     }
+    for (const [name, items] of Object.entries(panels)) this.replace(name, items, touched);
+    for (const [id, patch] of Object.entries(patches)) this.patch(id, patch, touched);
     for (const key of touched) this.notify(key);
   }
 

@@ -1,0 +1,115 @@
+// @ts-check
+/* The page's own websocket, beside viser's: messages in, edits out, and whether it is there.
+ *
+ * Its address names the ticket of the page (address.js), as that of viser does: so the server
+ * knows that both belong to one client. The server closes it when viser's connection ends.
+ */
+
+const SUBPROTOCOL = "sambot-viz-1";
+/** How long after the end of a connection the page tries again, at first and later [ms]. */
+const RETRIES = [100, 1000];
+/** How often the page asks whether the server is there [ms]. */
+const HEARTBEAT = 10_000;
+/** How long it may take to answer [ms]. */
+const ANSWER = 5000;
+/** The page closes its connections for good. */
+const PAGE_LEFT = 4002;
+
+/** @typedef {{take: (message: any) => void, lost: () => void}} Follower */
+
+export class Socket {
+  /**
+   * @param {string} address
+   * @param {Follower} follower takes messages, and hears when the connection is lost
+   */
+  constructor(address, follower) {
+    this.address = address;
+    this.follower = follower;
+    /** Whether messages have come: the server knows the page, and takes its edits. */
+    this.ready = false;
+    /** When the server was heard last. */
+    this.heard = 0;
+    this.failed = 0;
+    /** @type {WebSocket | null} */
+    this.socket = null;
+    this.open();
+    setInterval(() => this.ask(), HEARTBEAT);
+    // After a sleep or a change of networks the page need not wait for its turn.
+    addEventListener("online", () => this.ask());
+    document.addEventListener("visibilitychange", () => {
+      if (document.visibilityState === "visible") this.ask();
+    });
+  }
+
+  open() {
+    const socket = new WebSocket(this.address, [SUBPROTOCOL]);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    // Messages are taken in their order; one that has to be unpacked holds up the others.
+    let last = Promise.resolve();
+    socket.onmessage = ({ data }) => {
+      this.heard = Date.now();
+      last = last.then(async () => {
+        const message = await decoded(data);
+        if (this.socket === socket && message !== "pong") this.take(message);
+      });
+    };
+    socket.onclose = () => {
+      // One that was given up may end much later.
+      if (this.socket === socket) this.end();
+    };
+  }
+
+  /** @param {any} message */
+  take(message) {
+    this.failed = 0;
+    this.ready = true;
+    this.follower.take(message);
+  }
+
+  /** The connection is lost: try again, until the page is closed. */
+  end() {
+    const was = this.ready;
+    this.socket = null;
+    this.ready = false;
+    if (was) this.follower.lost();
+    setTimeout(() => this.open(), RETRIES[Math.min(this.failed++, RETRIES.length - 1)]);
+  }
+
+  /** Ask whether the server is there, and give the connection up when it does not answer. */
+  ask() {
+    const { socket } = this;
+    if (!socket || !this.ready) return;
+    const at = Date.now();
+    socket.send('"ping"');
+    setTimeout(() => {
+      if (this.socket !== socket || this.heard >= at) return;
+      // This timer ran late, perhaps after a sleep: what has come meanwhile was not read yet.
+      if (Date.now() - at > 2 * ANSWER) return this.ask();
+      socket.close();
+      this.end();
+    }, ANSWER);
+  }
+
+  /** Send a message, if there is a connection. @param {any} message */
+  send(message) {
+    if (this.ready) this.socket?.send(JSON.stringify(message));
+  }
+
+  /** End all connections of this page for good: it has to be loaded again. */
+  leave() {
+    const { socket } = this;
+    this.socket = null;
+    this.ready = false;
+    socket?.close(PAGE_LEFT);
+  }
+}
+
+/** What a frame says: JSON, in a binary frame behind its kind. @param {string | ArrayBuffer} data */
+async function decoded(data) {
+  if (typeof data === "string") return JSON.parse(data);
+  const [kind] = new Uint8Array(data, 0, 1);
+  if (kind !== 1) throw new Error(`unknown kind of frame: ${kind}`);
+  const packed = new Blob([new Uint8Array(data, 1)]).stream();
+  return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).json();
+}

@@ -1,0 +1,158 @@
+"""The rows of a session or of one client, and what a page lacks of them.
+
+Every change has a number. A page that has all changes up to one of them gets what has
+changed since, as it is now: a slow page skips what lies between, and nothing is kept
+for it but its number.
+"""
+
+from __future__ import annotations
+
+import gzip
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import Literal
+
+import msgspec
+
+from sambot_viz.panels.row import Json
+
+LONG = 4096
+"""A longer patch is sent compressed, in a binary frame [bytes]."""
+COMPRESSED = b"\1"
+"""The first byte of a binary frame: a message in JSON, compressed by gzip. Other
+numbers are for what is not JSON, such as images."""
+
+Scope = Literal["session", "browser"]
+
+
+class RowStore:
+    """Rows by panel, each part with the number of its last change.
+
+    Rows are changed with the session locked, and read on the event loop at any moment.
+
+    Args:
+        scope: whose state they show.
+
+    Attributes:
+        version: the number of the last change; 0 before the first.
+        listeners: called after changes, with the session locked.
+    """
+
+    def __init__(self, scope: Scope) -> None:
+        self.version = 0
+        self.listeners: list[Callable[[], object]] = []
+        self._scope = scope
+        # The event loop must not wait for a session's lock, which is held while a robot
+        # is drawn; this one is held for the moment of a change or of a patch.
+        self._lock = threading.Lock()
+        self._rows: dict[str, dict[str, Json]] = {}
+        self._panels: dict[str, list[str]] = {}
+        self._replaced: dict[str, int] = {}
+        # The rows that were changed last are at the end.
+        self._changed: dict[str, dict[str, int]] = {}
+        self._packed: dict[int, str | bytes] = {}
+
+    def get(self, row_id: str) -> Mapping[str, Json] | None:
+        """Return a row as the page has it; None when there is none."""
+        return self._rows.get(row_id)
+
+    def replace(self, panel: str, rows: Sequence[dict[str, Json]]) -> None:
+        """Give a panel other rows than before."""
+        with self._lock:
+            for row_id in self._panels.get(panel, ()):
+                self._rows.pop(row_id, None)
+                self._changed.pop(row_id, None)
+            self._panels[panel] = [row["id"] for row in rows]
+            self._rows.update((row["id"], row) for row in rows)
+            self._replaced[panel] = self._next()
+
+    def update(self, row_id: str, patch: Mapping[str, Json]) -> None:
+        """Change some keys of a row; what is None is taken away."""
+        with self._lock:
+            version = self._next()
+            changed = self._changed.pop(row_id, {})
+            # A new dictionary: the old one may be in the hands of the event loop.
+            row = {**self._rows[row_id], **patch}
+            kept = {key: value for key, value in row.items() if value is not None}
+            self._rows[row_id] = kept
+            self._changed[row_id] = changed | dict.fromkeys(patch, version)
+
+    def _next(self) -> int:
+        self._packed.clear()
+        self.version += 1
+        return self.version
+
+    def tell(self) -> None:
+        """Tell the listeners that there is something new."""
+        for listener in tuple(self.listeners):
+            listener()
+
+    def since(self, version: int) -> tuple[int, str | bytes | None]:
+        """Return the present version, and a message with what has changed since one.
+
+        Args:
+            version: of the last message that a page has; 0 for one that has none.
+
+        Returns:
+            None in place of a message when nothing has changed; bytes for a long one.
+        """
+        with self._lock:
+            if version == self.version:
+                return version, None
+            if version not in self._packed:
+                # All pages that are as far as this one get the same.
+                self._packed[version] = _packed(self._patch(version))
+            return self.version, self._packed[version]
+
+    def _patch(self, since: int) -> Json:
+        panels = [name for name, at in self._replaced.items() if at > since]
+        whole = {row_id for name in panels for row_id in self._panels[name]}
+        rows: dict[str, dict[str, Json]] = {}
+        for row_id, changed in reversed(self._changed.items()):
+            if max(changed.values()) <= since:
+                break
+            if row_id not in whole:
+                row = self._rows[row_id]
+                rows[row_id] = {
+                    k: row.get(k) for k, at in changed.items() if at > since
+                }
+        patch: dict[str, Json] = {"of": self._scope}
+        if since == 0:
+            patch["all"] = True
+        if panels:
+            patch["panels"] = {
+                name: [self._rows[row_id] for row_id in self._panels[name]]
+                for name in panels
+            }
+        if rows:
+            patch["rows"] = rows
+        return patch
+
+
+def _packed(patch: Json) -> str | bytes:
+    content = msgspec.json.encode(patch)
+    if len(content) <= LONG:
+        return content.decode()
+    return COMPRESSED + gzip.compress(content, 6, mtime=0)
+
+
+class ClientRows:
+    """All rows that one client sees: those of its session, and its own.
+
+    Args:
+        stores: both, in this order.
+    """
+
+    def __init__(self, stores: Sequence[RowStore]) -> None:
+        self.stores = tuple(stores)
+
+    def listen(self, listener: Callable[[], object]) -> Callable[[], None]:
+        """Call a listener after changes; returns a function that ends that."""
+        for store in self.stores:
+            store.listeners.append(listener)
+
+        def end() -> None:
+            for store in self.stores:
+                store.listeners.remove(listener)
+
+        return end

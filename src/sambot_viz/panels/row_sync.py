@@ -1,0 +1,128 @@
+"""Keep the rows of panels up to date after changes of what they show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+from sambot_viz.panels.panel import Item, Panel
+from sambot_viz.panels.row import Json, safe
+from sambot_viz.panels.row_store import RowStore, Scope
+from sambot_viz.session.signals import connect
+from sambot_viz.session.throttle import Throttle
+from sambot_viz.session.worker import Worker
+
+PERIOD = 0.04
+"""Shortest time between two changes of rows [s]; 50 ms later would be noticed."""
+
+
+class RowSync:
+    """Makes the rows of one session, or of one client, again when they change.
+
+    Args:
+        worker: whose lock is held while rows are made.
+        panels: what makes the rows.
+        scope: whose state they show.
+
+    Attributes:
+        store: the rows, for the pages.
+    """
+
+    def __init__(self, worker: Worker, panels: Sequence[Panel], scope: Scope) -> None:
+        self.store = RowStore(scope)
+        self._worker = worker
+        self._panels = tuple(panels)
+        # None: its rows were not made yet.
+        self._items: dict[str, dict[str, Item] | None] = {p.name: None for p in panels}
+        self._remake: set[Panel] = set()
+        self._move: set[Panel] = set()
+        self._followed = False
+        self._throttle = Throttle(worker, PERIOD, self._publish)
+        self._slow = {
+            panel: Throttle(worker, panel.period, partial(self._moved, panel))
+            for panel in panels
+            if panel.period > PERIOD
+        }
+        for panel in self._panels:
+            self._make(panel)
+        self._disconnect = [
+            ending for panel in self._panels for ending in self._connect(panel)
+        ]
+
+    def close(self) -> None:
+        """Follow no changes from now on."""
+        for disconnect in self._disconnect:
+            disconnect()
+        self._throttle.close()
+        for throttle in self._slow.values():
+            throttle.close()
+        for panel in self._panels:
+            panel.close()
+
+    def item(self, item_id: str) -> Item | None:
+        """Return the row, data or command of this id, if there is one at present."""
+        for items in self._items.values():
+            if items is not None and item_id in items:
+                return items[item_id]
+        return None
+
+    def _connect(self, panel: Panel) -> Iterator[Callable[[], None]]:
+        """Show a change of what a panel shows, all panels together."""
+        request = self._throttle.request
+        yield connect(panel.remade_by, partial(self._remake.add, panel))
+        yield connect(panel.remade_by, request, sends=True)
+        if panel in self._slow:
+            yield connect(panel.moved_by, self._slow[panel].request)
+        else:
+            yield connect(panel.moved_by, partial(self._move.add, panel))
+            yield connect(panel.moved_by, request, sends=True)
+
+    def _moved(self, panel: Panel) -> None:
+        with self._worker.lock:
+            # Where nothing has changed, the next step need not wait for a period.
+            if self._follow(panel):
+                self._followed = True
+                self._throttle.request()
+
+    def remake(self, panel: Panel) -> None:
+        """Make the rows of a panel again, soon."""
+        self._remake.add(panel)
+        self._throttle.request()
+
+    def _publish(self) -> None:
+        with self._worker.lock:
+            remake, move = {*self._remake}, self._move - self._remake
+            self._remake.clear()
+            self._move.clear()
+            changed = [self._make(panel) for panel in self._panels if panel in remake]
+            changed += [self._follow(panel) for panel in self._panels if panel in move]
+            followed, self._followed = self._followed, False
+            if followed or any(changed):
+                self.store.tell()
+
+    def _make(self, panel: Panel) -> bool:
+        """Make the rows of a panel; returns whether the page has to show others."""
+        made = {item.id: item for item in panel.items()}
+        before, self._items[panel.name] = self._items[panel.name], made
+        new = {item_id: item.json() for item_id, item in made.items()}
+        if before is None or list(before) != list(new):
+            self.store.replace(panel.name, list(new.values()))
+            return True
+        return any([self._update(row_id, value) for row_id, value in new.items()])
+
+    def _update(self, row_id: str, new: dict[str, Json]) -> bool:
+        old = self.store.get(row_id) or {}
+        patch = {key: value for key, value in new.items() if old.get(key) != value}
+        patch |= {key: None for key in old if key not in new}
+        if patch:
+            self.store.update(row_id, patch)
+        return bool(patch)
+
+    def _follow(self, panel: Panel) -> bool:
+        changed = False
+        for row_id, value in panel.values().items():
+            row = self.store.get(row_id)
+            if row is not None and row.get("value") != (shown := safe(value)):
+                self.store.update(row_id, {"value": shown})
+                changed = True
+        return changed

@@ -1,0 +1,276 @@
+"""The page's own websocket, beside viser's: rows out, edits in.
+
+It is on the same port and behind the same checks as viser's connection, with a
+subprotocol of its own. A page makes a ticket when it is loaded and names it in the
+addresses of both (``?ticket=``); so the two are known to be one client. A ticket that
+is in use is refused: two pages with one ticket do not mix.
+
+The server sends JSON objects: what the page lacks of the rows (`panels.row_store`), as
+text or, when long, compressed in a binary frame. The page sends JSON lists: an edit, or
+what a button does (`panels.validation`). It may ask ``"ping"`` at any time and is
+answered ``"pong"`` behind everything that its edits before have changed so far; a page
+that gets no answer knows that its connection is lost.
+
+A patch is made when the connection can take one. So a slow page gets the newest state,
+and no queue.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import http
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from typing import Any
+
+import msgspec
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Response
+from websockets.protocol import State
+
+from sambot_viz.panels import validation
+from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.server.connection import Connection
+from sambot_viz.server.inbound_filter import (
+    BURST,
+    CLOSE_TIME,
+    MESSAGES_PER_SECOND,
+    ClientHandler,
+    NoSessions,
+    report,
+)
+from sambot_viz.server.page_files import plain_page
+from sambot_viz.server.rate_limit import InFlightLimit, TokenBucket
+
+SUBPROTOCOL = "sambot-viz-1"
+"""Another number: an older page cannot talk to this server."""
+ANSWER_TIME = 2.0
+"""Who has a ticket, and does not answer for so long, is gone [s]."""
+WAIT_FOR_CLIENT = 30.0
+"""A channel whose page has no connection to viser is closed after so long [s]."""
+CLIENT_LEFT = 4001
+"""The channel is closed because the page's connection to viser has ended."""
+PAGE_LEFT = 4002
+"""The page closes its channel for good: it is not shown any more."""
+PING, PONG = '"ping"', '"pong"'
+
+
+class Channels:
+    """Joins the two connections of each page by their tickets.
+
+    Attributes:
+        handler: has the rows, and takes the edits.
+    """
+
+    def __init__(self) -> None:
+        self.handler: ClientHandler = NoSessions()
+        self._clients: dict[str, Connection] = {}
+        self._channels: dict[str, Connection] = {}
+        self._changed = asyncio.Event()
+        self._closing: set[asyncio.Task[None]] = set()
+
+    def claim(
+        self, connection: Connection
+    ) -> Response | Awaitable[Response | None] | None:
+        """Give a new connection its ticket; returns a refusal when it is in use."""
+        context = connection.context
+        if not context.ticket:
+            return _in_use() if context.channel else None
+        holder = self._holders(connection).get(context.ticket)
+        if holder is not None:
+            return self._take_over(connection, holder)
+        self._hold(connection)
+        return None
+
+    async def _take_over(
+        self, connection: Connection, holder: Connection
+    ) -> Response | None:
+        """Give a ticket to a page that has lost its connection without a word.
+
+        After a change of networks, the server may believe for a minute that the old
+        connection is there.
+        """
+        alive = await holder.answers(ANSWER_TIME)
+        holders, ticket = self._holders(connection), connection.context.ticket
+        # Another one may have taken it meanwhile.
+        if alive or holders.get(ticket, holder) is not holder:
+            return _in_use()
+        holder.transport.abort()
+        self._hold(connection)
+        return None
+
+    def _holders(self, connection: Connection) -> dict[str, Connection]:
+        return self._channels if connection.context.channel else self._clients
+
+    def _hold(self, connection: Connection) -> None:
+        holders, ticket = self._holders(connection), connection.context.ticket
+
+        def release() -> None:
+            if holders.get(ticket) is connection:
+                del holders[ticket]
+            if not connection.context.channel:
+                self._client_left(connection)
+
+        holders[ticket] = connection
+        connection.on_lost = release
+
+    def _client_left(self, client: Connection) -> None:
+        channel = self._channels.get(client.context.ticket)
+        # One that waits for the next connection of its page goes on waiting.
+        if channel is not None and channel.client is client:
+            closing = channel.close(CLIENT_LEFT, "the connection to viser has ended")
+            # The loop itself keeps no reference to a task.
+            task = asyncio.get_running_loop().create_task(closing)
+            self._closing.add(task)
+            task.add_done_callback(self._closing.discard)
+
+    def tell_joined(self) -> None:
+        """Let channels look again whether their clients have rows; on the loop."""
+        # Who waits is woken by `set` alone, and waits again when it was not for him.
+        self._changed.set()
+        self._changed.clear()
+
+    async def serve(self, connection: Connection) -> None:
+        """Serve the channel of one page, until it ends."""
+        connection.writer.prepare()
+        connection.close_timeout = CLOSE_TIME
+        channel = Channel(connection, lambda: self.handler)
+        reading = asyncio.ensure_future(channel.read())
+        writing = asyncio.ensure_future(self._write(channel))
+        try:
+            await asyncio.wait([reading, writing], return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in (reading, writing):
+                task.cancel()
+            ends = await asyncio.gather(reading, writing, return_exceptions=True)
+        for end in ends:
+            expected = (ConnectionClosed, asyncio.CancelledError, asyncio.TimeoutError)
+            if isinstance(end, BaseException) and not isinstance(end, expected):
+                raise end
+        if connection.close_code == PAGE_LEFT:
+            client = self._clients.get(connection.context.ticket)
+            if client is not None:
+                await client.close()
+
+    async def _write(self, channel: Channel) -> None:
+        """Write to a channel, as soon as its client has rows."""
+        connection = channel.connection
+        client, rows = await asyncio.wait_for(
+            self._client_of(connection), WAIT_FOR_CLIENT
+        )
+        connection.client = client
+        assert client.client_id is not None
+        await channel.write(client.client_id, rows)
+
+    async def _client_of(self, connection: Connection) -> tuple[Connection, ClientRows]:
+        """Wait for the client with the same ticket, and for its rows."""
+        context, first = connection.context, True
+        while True:
+            client = self._clients.get(context.ticket)
+            rows = None
+            if client is not None and client.client_id is not None:
+                same = (client.context.presenter, client.context.copy)
+                # A viewer with the ticket of a presenter gets nothing.
+                if same == (context.presenter, context.copy):
+                    rows = self.handler.rows_of(client.client_id)
+            if client is not None and rows is not None:
+                # A page that comes again has perhaps lost both connections.
+                if not first or await client.answers(ANSWER_TIME):
+                    return client, rows
+                client.transport.abort()
+            first = False
+            await self._changed.wait()
+
+
+class Channel:
+    """The channel of one page.
+
+    Args:
+        connection: the connection.
+        handler: gives who takes the edits at present.
+    """
+
+    def __init__(
+        self, connection: Connection, handler: Callable[[], ClientHandler]
+    ) -> None:
+        self.connection = connection
+        self._handler = handler
+        self._client_id: int | None = None
+        self._pings = 0
+        self._news = asyncio.Event()
+
+    async def read(self) -> None:
+        """Take what the page sends, until its connection ends."""
+        rate = TokenBucket(MESSAGES_PER_SECOND, BURST)
+        in_flight = InFlightLimit(self._behind)
+        while True:
+            message = await self.connection.receive()
+            if (pause := rate.take()) > 0.0:
+                if self.connection.state is not State.OPEN:
+                    # It has left a flood, which nobody has to wait for.
+                    continue
+                await asyncio.sleep(pause)
+            await in_flight.wait()
+            if message == PING and self._client_id is None:
+                await self.connection.writer.send(PONG)
+            elif message == PING:
+                self._pings += 1
+                self._news.set()
+            else:
+                self._take(message)
+
+    def _behind(self, action: Callable[[], None]) -> None:
+        if self._client_id is None:
+            action()
+        else:
+            self._handler().behind(self._client_id, action)
+
+    def _take(self, message: str | bytes) -> None:
+        edit: Any = None
+        with suppress(msgspec.MsgspecError, UnicodeError, RecursionError):
+            edit = msgspec.json.decode(message) if isinstance(message, str) else None
+        if self._client_id is None:
+            report(None, "an edit before the first camera")
+        elif validation.read(edit) is None:
+            report(self._client_id, "what is not an edit")
+        else:
+            self._handler().take_edit(self._client_id, edit)
+
+    async def write(self, client_id: int, rows: ClientRows) -> None:
+        """Send what the page lacks of the rows, whenever the connection is free."""
+        self._client_id = client_id
+        loop = asyncio.get_running_loop()
+
+        def wake() -> None:
+            # Rows change in the session's thread. When the event is set, it will be
+            # cleared before the rows are looked at, so nothing is missed.
+            if not self._news.is_set():
+                # The loop may have ended already.
+                with suppress(RuntimeError):
+                    loop.call_soon_threadsafe(self._news.set)
+
+        end = rows.listen(wake)
+        versions = dict.fromkeys(rows.stores, 0)
+        try:
+            while True:
+                # Cleared first: what changes from here on is sent in the next round.
+                self._news.clear()
+                pings, self._pings = self._pings, 0
+                for store, version in versions.items():
+                    versions[store], message = store.since(version)
+                    if message is not None:
+                        await self.connection.writer.send(message)
+                for _ in range(pings):
+                    await self.connection.writer.send(PONG)
+                if all(store.version == at for store, at in versions.items()):
+                    await self._news.wait()
+        finally:
+            end()
+
+
+def _in_use() -> Response:
+    return plain_page(
+        http.HTTPStatus.CONFLICT,
+        "This page is open already",
+        "Load the page again.",
+    )

@@ -1,0 +1,281 @@
+"""The page's own websocket: behind the same checks, and tied to one client."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from typing import Any
+
+import msgspec.msgpack
+import pytest
+import viser
+from page_rows import decode
+from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin, Subprotocol
+
+from sambot_viz import Visualizer
+from sambot_viz.server import channel as channel_module
+from sambot_viz.server import inbound_filter
+from sambot_viz.server.channel import CLIENT_LEFT, PAGE_LEFT, PING, PONG, SUBPROTOCOL
+
+Protocol = Callable[..., ProtocolClient]
+VISER = f"viser-v{viser.__version__}"
+JOINT = "j/drivewhl_l_joint"
+TOKEN, PRESENTER = "let-me-in-please", "teach-the-class"
+
+
+class Pages:
+    """Connections of pages to one server, closed at the end of the test."""
+
+    def __init__(self, stack: ExitStack) -> None:
+        self._stack = stack
+
+    def open(
+        self, viz: Visualizer, ticket: str, protocol: str, **more: Any
+    ) -> ClientConnection:
+        query = f"?ticket={ticket}" + more.pop("query", "")
+        socket = connect(
+            f"ws://127.0.0.1:{viz.viser.get_port()}/{query}",
+            subprotocols=[Subprotocol(protocol)],
+            max_size=None,
+            compression=None,
+            **more,
+        )
+        return self._stack.enter_context(socket)
+
+    def viser(self, viz: Visualizer, ticket: str, **more: Any) -> ClientConnection:
+        """A page's connection to viser, with its first camera."""
+        socket = self.open(viz, ticket, VISER, **more)
+        socket.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **CAMERA}))
+        return socket
+
+    def channel(self, viz: Visualizer, ticket: str, **more: Any) -> ClientConnection:
+        return self.open(viz, ticket, SUBPROTOCOL, **more)
+
+
+@pytest.fixture
+def pages() -> Iterator[Pages]:
+    with ExitStack() as stack:
+        yield Pages(stack)
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def ticket() -> str:
+    return secrets.token_urlsafe(16)
+
+
+def rows(channel: ClientConnection) -> list[Any]:
+    """What a page gets first: the rows of the session, and its own."""
+    return [decode(channel.recv(timeout=10.0)) for _ in range(2)]
+
+
+def until_changed(channel: ClientConnection, row: str) -> Any:
+    """What has changed of a row, as soon as something has."""
+    while True:
+        changed = decode(channel.recv(timeout=10.0)).get("rows", {})
+        if row in changed:
+            return changed[row]
+
+
+def closed_with(channel: ClientConnection) -> int | None:
+    with pytest.raises(ConnectionClosed) as closed:
+        while True:
+            channel.recv(timeout=10.0)
+    return closed.value.rcvd and closed.value.rcvd.code
+
+
+def status_of(refused: pytest.ExceptionInfo[InvalidStatus]) -> int:
+    return refused.value.response.status_code
+
+
+def test_both_connections_of_a_page_are_one_client_in_any_order(
+    viz: Visualizer, pages: Pages
+) -> None:
+    first, second = secrets.token_urlsafe(16), secrets.token_urlsafe(16)
+    early = pages.channel(viz, first)
+    pages.viser(viz, first)
+    pages.viser(viz, second)
+    late = pages.channel(viz, second)
+    for channel in (early, late):
+        whole = rows(channel)
+        assert [part["of"] for part in whole] == ["session", "browser"]
+        assert all(part["all"] for part in whole)
+    # Who is there is known to both.
+    for channel in (early, late):
+        channel.send(PING)
+        while channel.recv(timeout=10.0) != PONG:
+            pass
+    early.send(f'["{JOINT}",0.5]')
+    patches = [decode(early.recv(timeout=10.0)) for _ in range(2)]
+    # Undo is offered where the joint was moved, and nowhere else.
+    assert {patch["of"] for patch in patches} == {"session", "browser"}
+    assert until_changed(late, JOINT) == {"value": 0.5}
+    late.send(PING)
+    while (message := late.recv(timeout=10.0)) != PONG:
+        assert decode(message)["of"] == "session"
+
+
+@pytest.mark.parametrize("protocol", [SUBPROTOCOL, VISER])
+def test_a_ticket_that_is_in_use_is_refused(
+    viz: Visualizer, pages: Pages, ticket: str, protocol: str
+) -> None:
+    pages.viser(viz, ticket)
+    rows(own := pages.channel(viz, ticket))
+    with pytest.raises(InvalidStatus) as refused:
+        pages.open(viz, ticket, protocol)
+    assert status_of(refused) == 409
+    own.send(PING)
+    assert own.recv(timeout=10.0) == PONG
+
+
+def test_a_page_that_lost_its_connections_without_a_word_takes_them_over(
+    viz: Visualizer, pages: Pages, ticket: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gone = pages.viser(viz, ticket), pages.channel(viz, ticket)
+    rows(gone[1])
+    for socket in gone:
+        # It answers no ping from now on, like a page whose network is gone.
+        monkeypatch.setattr(socket.protocol, "recv_ping", lambda _: None, raising=False)
+        socket.socket.settimeout(None)
+        monkeypatch.setattr(socket, "send_data", lambda: None)
+    monkeypatch.setattr(channel_module, "ANSWER_TIME", 0.1)
+    again = pages.channel(viz, ticket)
+    pages.viser(viz, ticket)
+    assert rows(again)[1]["of"] == "browser"
+
+
+def test_a_channel_needs_a_ticket(viz: Visualizer, pages: Pages) -> None:
+    for ticket in ("", "short", "x" * 100, "with spaces and more"):
+        with pytest.raises(InvalidStatus) as refused:
+            pages.channel(viz, ticket.replace(" ", "+"))
+        assert status_of(refused) == 409
+
+
+def test_the_channel_ends_with_the_client_and_comes_back_with_the_next(
+    viz: Visualizer, pages: Pages, ticket: str
+) -> None:
+    client, channel = pages.viser(viz, ticket), pages.channel(viz, ticket)
+    rows(channel)
+    client.close()
+    assert closed_with(channel) == CLIENT_LEFT
+    channel = pages.channel(viz, ticket)
+    pages.viser(viz, ticket)
+    rows(channel)
+
+
+def test_a_page_that_is_left_is_no_client_any_more(
+    viz: Visualizer, pages: Pages, ticket: str
+) -> None:
+    client, channel = pages.viser(viz, ticket), pages.channel(viz, ticket)
+    rows(channel)
+    channel.close(PAGE_LEFT)
+    assert closed_with(client) == 1000
+
+
+def test_a_channel_that_is_lost_alone_leaves_the_client_as_it_is(
+    viz: Visualizer, pages: Pages, ticket: str
+) -> None:
+    client, channel = pages.viser(viz, ticket), pages.channel(viz, ticket)
+    rows(channel)
+    (before,) = viz.viser.get_clients()
+    channel.close()
+    rows(pages.channel(viz, ticket))
+    assert list(viz.viser.get_clients()) == [before]
+    assert client.ping().wait(10.0)
+
+
+def test_a_page_without_a_first_camera_changes_nothing(
+    viz: Visualizer, pages: Pages, ticket: str
+) -> None:
+    client = pages.open(viz, ticket, VISER)
+    channel = pages.channel(viz, ticket)
+    channel.send(f'["{JOINT}",0.5]')
+    channel.send(PING)
+    assert channel.recv(timeout=10.0) == PONG
+    client.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **CAMERA}))
+    rows(channel)
+    assert viz.joint_positions[JOINT[2:]] == 0.0
+
+
+def test_a_foreign_page_gets_no_channel(
+    viz: Visualizer, pages: Pages, ticket: str
+) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        pages.channel(viz, ticket, origin=Origin("https://evil.example"))
+    assert status_of(refused) == 403
+
+
+def test_who_has_no_token_gets_no_channel(pages: Pages, ticket: str) -> None:
+    with Visualizer(port=0, token=TOKEN) as viz:
+        with pytest.raises(InvalidStatus) as refused:
+            pages.channel(viz, ticket)
+        assert status_of(refused) == 401
+        query = f"&token={TOKEN}"
+        pages.viser(viz, ticket, query=query)
+        rows(pages.channel(viz, ticket, query=query))
+
+
+def test_a_viewer_with_the_ticket_of_the_presenter_gets_nothing(
+    pages: Pages, ticket: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(channel_module, "WAIT_FOR_CLIENT", 0.2)
+    with Visualizer(port=0, presenter=PRESENTER) as viz:
+        pages.viser(viz, ticket, query=f"&token={PRESENTER}")
+        viewer = pages.channel(viz, ticket)
+        viewer.send(f'["{JOINT}",0.5]')
+        with pytest.raises(ConnectionClosed):
+            viewer.recv(timeout=10.0)
+        assert viz.joint_positions[JOINT[2:]] == 0.0
+
+
+@pytest.mark.parametrize("data", [b"", b"\x01", b"x" * 1000, "text", "[" * 9000, "{}"])
+def test_nonsense_is_dropped_and_the_channel_stays(
+    viz: Visualizer, pages: Pages, ticket: str, data: bytes | str
+) -> None:
+    pages.viser(viz, ticket)
+    rows(channel := pages.channel(viz, ticket))
+    channel.send(data)
+    channel.send(PING)
+    assert channel.recv(timeout=10.0) == PONG
+
+
+def test_a_message_that_is_too_long_ends_the_channel(
+    viz: Visualizer, pages: Pages, ticket: str
+) -> None:
+    pages.viser(viz, ticket)
+    rows(channel := pages.channel(viz, ticket))
+    channel.send("x" * (inbound_filter.LARGEST_MESSAGE + 1))
+    assert closed_with(channel) == 1009
+
+
+def test_a_long_text_for_the_clipboard_comes_in_one_piece(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    client = protocol(viz.viser.get_port())
+    assert client.rows
+    session = viz.server.sessions()[0]
+    text = "x" * 50_000 + "\nend"
+    mark = client.mark()
+    window = viz.server._sessions._windows[session]
+    (panels,) = window._browsers.values()
+    with session.lock:
+        panels.give(channel_answer(text))
+    client.wait_until(lambda: client.types(mark)[ROW_PATCH] == 1)
+    (patch,) = client.since(mark)
+    assert patch.fields["rows"]["notice"]["value"]["copy"] == text
+    assert patch.frame_size < 1000 < patch.size
+
+
+def channel_answer(text: str) -> Any:
+    from sambot_viz.panels.row import Answer
+
+    return Answer("a text", text)
