@@ -1,4 +1,4 @@
-"""What every RViz display is: properties, statuses, and nodes in the scene.
+"""Base of all RViz displays: properties, statuses, and nodes in the scene.
 
 A display lists its properties once (`properties`); reading, saving, the rows of the
 panel, clamping and live change all come from that list. Its values live
@@ -33,7 +33,7 @@ from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
 
 @dataclass
 class DisplayContext:
-    """What displays draw with and from; one per session.
+    """The scene, frames, files and options that displays draw with; one per session.
 
     Attributes:
         scene: where to draw (of the server, or of one client).
@@ -64,7 +64,7 @@ class DisplayContext:
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
 
     def frame(self, name: object) -> str:
-        """The frame a Reference Frame property means."""
+        """Return the frame a Reference Frame property means."""
         return self.fixed_frame if name == FIXED_FRAME else str(name)
 
     def above(self, frame: str) -> str:
@@ -177,7 +177,7 @@ class Display:
         yield from ()
 
     def entries(self) -> tuple[EntryList, ...]:
-        """The links, joints or frames that have rows of their own."""
+        """Return the links, joints or frames that have rows of their own."""
         return ()
 
     def frames_moved(self, frames: Iterable[str]) -> None:

@@ -37,5 +37,5 @@ class EntryList:
 
 
 def numbers(values: Sequence[float]) -> str:
-    """Several numbers as RViz shows a vector: five digits each."""
+    """Return several numbers as RViz shows a vector: five digits each."""
     return "; ".join(f"{float(value) + 0.0:.5g}" for value in values)

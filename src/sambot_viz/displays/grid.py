@@ -41,7 +41,7 @@ MOST_LINES = 100_000
 
 
 def line_count(cells: int, layers: int) -> int:
-    """How many lines a grid has."""
+    """Return how many lines a grid has."""
     uprights = (cells + 1) ** 2 if layers else 0
     return 2 * (cells + 1) * (layers + 1) + uprights
 
@@ -57,7 +57,7 @@ def drawn_cells(cells: int, layers: int) -> tuple[int, int]:
 
 
 def grid_segments(cells: int, layers: int, size: float) -> npt.NDArray[np.float32]:
-    """The lines of a grid in its own axes: in-plane x and z, normal y.
+    """Return the lines of a grid in its own axes: in-plane x and z, normal y.
 
     Args:
         cells: cells along each side, N.
@@ -212,12 +212,12 @@ class GridDisplay(Display):
         self._report()
 
     def _background(self) -> Rgb | None:
-        """What the colour is blended with: ribbons have no alpha of their own."""
+        """Return the colour to blend ribbons with, which have no alpha."""
         ribbons = self.config.get("Line Style") == "Billboards"
         return self.context.background if ribbons else None
 
     def _counts(self) -> tuple[int, int]:
-        """The cells along each side and along the normal, as they are drawn."""
+        """Return the cells along each side and along the normal, as they are drawn."""
         cells = int(self.config.get("Plane Cell Count"))
         return drawn_cells(cells, int(self.config.get("Normal Cell Count")))
 
@@ -284,7 +284,7 @@ class GridDisplay(Display):
 
 
 def _blend(color: Rgb, background: Rgb, alpha: float) -> Rgb:
-    """The colour over the background: viser's wide lines have no alpha."""
+    """Return the colour over the background: viser's wide lines have no alpha."""
     mixed = [
         alpha * c + (1 - alpha) * b for c, b in zip(color, background, strict=True)
     ]

@@ -63,7 +63,7 @@ class RobotDisplay(Protocol):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What was found in the files that the robot is drawn from."""
+        """Problems of the files that the robot is drawn from."""
         ...
 
     def refusal(self, path: str, value: object) -> str | None:

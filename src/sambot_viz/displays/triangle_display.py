@@ -82,7 +82,7 @@ class TriangleGeometry(PickGeometry):
 
     @property
     def triangles(self) -> int:
-        """How many triangles there are."""
+        """The number of triangles."""
         return sum(len(placed.mesh.faces) for placed in self.placed)
 
     def draw(self, buffer: PickBuffer) -> None:
@@ -143,7 +143,7 @@ class TriangleDisplay(Display):
                 yield PlacedMesh(shape.item, self._mesh(shape.triangles), T)
 
     def _mesh(self, triangles: Triangles) -> TriangleMesh:
-        """The same triangles with what is computed of them once."""
+        """Return the same triangles with what is computed of them once."""
         # They are kept beside the mesh: their id is used again when they are gone.
         known = self._meshes.get(id(triangles))
         if known is None:

@@ -58,7 +58,7 @@ class ClassItem(ConfigItem):
 
     @property
     def label(self) -> str:
-        """What it is called in messages."""
+        """The label used in messages."""
         return f"'{self.name}' ({self.kind})"
 
     def rename(self, name: str) -> None:
@@ -121,7 +121,7 @@ class DisplayConfig(ClassItem):
 
     @property
     def active(self) -> bool:
-        """Whether its own box and those of all its groups are ticked."""
+        """Return whether its own box and those of all its groups are ticked."""
         return self._enabled and (self.parent is None or self.parent.active)
 
     def set_enabled(self, enabled: bool) -> None:
@@ -141,7 +141,7 @@ class GlobalOptions(EntryItem):
 
     @property
     def label(self) -> str:
-        """What it is called in messages."""
+        """The label used in messages."""
         return "Global Options"
 
 
@@ -154,7 +154,7 @@ class ToolConfig(ClassItem):
 
 
 def new_map(class_id: str, name: str, enabled: bool | None = None) -> Map:
-    """The map of a new item, with its keys in RViz's order."""
+    """Return the map of a new item, with its keys in RViz's order."""
     texts = {"Class": class_id, "Name": name}
     if enabled is not None:
         texts["Enabled"] = texts["Value"] = "true" if enabled else "false"

@@ -53,7 +53,7 @@ def _none() -> Classes:
 
 @dataclass(frozen=True)
 class Declarations:
-    """What the program can show.
+    """The classes and options that the program can show.
 
     Attributes:
         displays: the display classes; groups are always known.
@@ -68,5 +68,5 @@ class Declarations:
     global_options: Sequence[Property] = GLOBAL_OPTIONS
 
     def display(self, kind: str) -> Sequence[Property] | None:
-        """The properties of a display class; None when it is not known."""
+        """Return the properties of a display class; None when it is not known."""
         return () if kind == GROUP else self.displays.get(kind)

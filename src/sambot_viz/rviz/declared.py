@@ -73,7 +73,7 @@ def _below(
 
 
 def _belongs_to(key: str, owner: Declared) -> bool:
-    """Whether a property has a key without declaring it."""
+    """Return whether a property has a key without declaring it."""
     prop = owner.property
     if isinstance(prop, VectorProperty):
         return key in prop.keys

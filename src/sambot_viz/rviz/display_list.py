@@ -123,7 +123,7 @@ class DisplayList(VisualizationManager):
         self._insert(removed.display, removed.entry, group, removed.index)
 
     def holds(self, display: DisplayConfig) -> bool:
-        """Whether a display is in this config."""
+        """Return whether a display is in this config."""
         if display not in self._members(display.parent):
             return False
         return display.parent is None or self.holds(display.parent)

@@ -50,7 +50,7 @@ class EntryItem(ConfigItem):
 
     @property
     def label(self) -> str:
-        """What it is called in messages."""
+        """The label used in messages."""
         return f"'{self._keys[-1]}'"
 
     def _place(self, prop: Property) -> tuple[tuple[str, ...], Node | None]:

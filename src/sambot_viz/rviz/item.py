@@ -52,7 +52,7 @@ class ConfigItem(ItemMap):
             self._read(prop, above, start, None)
 
     def _place(self, prop: Property) -> tuple[tuple[str, ...], Node | None]:
-        """The keys and the node that a property of the first level is below."""
+        """Return the keys and the node that a property of the first level is below."""
         del prop
         return (), self._node
 
@@ -99,7 +99,7 @@ class ConfigItem(ItemMap):
 
     @property
     def label(self) -> str:
-        """What it is called in messages."""
+        """The label used in messages."""
         return "this item"
 
     @property
@@ -113,11 +113,11 @@ class ConfigItem(ItemMap):
         return MappingProxyType(self._declared)
 
     def is_given(self, path: str) -> bool:
-        """Whether the value comes from the file or was set, and is not a default."""
+        """Return whether the value is in the file or was set, and is no default."""
         return path in self._given
 
     def get(self, path: str) -> Any:
-        """The value of a property: bool, int, float, str, or a tuple of numbers.
+        """Return the value of a property: bool, int, float, str, or a tuple of numbers.
 
         Raises:
             UnknownPropertyError: no such property with a value is declared.
@@ -128,7 +128,7 @@ class ConfigItem(ItemMap):
             raise self._unknown(path) from None
 
     def acting(self, path: str) -> Any:
-        """The value of a property as it acts, within what can be drawn."""
+        """Return the value of a property as it acts, within what can be drawn."""
         value = self.get(path)
         return self._declared[path].property.acting(value)
 
@@ -200,7 +200,7 @@ class ConfigItem(ItemMap):
             self._values[path] = value
 
     def is_shown(self, path: str) -> bool:
-        """Whether the row of a property is shown: it may depend on another one."""
+        """Return whether a property has a row now: it may depend on another one."""
         declared: Declared | None = self._declared.get(path)
         if declared is None:
             raise self._unknown(path)
@@ -222,5 +222,5 @@ class ConfigItem(ItemMap):
 
 
 def _kept(prop: Property) -> KeptProperty:
-    """A property of ROS 1's RViz in a file of ROS 2."""
+    """Return a property of ROS 1's RViz in a file of ROS 2."""
     return KeptProperty(prop.name, note="RViz for ROS 2 ignores it")

@@ -42,7 +42,7 @@ class ItemMap:
         return found if isinstance(found, dict) else {}
 
     def dynamic(self, path: Path) -> dict[str, Plain]:
-        """What is below a key, declared or not, such as "Links" or "Frames".
+        """Return everything below a key, declared or not, such as "Links".
 
         Args:
             path: one key, or a sequence of keys (which may contain slashes).
@@ -54,7 +54,7 @@ class ItemMap:
         return found if isinstance(found, dict) else {}
 
     def node_at(self, keys: Sequence[str]) -> Node | None:
-        """The node below some keys, declared or not; None when there is none."""
+        """Return the node below some keys, declared or not; None when there is none."""
         node: Node | None = self._node
         for key in keys:
             node = node.get(key) if isinstance(node, Map) else None
@@ -71,7 +71,7 @@ class ItemMap:
         return self._node, keys
 
     def map_at(self, keys: Sequence[str]) -> Map:
-        """The map at some keys, made in the document where it is missing.
+        """Return the map at some keys, made in the document where it is missing.
 
         A text in its place becomes its "Value".
         """
@@ -125,7 +125,7 @@ class ItemMap:
                 old.put_text(part, text)
 
     def _new_node(self, path: str) -> Node:
-        """A property with its value: a text, or a map with all its children."""
+        """Return a property with its value: a text, or a map with all its children."""
         prop = self._declared[path].property
         value = self._values.get(path)
         parts = prop.components(value) if prop.has_value else None
@@ -169,5 +169,5 @@ def _keys(path: Path) -> tuple[str, ...]:
 
 
 def _parts_map(parts: Mapping[str, str]) -> Map:
-    """A map of texts, in their order."""
+    """Return a map of texts, in their order."""
     return Map([Entry(key, Scalar(text)) for key, text in parts.items()])

@@ -85,7 +85,7 @@ class RvizConfig(DisplayList, ViewList):
         return cls(Document(text, file), declarations)
 
     def copy(self) -> RvizConfig:
-        """The same document once more, with the edits that are not saved."""
+        """Return the same document once more, with the edits that are not saved."""
         return RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
 
     @property
@@ -148,12 +148,12 @@ class RvizConfig(DisplayList, ViewList):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What was doubtful in the file: warnings with their lines."""
+        """Warnings about the file, with their lines."""
         return (*self._document.problems, *self._findings.problems)
 
     @property
     def modified(self) -> bool:
-        """Whether a save would change the file."""
+        """Return whether a save would change the file."""
         return self._document.modified
 
     def to_yaml(self) -> str:

@@ -1,4 +1,4 @@
-"""What of an .rviz file is shown, approximated or not supported, piece by piece."""
+"""Report which parts of an .rviz file are shown, approximated or not supported."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class PropertyReport:
     given: bool = True
 
     def as_json(self) -> dict[str, Any]:
-        """The fields for ``--format json``."""
+        """Return the fields for ``--format json``."""
         return {
             "path": self.path,
             "value": self.value,
@@ -82,7 +82,7 @@ class ItemReport:
     displays: tuple[ItemReport, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
-        """The fields for ``--format json``."""
+        """Return the fields for ``--format json``."""
         return {
             "name": self.name,
             "class": self.class_id,
@@ -101,7 +101,7 @@ class ItemReport:
 
 @dataclass(frozen=True, slots=True)
 class ConfigReport:
-    """What ``sambot-viz config FILE.rviz`` prints.
+    """The output of ``sambot-viz config FILE.rviz``.
 
     Attributes:
         file: the path as the user wrote it.
@@ -124,7 +124,7 @@ class ConfigReport:
     problems: tuple[Problem, ...] = field(default_factory=tuple)
 
     def counts(self) -> dict[Level, int]:
-        """How many displays and given properties of displays are on each level."""
+        """Count the displays and given properties of displays on each level."""
         counts: dict[Level, int] = dict.fromkeys((*_LEVELS.values(), "unknown key"), 0)
         for item in (item for display in self.displays for item in display.walk()):
             if item.level == "not supported":
@@ -225,7 +225,7 @@ def _properties(item: ConfigItem) -> Iterator[PropertyReport]:
 
 
 def _kept(item: ClassItem) -> Iterator[PropertyReport]:
-    """The keys of an item whose class is not known."""
+    """Yield the keys of an item whose class is not known."""
     for key, value in item.raw.items():
         if key not in ("Class", "Name", "Enabled", "Value", "Displays"):
             shown = value if isinstance(value, str) else ""

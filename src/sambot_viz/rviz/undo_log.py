@@ -96,7 +96,7 @@ VALUE = "Value"
 
 
 class DocumentPlace:
-    """Where the document writes one value, with all that setting it may add there.
+    """The place of one value in the document, with all that setting it may add there.
 
     Args:
         root: the map of an item in the document.
@@ -143,7 +143,7 @@ class DocumentPlace:
                 self._put(keys, node, text)
 
     def _is_own(self, keys: Keys) -> bool:
-        """Whether keys belong to the value and not to one beside or below it."""
+        """Return whether keys belong to the value and not to one beside or below it."""
         depth = len(self._keys)
         return keys[:depth] == self._keys and not (
             keys[depth:] and keys[depth] in self._children

@@ -100,7 +100,7 @@ class ViewList(VisualizationManager):
         return self._made(node)
 
     def new_view(self, kind: str, like: ViewConfig) -> ViewConfig:
-        """A view of another class, not in the document.
+        """Return a view of another class, not in the document.
 
         Keys that both classes have keep their values; the caller sets the new place of
         the camera.

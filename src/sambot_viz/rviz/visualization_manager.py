@@ -11,7 +11,7 @@ MANAGER = "Visualization Manager"
 
 
 class VisualizationManager:
-    """Where displays, views and tools are found in a document.
+    """The map of a document that holds displays, views and tools.
 
     Attributes:
         ros1: the file is one of ROS 1; new displays get ROS 1's class names.
@@ -30,7 +30,7 @@ class VisualizationManager:
         self.ros1 = any(is_ros1(name) for name in self._class_ids())
 
     def _class_ids(self) -> list[str]:
-        """The classes of the tools and of the displays outside of groups."""
+        """Return the classes of the tools and of the displays outside of groups."""
         listed = [self._manager.get("Displays"), self._manager.get("Tools")]
         found = [node for nodes in listed for _, node in items_of(nodes)]
         return [node.text("Class") or "" for node in found]

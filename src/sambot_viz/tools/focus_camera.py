@@ -27,7 +27,7 @@ class FocusCameraTool(Tool):
 
     @property
     def wants_hover(self) -> bool:
-        """What would be looked at is shown."""
+        """True: the point under the mouse is shown."""
         return True
 
     def hover(self, click: Click, hit: Hit) -> None:

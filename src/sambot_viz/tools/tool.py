@@ -32,11 +32,11 @@ class Click:
 
 
 class ToolContext(Protocol):
-    """What a tool may use of its browser; implemented by `session.tool_control`."""
+    """Services of a browser for its tool; implemented by `session.tool_control`."""
 
     @property
     def scene(self) -> viser.SceneApi:
-        """Where to draw."""
+        """The scene to draw in."""
         ...
 
     def select(self, items: set[Selectable], modifier: str | None) -> None:
@@ -100,7 +100,7 @@ class Tool:
 
     @property
     def wants_hover(self) -> bool:
-        """Whether the page should report where the mouse is."""
+        """Return whether the page should report where the mouse is."""
         return False
 
     def hover(self, click: Click, hit: Hit) -> None:

@@ -49,7 +49,7 @@ class Camera:
 
     @property
     def orthographic(self) -> bool:
-        """Whether parallel lines stay parallel in the picture."""
+        """Return whether parallel lines stay parallel in the picture."""
         return self.scale is not None
 
     @property
@@ -73,11 +73,11 @@ class Camera:
         return length(self.look_at - self.position)
 
     def placed(self, position: Vector, look_at: Vector, up: Vector) -> Camera:
-        """The same camera at another place."""
+        """Return the same camera at another place."""
         return replace(self, position=position, look_at=look_at, up=up)
 
     def distance_to_show(self, points: Vectors, aspect: float) -> float:
-        """How far from the middle of some points the whole of them is in the picture.
+        """Return the distance from the middle of some points that shows all of them.
 
         Args:
             points: (N, 3) [m].
@@ -97,7 +97,7 @@ class Camera:
         return float(max(away.max(), self.near - behind.min()))
 
     def shows(self, point: Vector, width: int, height: int, part: float = 1.0) -> bool:
-        """Whether a point is in the picture.
+        """Return whether a point is in the picture.
 
         Args:
             point: (3,) [m].
@@ -117,7 +117,7 @@ class Camera:
         return aside <= part * half * width / height and above <= part * half
 
     def as_perspective(self, height: int, fov: float | None = None) -> Camera:
-        """The nearest that a renderer without an orthographic camera can draw.
+        """Return the nearest camera that a renderer with perspective can draw.
 
         An orthographic camera becomes a far one with a small field of view: exact to
         a pixel in the plane of `look_at`. A point that is h above that plane is shown
@@ -145,7 +145,7 @@ class Camera:
         )
 
     def as_orthographic(self, height: int) -> Camera:
-        """The orthographic camera that `as_perspective` approximated.
+        """Return the orthographic camera that `as_perspective` approximated.
 
         Args:
             height: of the picture [pixels].
@@ -159,7 +159,7 @@ class Camera:
 
 
 def vector(x: float, y: float, z: float) -> Vector:
-    """A vector of three numbers."""
+    """Return a vector of three numbers."""
     return np.array((x, y, z), np.float64)
 
 
@@ -172,18 +172,18 @@ def length(a: Vector) -> float:
 
 
 def unit(a: Vector) -> Vector:
-    """The direction of a vector that is not zero."""
+    """Return the direction of a vector that is not zero."""
     return a / length(a)
 
 
 def turned(a: Vector, yaw: float) -> Vector:
-    """A vector turned about the vertical axis by an angle [rad]."""
+    """Return a vector turned about the vertical axis by an angle [rad]."""
     c, s = math.cos(yaw), math.sin(yaw)
     return vector(c * a[0] - s * a[1], s * a[0] + c * a[1], a[2])
 
 
 def on_sphere(yaw: float, pitch: float) -> Vector:
-    """The unit vector with an azimuth and an elevation [rad]."""
+    """Return the unit vector with an azimuth and an elevation [rad]."""
     return vector(
         math.cos(yaw) * math.cos(pitch),
         math.sin(yaw) * math.cos(pitch),
@@ -201,6 +201,6 @@ def angles_of(a: Vector) -> tuple[float, float]:
 
 
 def components(a: Vector) -> tuple[float, float, float]:
-    """A vector as the tuple that a property holds."""
+    """Return a vector as the tuple that a property holds."""
     x, y, z = a.tolist()
     return (x, y, z)

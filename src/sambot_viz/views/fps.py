@@ -62,15 +62,15 @@ class FPSView(View):
         return Camera(self.position, ahead, UP, near=self.near)
 
     def read_local(self, camera: Camera) -> Values:
-        """A roll of the camera is lost."""
+        """Read position, yaw and pitch; a roll of the camera is lost."""
         return {"Position": components(camera.position), **_looking(camera.forward)}
 
     def look_at_local(self, point: Vector) -> Values:
-        """The position stays."""
+        """Turn towards a point; the position stays."""
         return _looking(point - self.position)
 
     def fit_local(self, points: Vectors, width: int, height: int) -> Values:
-        """The camera moves, to where it has the points in front of it."""
+        """Move the camera to where it has the points in front of it."""
         camera = self.local_camera()
         away = camera.distance_to_show(points, width / height) * camera.forward
         return {"Position": components(points.mean(axis=0) - away)}

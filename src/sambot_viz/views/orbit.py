@@ -80,7 +80,7 @@ class OrbitView(View):
         return vector(*self.config.get("Focal Point"))
 
     def local_camera(self) -> Camera:
-        """The camera is at the azimuth and elevation seen from the focal point.
+        """Return the camera, at yaw and pitch as seen from the focal point.
 
         With Invert Z Axis all of it is mirrored: both angles, and up.
         """
@@ -91,15 +91,15 @@ class OrbitView(View):
         return Camera(focal + away, focal, vector(0.0, 0.0, sign), near=self.near)
 
     def read_local(self, camera: Camera) -> Values:
-        """The middle of the picture becomes the focal point."""
+        """Make the middle of the picture the focal point."""
         return self._around(camera.position, camera.look_at)
 
     def look_at_local(self, point: Vector) -> Values:
-        """The camera turns in place, as in RViz."""
+        """Turn the camera in place, as RViz does."""
         return self._around(self.local_camera().position, point)
 
     def fit_local(self, points: Vectors, width: int, height: int) -> Values:
-        """The middle of the points becomes the focal point."""
+        """Make the middle of the points the focal point."""
         camera = self.local_camera()
         return {
             "Distance": camera.distance_to_show(points, width / height),
@@ -123,7 +123,7 @@ class OrbitView(View):
         return self._around(camera.position, focal)
 
     def zero(self) -> Values:
-        """As in RViz, Focal Shape Fixed Size becomes false; its default is true."""
+        """Return what RViz sets: Focal Shape Fixed Size is false, not its default."""
         return {
             "Yaw": math.pi / 4,
             "Pitch": math.pi / 4,
@@ -144,7 +144,7 @@ class OrbitView(View):
     def _around(
         self, position: Vector, focal: Vector, distance: float | None = None
     ) -> Values:
-        """The properties of a camera at `position` that looks at `focal`."""
+        """Return the properties of a camera at `position` that looks at `focal`."""
         away = position - focal
         yaw, pitch = angles_of(away)
         sign = self._sign

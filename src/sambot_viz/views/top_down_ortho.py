@@ -62,7 +62,7 @@ class TopDownOrthoView(View):
         return Camera(above, below, up, near=self.near, scale=self.scale)
 
     def read_local(self, camera: Camera) -> Values:
-        """The middle and the turn of the picture; the height does not matter."""
+        """Return the middle and the turn of the picture; the height does not matter."""
         up, scale = camera.image_up, camera.scale or self.scale
         angle = math.atan2(-up[0], up[1])
         return {"Scale": scale, "Angle": angle, **self.look_at_local(camera.look_at)}
@@ -72,7 +72,7 @@ class TopDownOrthoView(View):
         return {"X": float(point[0]), "Y": float(point[1])}
 
     def fit_local(self, points: Vectors, width: int, height: int) -> Values:
-        """The middle of the points is in the middle of the picture."""
+        """Put the middle of the points into the middle of the picture."""
         camera, middle = self.local_camera(), points.mean(axis=0)
         across = float(np.ptp(points @ camera.right))
         upwards = float(np.ptp(points @ camera.image_up))
@@ -91,7 +91,7 @@ class TopDownOrthoView(View):
         return self.look_at_local(old.local_camera().position)
 
     def zero(self) -> Values:
-        """The origin in the middle, at 10 pixels per metre."""
+        """Return the origin in the middle, at 10 pixels per metre."""
         return {"Scale": 10.0, "Angle": 0.0, "X": 0.0, "Y": 0.0}
 
     def shifted(self, offset: Vector) -> Values:

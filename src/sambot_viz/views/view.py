@@ -47,7 +47,7 @@ class Target:
     yaw: float = 0.0
 
     def same_as(self, other: Target) -> bool:
-        """Whether both are exactly the same pose."""
+        """Return whether both are exactly the same pose."""
         same_place = np.array_equal(self.position, other.position)
         return same_place and self.yaw == other.yaw
 
@@ -83,11 +83,11 @@ class View:
     # Each view defines these; all in the target frame.
 
     def local_camera(self) -> Camera:
-        """The camera of the present properties, in the target frame."""
+        """Return the camera of the present properties, in the target frame."""
         raise NotImplementedError
 
     def read_local(self, camera: Camera) -> Values:
-        """The properties of a camera given in the target frame."""
+        """Return the properties of a camera given in the target frame."""
         raise NotImplementedError
 
     def look_at_local(self, point: Vector) -> Values:
@@ -95,11 +95,11 @@ class View:
         raise NotImplementedError
 
     def mimic(self, old: View) -> Values:
-        """What a view of this type takes over from another, as in RViz."""
+        """Return the values that a view takes over from another one, as in RViz."""
         raise NotImplementedError
 
     def as_near_as(self, old: View, height: int) -> Values:
-        """What shows the same things as large, with and without perspective.
+        """Return the value that shows things as large with the other projection.
 
         RViz starts at 10 pixels per metre or at 100 m, where a robot is a dot.
 
@@ -115,7 +115,7 @@ class View:
         return {}
 
     def zero(self) -> Values:
-        """What RViz's "Zero" sets."""
+        """Return the values that RViz's "Zero" sets."""
         raise NotImplementedError
 
     def shifted(self, offset: Vector) -> Values:
@@ -137,11 +137,11 @@ class View:
     # The same in the fixed frame.
 
     def camera(self, target: Target = WORLD) -> Camera:
-        """The camera of the present properties, in the fixed frame."""
+        """Return the camera of the present properties, in the fixed frame."""
         return to_fixed(self.local_camera(), self._turned(target))
 
     def read(self, camera: Camera, target: Target = WORLD) -> Values:
-        """The properties of a camera given in the fixed frame."""
+        """Return the properties of a camera given in the fixed frame."""
         return self.read_local(to_target(camera, self._turned(target)))
 
     def look_at(self, point: Vector, target: Target = WORLD) -> Values:
@@ -158,7 +158,7 @@ class View:
         height: int,
         target: Target = WORLD,
     ) -> Values:
-        """The properties with which it shows a box of the fixed frame whole.
+        """Return the properties with which it shows a box of the fixed frame whole.
 
         Args:
             low: lowest corner of the box [m].
@@ -176,12 +176,12 @@ class View:
         return self.fit_local(np.array(corners), width, height)
 
     def moved(self, camera: Camera, before: Target, now: Target) -> Camera:
-        """A camera of the fixed frame after its target has moved."""
+        """Move a camera of the fixed frame after its target has moved."""
         return to_fixed(to_target(camera, self._turned(before)), self._turned(now))
 
     @property
     def gives_nearness(self) -> bool:
-        """Whether the file, or a user, has said how near the camera is."""
+        """Return whether the file, or a user, has said how near the camera is."""
         return self.config.is_given(self.nearness)
 
     @property
@@ -194,7 +194,7 @@ class View:
 
 
 def to_fixed(camera: Camera, target: Target) -> Camera:
-    """A camera of the target frame, in the fixed frame."""
+    """Return a camera of the target frame, in the fixed frame."""
     return camera.placed(
         target.position + turned(camera.position, target.yaw),
         target.position + turned(camera.look_at, target.yaw),
@@ -203,7 +203,7 @@ def to_fixed(camera: Camera, target: Target) -> Camera:
 
 
 def to_target(camera: Camera, target: Target) -> Camera:
-    """A camera of the fixed frame, in the target frame."""
+    """Return a camera of the fixed frame, in the target frame."""
     return camera.placed(
         turned(camera.position - target.position, -target.yaw),
         turned(camera.look_at - target.position, -target.yaw),

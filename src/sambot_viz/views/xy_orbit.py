@@ -17,23 +17,23 @@ class XYOrbitView(OrbitView):
     help = "Moves around a point of the ground, which stays low in the picture."
 
     def local_camera(self) -> Camera:
-        """The camera of Orbit, moved up in its picture."""
+        """Return the camera of Orbit, moved up in its picture."""
         camera = super().local_camera()
         up = RAISED * self.distance * camera.image_up
         return camera.placed(camera.position + up, camera.look_at + up, camera.up)
 
     def read_local(self, camera: Camera) -> Values:
-        """The properties of a raised camera."""
+        """Return the properties of a raised camera."""
         down = -RAISED * length(camera.look_at - camera.position) * camera.image_up
         return self._around(camera.position + down, camera.look_at + down)
 
     def look_at_local(self, point: Vector) -> Values:
-        """The new focal point is on the ground."""
+        """Turn to a point, with the focal point on the ground."""
         on_ground = point * (1.0, 1.0, 0.0)
         return self._around(self.local_camera().position, on_ground)
 
     def fit_local(self, points: Vectors, width: int, height: int) -> Values:
-        """The middle of the points is in the middle of the picture."""
+        """Put the middle of the points into the middle of the picture."""
         camera, middle = self.local_camera(), points.mean(axis=0)
         distance = camera.distance_to_show(points, width / height)
         focal = middle - RAISED * distance * camera.image_up

@@ -390,7 +390,7 @@ def test_an_edit_draws_its_display_only_and_sends_what_it_changes(
     show: Show, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session = show(config=TWO_DISPLAYS)
-    model, grid = session.displays
+    model, grid = session.scene.displays
     drawn: list[str] = []
     sent: list[str] = []
     for display in (model, grid):
@@ -405,11 +405,11 @@ def test_an_edit_draws_its_display_only_and_sends_what_it_changes(
         "queue_message",
         lambda message: (sent.append(type(message).__name__), queue(message)),
     )
-    session.set_property(model, "Alpha", 0.25)
+    session.display_edits.set_property(model, "Alpha", 0.25)
     assert (drawn, sent) == ([model.key], 2 * ["SceneNodeUpdateMessage"])
-    session.set_property(model, "Alpha", 0.25)
+    session.display_edits.set_property(model, "Alpha", 0.25)
     assert len(sent) == 2
-    session.set_property(grid, "Cell Size", 0.5)
+    session.display_edits.set_property(grid, "Cell Size", 0.5)
     assert drawn == [model.key, model.key, grid.key]
     assert sent.count("GlbMessage") == sent.count("RemoveSceneNodeMessage") == 1
     assert sent.count("SceneNodeUpdateMessage") == 2

@@ -1,1 +1,1 @@
-"""What a ray or a rectangle meets: displays answer, tools and cameras ask."""
+"""Picking: displays answer which of their shapes a ray or a rectangle meets."""

@@ -1,4 +1,4 @@
-"""What a display shows at one moment, for rays and rectangles to meet."""
+"""Geometry of one display at one moment, for rays and rectangles to meet."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Selectable:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hit:
-    """What is under the cursor.
+    """The result of following a ray from the cursor.
 
     Attributes:
         point: the nearest point of what is drawn, in the fixed frame, (3,) [m]; None
@@ -79,7 +79,7 @@ class PickBuffer:
 
 
 class PickGeometry:
-    """What one display shows at one moment.
+    """The geometry of one display at one moment.
 
     It is made with the session locked, and may be asked in another thread afterwards:
     it keeps what it needs and never looks at its display again.
@@ -87,7 +87,7 @@ class PickGeometry:
 
     @property
     def triangles(self) -> int:
-        """How many triangles a ray is held against, to judge how long that takes."""
+        """The number of triangles, to judge how long a ray or a rectangle takes."""
         return 0
 
     def draw(self, buffer: PickBuffer) -> None:

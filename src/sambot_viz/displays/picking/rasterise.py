@@ -29,7 +29,7 @@ MARGIN = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Covered:
-    """Which pixels some boxes or triangles may cover; all (M,).
+    """The pixels that some boxes or triangles may cover; all (M,).
 
     Attributes:
         index: their numbers.
@@ -51,13 +51,13 @@ class Covered:
         yield from zip(*(end.tolist() for end in ends), strict=True)
 
     def pick(self, some: Indices) -> Covered:
-        """Only some of them."""
+        """Return only some of them."""
         ends = (self.left, self.right, self.top, self.bottom)
         return Covered(self.index[some], *(end[some] for end in ends))
 
 
 def nearness(grid: RayGrid, mesh: TriangleMesh, T: Matrix) -> Array:
-    """How near a mesh is in each pixel.
+    """Return how near a mesh is in each pixel.
 
     Args:
         grid: the pixels.
@@ -84,7 +84,7 @@ def nearness(grid: RayGrid, mesh: TriangleMesh, T: Matrix) -> Array:
 
 
 def covered(grid: RayGrid, points: Array) -> Covered:
-    """Which of M boxes or triangles, each with K corners, may cover which pixels.
+    """Find the pixels that M boxes or triangles, each with K corners, may cover.
 
     Args:
         grid: the pixels.
@@ -109,7 +109,7 @@ def covered(grid: RayGrid, points: Array) -> Covered:
 
 
 def _each_corner(choose: np.ufunc, values: Array) -> Array:
-    """The lowest or highest of the values of all corners, (M, K) → (M,).
+    """Return the lowest or highest of the values of all corners, (M, K) → (M,).
 
     As `choose.reduce` along the second axis, in a tenth of its time.
     """
@@ -133,7 +133,7 @@ class _Edges:
 
 
 def _edges(corners: Array, outside: float) -> _Edges:
-    """The functions of triangles (M, 3, 3), given as the eye sees them.
+    """Return the functions of triangles (M, 3, 3), given as the eye sees them.
 
     Args:
         corners: (M, 3, 3).

@@ -38,7 +38,7 @@ class RayGrid:
 
     @classmethod
     def through(cls, origin: Array, direction: Array) -> RayGrid:
-        """A single ray, both (3,)."""
+        """Return a single ray, both (3,)."""
         # Any two axes across the ray will do.
         axes = np.empty((3, 3))
         axes[:, 0] = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
@@ -47,7 +47,7 @@ class RayGrid:
         return cls(origin, axes, 1, 1)
 
     def part(self, column: int, row: int, columns: int, rows: int) -> RayGrid:
-        """A rectangle of these rays that begins with a column and a row."""
+        """Return a rectangle of these rays that begins with a column and a row."""
         axes: Array = np.copy(self.axes)
         axes[:, 2] = self.axes @ np.array((column, row, 1.0))
         return RayGrid(self.origin, axes, columns, rows)
@@ -98,7 +98,7 @@ class TriangleMesh:
     def of(
         cls, vertices: npt.NDArray[np.floating[Any]], faces: Indices
     ) -> TriangleMesh:
-        """A mesh with the box around it."""
+        """Return a mesh with the box around it."""
         if not len(vertices):
             return cls(vertices, faces, np.zeros(3), np.zeros(3))
         low = vertices.min(axis=0).astype(np.float64)
@@ -118,12 +118,12 @@ class TriangleMesh:
 
     @cached_property
     def corners(self) -> Array:
-        """The corners of the box around the vertices, (1, 8, 3) [m]."""
+        """Return the corners of the box around the vertices, (1, 8, 3) [m]."""
         return _corners(np.array([[self.low, self.high]]))
 
     @cached_property
     def group_corners(self) -> Array:
-        """The corners of a box around every `GROUP` triangles, (G, 8, 3) [m].
+        """Return the corners of a box around every `GROUP` triangles, (G, 8, 3) [m].
 
         Five million triangles take about two seconds, once.
         """
@@ -137,7 +137,7 @@ class TriangleMesh:
         return _corners(np.concatenate(boxes)) if boxes else np.zeros((0, 8, 3))
 
     def faces_of(self, groups: Indices) -> Indices:
-        """The faces of some groups, (N, 3)."""
+        """Return the faces of some groups, (N, 3)."""
         numbers = (groups[:, None] * GROUP + np.arange(GROUP)).ravel()
         return self.faces[numbers[numbers < len(self.faces)]]
 

@@ -17,7 +17,7 @@ MOST_PARTS = 40
 
 
 def find_description(name: str, near: Sequence[Path]) -> Path | None:
-    """The file that "Description File" of an opened config means.
+    """Return the file that "Description File" of an opened config means.
 
     RViz takes the path as it is. A path of another machine is tried with ever fewer
     of its leading folders, below the folders that the opened files are in: with
@@ -61,7 +61,7 @@ def find_below(name: str, folders: Sequence[Path]) -> Path | None:
 def opened_folders(
     robot: Robot | None, config: Path | None, package_path: Sequence[Path | str]
 ) -> tuple[Path, ...]:
-    """The folders that the command line opened.
+    """Return the folders that the command line opened.
 
     Args:
         robot: the opened model; the folder of its file and its package are open.
@@ -77,7 +77,7 @@ def opened_folders(
 
 
 def _with_target(file: Path | None) -> Iterator[Path]:
-    """A file, and where it leads: builds of ROS workspaces consist of links."""
+    """Yield a file, and where it leads: builds of ROS workspaces consist of links."""
     if file is not None:
         yield file.absolute()
         yield Path(os.path.realpath(file))
@@ -97,7 +97,7 @@ def _candidates(name: str, near: Sequence[Path]) -> Iterator[Path]:
 
 
 def _parts(name: str) -> Sequence[str]:
-    """The folders and the file of a path of any system, without its root."""
+    """Return the folders and the file of a path of any system, without its root."""
     pure = PureWindowsPath(name) if "\\" in name else PurePosixPath(name)
     parts = pure.parts[1:] if pure.anchor else pure.parts
     return [part for part in parts if part not in ("~", "..")]

@@ -1,4 +1,4 @@
-"""What an <inertial> element says, as RViz draws it.
+"""Masses and inertias of <inertial> elements, as RViz draws them.
 
 A mass is the ball of lead that has it; an inertia is the box of that mass with the
 same principal moments.
@@ -35,7 +35,7 @@ class InertiaBox:
 
 
 def ball_diameter(mass: float) -> float:
-    """The diameter of a ball of lead [m]; 0 for a mass of 0 or less.
+    """Return the diameter of a ball of lead [m]; 0 for a mass of 0 or less.
 
     Args:
         mass: [kg].
@@ -46,7 +46,7 @@ def ball_diameter(mass: float) -> float:
 
 
 def inertia_box(inertial: Inertial) -> InertiaBox | None:
-    """The box of the same mass and moments.
+    """Return the box of the same mass and moments.
 
     Args:
         inertial: mass [kg], pose of the centre of mass, inertia [kg m²].

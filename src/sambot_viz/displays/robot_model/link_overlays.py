@@ -1,4 +1,4 @@
-"""What RViz draws at single links and joints: axes, arrows, masses, inertias, trails.
+"""Overlays of single links and joints: axes, arrows, masses, inertias, trails.
 
 Sizes and colours are RViz's (docs/rviz-facts.md); no Alpha changes them.
 """
@@ -56,7 +56,7 @@ class _Overlay:
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What the display's own boxes ask for."""
+    """Overlays that the display asks for at all links."""
 
     mass: bool
     inertia: bool
@@ -149,7 +149,7 @@ class LinkOverlays:
                 trail.follow(position_of(tree.lookup(fixed, frame).matrix))
 
     def drawn(self) -> Iterator[DrawnTriangles]:
-        """What is drawn now, without the trails, which are lines."""
+        """Yield the overlays as triangles, without the trails, which are lines."""
         for overlay in self._overlays.values():
             if overlay.shape is not None:
                 yield overlay.shape

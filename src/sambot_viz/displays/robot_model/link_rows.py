@@ -20,7 +20,7 @@ _MOST_NAMES = 12
 def robot_lists(
     context: DisplayContext, entries: RobotEntries, robot: Robot, frame_of: FrameOf
 ) -> tuple[EntryList, ...]:
-    """The links and joints of a robot, in RViz's alphabetic order."""
+    """Return the links and joints of a robot, in RViz's alphabetic order."""
     children = _child_joints(robot)
     links = EntryList(
         "Links",
@@ -44,7 +44,7 @@ def robot_lists(
 
 
 def collision_note(robot: Robot) -> str:
-    """Which links have no collision shape to show; "" when all have one."""
+    """Name the links without a collision shape; "" when all have one."""
     bare = [name for name in sorted(robot.links) if not robot.links[name].collisions]
     if len(bare) == len(robot.links):
         return "No link of this robot has a collision shape."
@@ -61,7 +61,7 @@ def _child_joints(robot: Robot) -> dict[str, list[str]]:
 
 
 def _link_rows(link: Link) -> Sequence[str]:
-    """A link without geometry has neither a box nor an Alpha."""
+    """List the rows of a link: without geometry it has neither a box nor an Alpha."""
     rows = ("Show Trail", "Show Axes")
     return ("Value", "Alpha", *rows) if link.visuals or link.collisions else rows
 

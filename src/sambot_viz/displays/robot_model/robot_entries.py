@@ -59,11 +59,11 @@ class RobotEntries:
         self._above = {joint.child: joint.name for joint in robot.joints.values()}
 
     def holds_for(self, robot: Robot) -> bool:
-        """Whether these are still the entries of a robot, in the style chosen now."""
+        """Return whether these are the entries of a robot in the style chosen now."""
         return robot is self._robot and self._config.get(STYLE) == self._style
 
     def link(self, name: str) -> EntryItem:
-        """The item of a link."""
+        """Return the item of a link."""
         item = self._item("link", name)
         item.assume(BOX, self._default_box(name))
         return item
@@ -123,7 +123,7 @@ class RobotEntries:
                 self._find_places(entry, keys, below if both else found)
 
     def _is_tree(self, keys: Keys) -> bool:
-        """Whether the entries at a place are nested."""
+        """Return whether the entries at a place are nested."""
         return self._styles[keys[0]] in STYLES[2:]
 
     def _item(self, thing: Thing, name: str) -> EntryItem:
@@ -137,7 +137,7 @@ class RobotEntries:
         return item
 
     def _default_box(self, link: str) -> bool:
-        """What the box of a link is while the file gives none."""
+        """Return the box of a link that the file gives none."""
         joint = self._above.get(link)
         if joint is not None:
             # In the list of joints, a joint's box is its child link's.
@@ -151,7 +151,7 @@ class RobotEntries:
         return bool(enabled)
 
     def _place(self, thing: Thing, name: str) -> Keys:
-        """Where the entry is, or where RViz would save it: in a tree, or in a list."""
+        """Return where the entry is, or would be saved by RViz, in a tree or a list."""
         place = self._places.get((thing, name))
         if place is not None:
             return place
@@ -162,7 +162,7 @@ class RobotEntries:
         return ("Links" if thing == "link" else "Joints", name)
 
     def _chain(self, thing: Thing, name: str, *, joints: bool) -> Sequence[str]:
-        """The entries from the root of a tree down to a link or joint."""
+        """Return the entries from the root of a tree down to a link or joint."""
         chain: list[str] = []
         link = name
         if thing == "joint":
@@ -178,7 +178,7 @@ class RobotEntries:
             link = self._robot.joints[joint].parent
 
     def _carried(self, joint: str, *, all_below: bool) -> Iterator[str]:
-        """The child link of a joint, or all links below it."""
+        """Yield the child link of a joint, or all links below it."""
         pending = [self._robot.joints[joint].child]
         while pending:
             link = pending.pop()

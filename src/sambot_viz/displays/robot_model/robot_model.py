@@ -57,7 +57,7 @@ class RobotModelDisplay(TriangleDisplay):
         self._overlays = LinkOverlays(context, key, self.frame_of)
 
     def frame_of(self, link: str) -> str:
-        """The TF frame of a link."""
+        """Return the TF frame of a link."""
         prefix = str(self.config.get("TF Prefix"))
         return f"{prefix}/{link}" if prefix else link
 
@@ -119,7 +119,7 @@ class RobotModelDisplay(TriangleDisplay):
         return node
 
     def _take_robot(self) -> Robot | None:
-        """The robot to draw; what was drawn of another one is taken out."""
+        """Return the robot to draw; what was drawn of another one is taken out."""
         change = self._source.choose()
         if change != "none":
             self._overlays.clear()
@@ -146,7 +146,7 @@ class RobotModelDisplay(TriangleDisplay):
         return self
 
     def refusal(self, path: str, value: object) -> str | None:
-        """A model file must lie below the folders that were opened."""
+        """Refuse a model file that lies outside the folders that were opened."""
         if path != FILE or not isinstance(value, str) or not value:
             return None
         if self._source.may_name(value):
@@ -161,7 +161,7 @@ class RobotModelDisplay(TriangleDisplay):
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """What that robot is read from."""
+        """The files that this robot is read from."""
         return self._source.files
 
     def read_again(self) -> None:
@@ -208,7 +208,7 @@ class RobotModelDisplay(TriangleDisplay):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is wrong with the files of the shapes."""
+        """Problems of the files of the shapes."""
         return tuple(p for _, node in self._shapes.values() for p in node.problems)
 
     def assets_read(self) -> None:
@@ -231,7 +231,7 @@ class RobotModelDisplay(TriangleDisplay):
         super().values_put_back()
 
     def entries(self) -> tuple[EntryList, ...]:
-        """The links and the joints."""
+        """Return the links and the joints."""
         robot = self._source.robot
         if robot is None:
             return ()
@@ -239,14 +239,14 @@ class RobotModelDisplay(TriangleDisplay):
         return robot_lists(self.context, entries, robot, self.frame_of)
 
     def notes(self) -> Mapping[str, str]:
-        """Which links lack the collision shapes that are to be shown."""
+        """Name the links that lack the collision shapes to be shown."""
         robot = self._source.robot
         wanted = robot is not None and self.shown and self.config.get(COLLISIONS)
         note = collision_note(robot) if robot is not None and wanted else ""
         return {COLLISIONS: note} if note else {}
 
     def entries_of(self, robot: Robot) -> RobotEntries:
-        """The links and joints of a robot as items of the document."""
+        """Return the links and joints of a robot as items of the document."""
         if self._entries is None or not self._entries.holds_for(robot):
             self._entries = RobotEntries(self.config, robot)
         return self._entries

@@ -64,7 +64,7 @@ class RobotSource:
 
     @property
     def from_file(self) -> bool:
-        """Whether the robot is that of "Description File"."""
+        """Return whether the robot is that of "Description File"."""
         return self._source[:1] == ("File",)
 
     def choose(self) -> Change:
@@ -100,12 +100,12 @@ class RobotSource:
             self._read_file()
 
     def may_name(self, name: str) -> bool:
-        """Whether a browser may set "Description File" to this path."""
+        """Return whether a browser may set "Description File" to this path."""
         trusted = name in self._context.trusted_files
         return trusted or self._find(name, trusted=False) is not None
 
     def _named_file(self) -> tuple[str, bool, Path | None]:
-        """What "Description File" says, whether it is trusted, and the file it means.
+        """Return what "Description File" says, whether it is trusted, and its file.
 
         The file is looked for again when a robot is opened elsewhere.
         """

@@ -80,7 +80,7 @@ class ShapeNode:
         assets.register(self)
 
     def shows(self, shape: Shape, asset: Asset | None) -> bool:
-        """Whether this is the node of that shape, drawn from that file."""
+        """Return whether this is the node of that shape, drawn from that file."""
         # Paths take no part in the comparison of shapes.
         return shape == self._shape and asset == self.asset
 
@@ -124,7 +124,7 @@ class ShapeNode:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is wrong or doubtful in the file of the shape."""
+        """Problems of the file of the shape."""
         if isinstance(self._content, Problem):
             return (self._content,)
         return self._content.problems if isinstance(self._content, Mesh) else ()
@@ -139,11 +139,11 @@ class ShapeNode:
 
     @property
     def gone(self) -> bool:
-        """Whether its nodes went with the frame they hung below."""
+        """Return whether its nodes went with the frame they hung below."""
         return any_gone(piece.handle for piece in self._pieces)
 
     def drawn(self, frame: str | None, item: Selectable) -> Iterator[DrawnTriangles]:
-        """What of it is on the screen.
+        """Yield the parts that are on the screen.
 
         Args:
             frame: the frame of its link, or None for the fixed frame.

@@ -43,7 +43,7 @@ Solid = tuple[Triangles, Matrix]
 
 @dataclass(frozen=True, slots=True)
 class ShapeLook:
-    """How a shape is drawn at the moment.
+    """The look of a shape: visible or not, its alpha, or the white of an error.
 
     Attributes:
         visible: drawn at all.
@@ -91,13 +91,13 @@ class ShapePiece:
 
 
 def rgb255(rgba: Rgba) -> Rgb:
-    """A colour of 0 to 1 as 0 to 255."""
+    """Return a colour of 0 to 1 as 0 to 255."""
     red, green, blue = (min(255, max(0, int(c * 255 + 0.5))) for c in rgba[:3])
     return (red, green, blue)
 
 
 def material_rgba(material: Material | None) -> Rgba:
-    """A material's colour; RViz's red without one, white under a texture."""
+    """Return a material's colour; RViz's red without one, white under a texture."""
     if material is None:
         return DEFAULT_RED
     return material.rgba or WHITE
@@ -126,12 +126,12 @@ def solids_of(geometry: Geometry, content: Content | None) -> list[Solid]:
 
 
 def stand_in() -> Solid:
-    """The box in place of a mesh that could not be read."""
+    """Return the box in place of a mesh that could not be read."""
     return unit_box(), _scaled((STAND_IN_SIZE, STAND_IN_SIZE, STAND_IN_SIZE))
 
 
 def stand_in_edges() -> npt.NDArray[np.float32]:
-    """The twelve edges of that box, (12, 2, 3) [m]."""
+    """Return the twelve edges of that box, (12, 2, 3) [m]."""
     half = STAND_IN_SIZE / 2
     edges: list[list[list[float]]] = []
     for axis in range(3):
@@ -164,7 +164,7 @@ def textured(
 
 
 def _scaled(scale: Vector3, z: float = 0.0) -> Matrix:
-    """The map that enlarges along the axes, then moves along z."""
+    """Return the map that enlarges along the axes, then moves along z."""
     T = np.eye(4)
     T[0, 0], T[1, 1], T[2, 2] = scale
     T[2, 3] = z

@@ -1,1 +1,1 @@
-"""What displays draw with: lines, solids, frame nodes, and the files behind shapes."""
+"""Building blocks of displays: lines, solids, frame nodes, files of shapes."""

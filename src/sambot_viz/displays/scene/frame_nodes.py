@@ -30,7 +30,7 @@ _DIGITS = string.digits + string.ascii_lowercase
 
 
 def short_id(number: int) -> str:
-    """A number in base 36: node names travel in every message."""
+    """Return a number in base 36: node names travel in every message."""
     text = _DIGITS[number % 36]
     while number := number // 36:
         text = _DIGITS[number % 36] + text
@@ -54,11 +54,11 @@ class FrameNodes:
         self._fixed_root: str | None = None
 
     def path(self, frame: str) -> str | None:
-        """The name of the frame's node, or None for an unknown frame."""
+        """Return the name of the frame's node, or None for an unknown frame."""
         return self._paths.get(frame)
 
     def connected(self, frame: str) -> bool:
-        """Whether the frame can be placed in the fixed frame."""
+        """Return whether the frame can be placed in the fixed frame."""
         return frame in self._root_of and self._root_of[frame] == self._fixed_root
 
     def sync(self, tree: FrameTree, fixed_frame: str) -> None:

@@ -45,7 +45,7 @@ def in_pieces(
 def lines_glb(
     segments: npt.NDArray[np.float32], color: tuple[int, int, int], alpha: float
 ) -> bytes:
-    """A GLB file of line segments.
+    """Return a GLB file of line segments.
 
     Args:
         segments: (N, 2, 3) float32, start and end of each line [m].

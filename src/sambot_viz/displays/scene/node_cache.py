@@ -45,5 +45,5 @@ def remove_all(handles: Iterable[Handle]) -> None:
 
 
 def any_gone(handles: Iterable[Handle]) -> bool:
-    """Whether some of the nodes were removed together with a node above them."""
+    """Return whether some of the nodes were removed together with a node above them."""
     return any(viser_private.is_removed(handle) for handle in handles)

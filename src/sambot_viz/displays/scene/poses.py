@@ -9,7 +9,7 @@ FARTHEST = 1e30
 
 
 def position_of(T: Matrix) -> Vector3:
-    """The translation of a (4, 4) matrix [m], always finite.
+    """Return the translation of a (4, 4) matrix [m], always finite.
 
     viser keeps what it is given for every browser that comes later, so this is the
     last place where an absurd number can be stopped.
@@ -18,7 +18,7 @@ def position_of(T: Matrix) -> Vector3:
 
 
 def _shown(metres: float) -> float:
-    """A finite coordinate; NaN (of two infinities) becomes 0."""
+    """Return a finite coordinate; NaN (of two infinities) becomes 0."""
     # A comparison with NaN is never true.
     return (
         float(metres)

@@ -40,7 +40,7 @@ class Ribbon:
 
     @property
     def gone(self) -> bool:
-        """Whether its node went with the frame that it hung below."""
+        """Return whether its node went with the frame that it hung below."""
         return self._node is not None and any_gone([self._node])
 
     def draw(self, points: npt.NDArray[np.float32]) -> None:

@@ -12,7 +12,7 @@ from sambot_viz.meshes.cache import Content, MeshCache
 
 
 class Reader(Protocol):
-    """What reads files in the background."""
+    """Reads files in the background."""
 
     def request(self, asset: Asset, listener: SessionAssets) -> None:
         """Read a file soon, then call `SessionAssets.arrived`."""
@@ -57,7 +57,7 @@ class SessionAssets:
 
     @property
     def progress(self) -> tuple[int, int] | None:
-        """How many files of how many have been read, or None when all have been."""
+        """Number of files read and in all, or None when all have been read."""
         with self._changed:
             if not self._pending:
                 return None
@@ -79,11 +79,11 @@ class SessionAssets:
         self.cache.forget_changed()
 
     def known(self, asset: Asset) -> Content | None:
-        """What is in a file, if it has been read already; nothing is read for it."""
+        """Return the content of a file that has been read already, or None."""
         return self.cache.known(asset)
 
     def content(self, asset: Asset) -> Content | None:
-        """What is in a file; None while it is being read in the background."""
+        """Return what is in a file; None while it is read in the background."""
         if self._reader is None:
             return self.cache.read(asset)
         content = self.cache.known(asset)

@@ -38,12 +38,12 @@ _AXIS_COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
 def linear(channel: int) -> float:
-    """An 8-bit sRGB channel in linear colour space, 0 to 1."""
+    """Return an 8-bit sRGB channel in linear colour space, 0 to 1."""
     return srgb_to_linear(channel / 255)
 
 
 def opacity_of(alpha: float) -> float | None:
-    """An alpha as viser's opacity: None (no blending) from `OPAQUE_FROM` on."""
+    """Return an alpha as viser's opacity: None (no blending) from `OPAQUE_FROM` on."""
     return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
 
 
@@ -65,13 +65,13 @@ def _compact(shape: Primitive) -> Compact:
 
 @cache
 def cylinder() -> Compact:
-    """A 16-sided cylinder along z, diameter 1, height 1."""
+    """Return a 16-sided cylinder along z, diameter 1, height 1."""
     return _compact(unit_cylinder())
 
 
 @cache
 def cone() -> Compact:
-    """A 16-sided cone along z, diameter 1, height 1, tip up."""
+    """Return a 16-sided cone along z, diameter 1, height 1, tip up."""
     return _compact(unit_cone())
 
 
@@ -113,7 +113,7 @@ def add_batch(
 def _placed(
     shape: Compact, wxyz: Wxyz, position: Vector3, scale: Vector3
 ) -> npt.NDArray[np.float32]:
-    """The corners of a copy of a unit shape, (V, 3) [m]."""
+    """Return the corners of a copy of a unit shape, (V, 3) [m]."""
     w, x, y, z = wxyz
     R = np.array(rotation_from_xyzw((x, y, z, w)))
     placed = (shape.vertices * scale) @ np.transpose(R) + position
@@ -134,7 +134,7 @@ def _merged(copies: Iterable[tuple[Compact, Wxyz, Vector3, Vector3]]) -> Compact
 
 @lru_cache(maxsize=100)
 def axes_triangles(length: float, diameter: float) -> Compact:
-    """What `add_axes` draws."""
+    """Return the triangles that `add_axes` draws."""
     return _merged(
         (cylinder(), wxyz, position, _thick((length, diameter)))
         for wxyz, position in zip(_AXIS_WXYZ, _middles(length), strict=True)
@@ -143,7 +143,7 @@ def axes_triangles(length: float, diameter: float) -> Compact:
 
 @lru_cache(maxsize=1000)
 def arrow_triangles(arrows: tuple[Arrow, ...]) -> Compact:
-    """What `add_arrows` draws; there must be at least one."""
+    """Return the triangles that `add_arrows` draws; there must be an arrow."""
     copies: list[tuple[Compact, Wxyz, Vector3, Vector3]] = []
     for arrow in arrows:
         turn, shaft_at, head_at = arrow.parts()
@@ -153,7 +153,7 @@ def arrow_triangles(arrows: tuple[Arrow, ...]) -> Compact:
 
 
 def _thick(part: tuple[float, float]) -> Vector3:
-    """The scale of a part with a length and a diameter."""
+    """Return the scale of a part with a length and a diameter."""
     length, diameter = part
     return (diameter, diameter, length)
 
@@ -176,7 +176,7 @@ def add_axes(
 
 
 def _middles(length: float) -> list[Vector3]:
-    """The middles of three axes."""
+    """Return the middles of three axes."""
     half = length / 2
     return [(half, 0.0, 0.0), (0.0, half, 0.0), (0.0, 0.0, half)]
 

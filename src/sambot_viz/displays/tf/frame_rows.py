@@ -30,7 +30,7 @@ class FrameEntries:
         self._named = frozenset(self._items)
 
     def item(self, frame: str) -> EntryItem:
-        """The item of a frame."""
+        """Return the item of a frame."""
         item = self._items.get(frame)
         if item is None:
             item = self._items[frame] = self._read(frame)
@@ -39,7 +39,7 @@ class FrameEntries:
         return item
 
     def is_on(self, frame: str) -> bool:
-        """Whether the box of a frame is ticked."""
+        """Return whether the box of a frame is ticked."""
         return bool(self.item(frame).get(BOX))
 
     def set(self, frame: str, path: str, value: object) -> Any:
@@ -57,7 +57,7 @@ class FrameEntries:
 
 
 def frame_list(context: DisplayContext, entries: FrameEntries) -> EntryList:
-    """All frames, in the order in which they became known."""
+    """Return all frames, in the order in which they became known."""
     return EntryList(
         "Frames",
         "frame",

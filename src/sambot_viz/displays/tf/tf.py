@@ -48,7 +48,7 @@ EM_HEIGHT = 0.0889
 
 @dataclass
 class _FrameOverlays:
-    """What is drawn for one frame, and at which node."""
+    """The nodes of one frame, and the name of the node that they hang below."""
 
     path: str
     axes: viser.BatchedMeshHandle | None = None
@@ -96,7 +96,7 @@ class TfDisplay(TriangleDisplay):
         self._report()
 
     def _filter(self) -> Callable[[str], bool]:
-        """A check whether the two filters let a frame through."""
+        """Return a check whether the two filters let a frame through."""
         whitelist = RegexProperty.compiled(self.config.get("Filter (whitelist)"))
         blacklist = RegexProperty.compiled(self.config.get("Filter (blacklist)"))
 
@@ -161,7 +161,7 @@ class TfDisplay(TriangleDisplay):
         )
 
     def _arrows_at(self, parent: str) -> tuple[Arrow, ...]:
-        """The arrows of all children of a frame, in its coordinates."""
+        """Return the arrows of all children of a frame, in its coordinates."""
         if not bool(self.config.get("Show Arrows")):
             return ()
         tree, scale = self.context.tree, float(self.config.get("Marker Scale"))
@@ -197,7 +197,7 @@ class TfDisplay(TriangleDisplay):
         super().values_put_back()
 
     def entries(self) -> tuple[EntryList, ...]:
-        """The frames."""
+        """Return the frames."""
         return (frame_list(self.context, self._entries),)
 
     def frames_moved(self, frames: Iterable[str]) -> None:

@@ -21,7 +21,7 @@ _HEX = re.compile(r"#([0-9a-fA-F]+)")
 
 
 def color_text(color: Rgb) -> str:
-    """The text RViz saves, such as "160; 160; 164"."""
+    """Return the text RViz saves, such as "160; 160; 164"."""
     return "; ".join(str(part) for part in color)
 
 
@@ -91,7 +91,7 @@ class ColorProperty(Property):
         return (r, g, b)
 
     def write(self, value: Any) -> str:
-        """The text "r; g; b"."""
+        """Return the text "r; g; b"."""
         return color_text(value)
 
     def _parse(self, node: Scalar, report: Report) -> Rgb | None:

@@ -64,7 +64,7 @@ class KeptProperty(Property):
 
     @property
     def has_value(self) -> bool:
-        """Whether its value is used: it is not."""
+        """Return whether its value is used: it is not."""
         return False
 
 
@@ -74,10 +74,10 @@ class GroupProperty(Property):
 
     @property
     def has_value(self) -> bool:
-        """Whether it has a value: a container has none."""
+        """Return whether it has a value: a container has none."""
         return False
 
     def write(self, value: Any) -> str:
-        """The empty text: a container has no value."""
+        """Return the empty text: a container has no value."""
         del value
         return ""

@@ -15,7 +15,7 @@ INT_LIMIT = 2**31
 
 
 def parse_int(text: str) -> int | None:
-    """A decimal integer of 32 bits, or None."""
+    """Return a decimal integer of 32 bits, or None."""
     if len(text) > 40 or _INT.fullmatch(text) is None:
         return None
     value = int(text)
@@ -35,7 +35,7 @@ def parse_float(text: str) -> float | None:
 
 
 def parse_german(text: str) -> float | None:
-    """A number with a decimal comma and points between thousands, or None.
+    """Return a number with a decimal comma and points between thousands, or None.
 
     RViz reads the parts of vectors so, too.
     """
@@ -45,7 +45,7 @@ def parse_german(text: str) -> float | None:
 
 
 def float32(value: float) -> float:
-    """The nearest number of 32 bits, which is what RViz keeps and saves."""
+    """Return the nearest number of 32 bits, which is what RViz keeps and saves."""
     try:
         return float(struct.unpack("f", struct.pack("f", value))[0])
     except OverflowError:
@@ -53,7 +53,7 @@ def float32(value: float) -> float:
 
 
 def float_text(value: float) -> str:
-    """A number as RViz saves it.
+    """Return a number as RViz saves it.
 
     The number is rounded to 32 bits and its shortest 64-bit text is written: 0.1
     becomes "0.10000000149011612", 10 stays "10". Large round numbers have an exponent

@@ -41,7 +41,7 @@ class BoolProperty(Property):
         raise PropertyError(self.name, value, self._expected)
 
     def write(self, value: Any) -> str:
-        """The text "true" or "false"."""
+        """Return the text "true" or "false"."""
         return "true" if value else "false"
 
     def _parse(self, node: Scalar, report: Report) -> bool:
@@ -53,7 +53,7 @@ class BoolProperty(Property):
 
 
 def read_bool(node: Scalar, report: Report, name: str) -> bool:
-    """A boolean by RViz's rule, with a report of what RViz reads otherwise."""
+    """Return a boolean by RViz's rule, with a report of what RViz reads otherwise."""
     text = node.text.lower()
     if text in _FALSE:
         return False
@@ -75,7 +75,7 @@ def read_bool(node: Scalar, report: Report, name: str) -> bool:
 
 @dataclass(frozen=True)
 class _NumberProperty(Property):
-    """What integers and floats share: limits."""
+    """Base of integers and floats: limits."""
 
     @property
     def _range(self) -> str:
@@ -173,15 +173,15 @@ class FloatProperty(_NumberProperty):
         raise PropertyError(self.name, value, self._expected)
 
     def write(self, value: Any) -> str:
-        """The number as RViz saves it."""
+        """Return the number as RViz saves it."""
         return float_text(value)
 
     def show(self, value: Any) -> str:
-        """The number with six digits."""
+        """Return the number with six digits."""
         return f"{value:.6g}"
 
     def agrees(self, first: Any, second: Any) -> bool:
-        """Whether two numbers are the same in 32 bits, which is what RViz keeps."""
+        """Return whether two numbers are the same in the 32 bits that RViz keeps."""
         return float32(first) == float32(second)
 
     def _parse(self, node: Scalar, report: Report) -> float | None:
@@ -205,7 +205,7 @@ class FloatProperty(_NumberProperty):
 
 
 def finite_number(value: object) -> float | None:
-    """A finite number; booleans are not, numpy's numbers are."""
+    """Return a finite number; booleans are not, numpy's numbers are."""
     if isinstance(value, (bool, str, bytes)) or not hasattr(value, "__float__"):
         return None
     try:

@@ -28,7 +28,7 @@ class Pattern:
         self._compiled = compiled
 
     def matches(self, text: str) -> bool:
-        """Whether the expression matches anywhere in a text."""
+        """Return whether the expression matches anywhere in a text."""
         found = self._compiled.search(text.encode("utf-8", "replace"))
         return found is not None
 

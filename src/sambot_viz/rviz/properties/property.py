@@ -1,4 +1,4 @@
-"""What a typed property is: declared once, then read, checked, shown and written.
+"""Typed properties: declared once, then read, checked, shown and written.
 
 A display, a view and a tool list their properties as objects of the classes in
 `properties`; from that list come reading by RViz's rules, saving, the row in the panel
@@ -88,11 +88,11 @@ class Property:
 
     @property
     def has_value(self) -> bool:
-        """Whether it has a value of its own; a mere container has none."""
+        """Return whether it has a value of its own; a mere container has none."""
         return True
 
     def default_in(self, ros1: bool) -> Any:
-        """The default, in a file of ROS 1 or of ROS 2."""
+        """Return the default, in a file of ROS 1 or of ROS 2."""
         return (
             self.ros1_default
             if ros1 and self.ros1_default is not None
@@ -139,16 +139,16 @@ class Property:
         raise PropertyError(self.name, value, self._expected)
 
     def acting(self, value: Any) -> Any:
-        """The value that one acts as (see `acts_up_to`)."""
+        """Return the value that one acts as (see `acts_up_to`)."""
         limit = self.acts_up_to
         return value if limit is None or value <= limit else limit
 
     def write(self, value: Any) -> str:
-        """The text of a value, exactly as RViz saves it."""
+        """Return the text of a value, exactly as RViz saves it."""
         return str(value)
 
     def show(self, value: Any) -> str:
-        """The text of a value for people, with few digits."""
+        """Return the text of a value for people, with few digits."""
         return self.write(value)
 
     def components(self, value: Any) -> dict[str, str] | None:
@@ -157,7 +157,7 @@ class Property:
         return None
 
     def agrees(self, first: Any, second: Any) -> bool:
-        """Whether two values are the same for RViz."""
+        """Return whether two values are the same for RViz."""
         return bool(first == second)
 
     def _parse(self, node: Scalar, report: Report) -> Any:

@@ -57,7 +57,7 @@ class RegexProperty(StringProperty):
 
     @staticmethod
     def compiled(value: str) -> Pattern | None:
-        """The expression; None when it filters nothing."""
+        """Return the expression; None when it filters nothing."""
         return compile_pattern(value) if value else None
 
     def _parse(self, node: Scalar, report: Report) -> str:
@@ -79,7 +79,7 @@ class EnumProperty(Property):
     default: str = ""
 
     def meaning(self, value: object) -> str:
-        """The option a value acts as: itself, or the first option."""
+        """Return the option a value acts as: itself, or the first option."""
         if value in self.options or not self.options:
             return str(value)
         return self.options[0]
@@ -120,7 +120,7 @@ class TfFrameProperty(Property):
 
     @property
     def offers_fixed_frame(self) -> bool:
-        """Whether "<Fixed Frame>" is a choice."""
+        """Return whether "<Fixed Frame>" is a choice."""
         return self.default == FIXED_FRAME
 
     def coerce(self, value: object) -> str:

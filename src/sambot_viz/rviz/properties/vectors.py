@@ -51,17 +51,17 @@ class VectorProperty(Property):
         return parts
 
     def write(self, value: Any) -> str:
-        """The text RViz shows, such as "0.1; 0.0001; 1000"."""
+        """Return the text RViz shows, such as "0.1; 0.0001; 1000"."""
         return "; ".join(f"{part:.6g}" for part in value)
 
     def components(self, value: Any) -> dict[str, str]:
-        """Each key with the text of its number."""
+        """Return each key with the text of its number."""
         return {
             key: float_text(part) for key, part in zip(self.keys, value, strict=True)
         }
 
     def agrees(self, first: Any, second: Any) -> bool:
-        """Whether two vectors are the same in 32 bits, which is what RViz keeps."""
+        """Return whether two vectors are the same in the 32 bits that RViz keeps."""
         return [float32(part) for part in first] == [float32(part) for part in second]
 
     @property

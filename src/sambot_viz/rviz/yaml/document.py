@@ -121,7 +121,7 @@ class Document:
         )
 
     def to_yaml(self) -> str:
-        """The text of the file as it would be saved.
+        """Return the text of the file as it would be saved.
 
         Returns:
             The text that was read, with only the changes in it. If that does not read
@@ -143,7 +143,7 @@ class Document:
 
     @property
     def modified(self) -> bool:
-        """Whether the file says something else than when it was read or saved."""
+        """Return whether the file differs from what was read or saved last."""
         if self._saved is None:
             return self.root.changed if self.root.span else bool(self.root.entries)
         return not same(self.root, self._saved)

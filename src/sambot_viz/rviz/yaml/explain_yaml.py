@@ -1,4 +1,4 @@
-"""Why a text is not YAML, and how to fix it; files that are not .rviz files."""
+"""Explain why a text is not YAML, or not an .rviz file, and how to fix it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _GENERAL = (
 
 
 def other_format(text: str, file: str | None) -> Problem | None:
-    """The problem of a file that is something else than YAML, by its look."""
+    """Return the problem of a file that is something else than YAML, by its look."""
     merge = _MERGE_LINE.search(text)
     if merge:
         return Problem(
@@ -59,7 +59,7 @@ def other_format(text: str, file: str | None) -> Problem | None:
 def explain_yaml(
     text: str, error: yaml.YAMLError | ParseFault, file: str | None
 ) -> Problem:
-    """The cause of a YAML error, with its line and a fix.
+    """Return the cause of a YAML error, with its line and a fix.
 
     Args:
         text: the file.
@@ -89,7 +89,7 @@ class _YamlCause(NamedTuple):
 
 
 class _Slip:
-    """What the reader said, where, and the lines around it."""
+    """An error of the YAML reader, with its place and the lines around it."""
 
     def __init__(self, text: str, error: Any):
         self.lines = text.splitlines() or [""]

@@ -54,7 +54,7 @@ class Scalar:
 
     @property
     def changed(self) -> bool:
-        """Whether it says something else than in the file."""
+        """Return whether it says something else than in the file."""
         return self.text != self.original
 
     def assign(self, text: str) -> None:
@@ -111,7 +111,7 @@ class Entry:
 
 @dataclass(eq=False, slots=True)
 class Collection:
-    """What maps and lists have in common.
+    """Base of maps and lists.
 
     Attributes:
         entries: in the order of the file.
@@ -131,7 +131,7 @@ class Collection:
 
     @property
     def reshaped(self) -> bool:
-        """Whether entries were added, removed, moved or given another node."""
+        """Return whether entries were added, removed, moved or given another node."""
         return self.original is None or not (
             len(self.entries) == len(self.original)
             and all(a is b for a, b in zip(self.entries, self.original, strict=True))
@@ -140,7 +140,7 @@ class Collection:
 
     @property
     def changed(self) -> bool:
-        """Whether it or anything in it differs from the file."""
+        """Return whether it or anything in it differs from the file."""
         return self.reshaped or any(entry.value.changed for entry in self.entries)
 
 
@@ -149,26 +149,26 @@ class Map(Collection):
     """A map; where a key is given twice, the later one counts."""
 
     def entry(self, key: str) -> Entry | None:
-        """The entry that holds for a key."""
+        """Return the entry that holds for a key."""
         for entry in reversed(self.entries):
             if entry.key == key:
                 return entry
         return None
 
     def get(self, key: str) -> Node | None:
-        """The value of a key; None when it is missing or null."""
+        """Return the value of a key; None when it is missing or null."""
         entry = self.entry(key)
         if entry is None or (isinstance(entry.value, Scalar) and entry.value.null):
             return None
         return entry.value
 
     def text(self, key: str) -> str | None:
-        """The text of a key; None when it is missing, null, a map or a list."""
+        """Return the text of a key; None when it is missing, null, a map or a list."""
         node = self.get(key)
         return node.text if isinstance(node, Scalar) else None
 
     def keys(self) -> Iterator[str]:
-        """Each key once, in the order of the file."""
+        """Yield each key once, in the order of the file."""
         return iter(dict.fromkeys(e.key for e in self.entries if e.key is not None))
 
     def put(self, key: str, value: Node) -> None:
@@ -214,7 +214,7 @@ Node: TypeAlias = Scalar | Map | List
 
 
 def plain(node: Node | None) -> Plain:
-    """The node as ordinary Python values."""
+    """Return the node as ordinary Python values."""
     if isinstance(node, Map):
         return {key: plain(node.get(key)) for key in node.keys()}
     if isinstance(node, List):
@@ -223,21 +223,21 @@ def plain(node: Node | None) -> Plain:
 
 
 def items_of(node: Node | None) -> list[tuple[Entry, Map]]:
-    """The maps in a list of the file, with their entries."""
+    """Return the maps in a list of the file, with their entries."""
     if not isinstance(node, List):
         return []
     return [(e, e.value) for e in node.entries if isinstance(e.value, Map)]
 
 
 def copied(node: Node) -> Node:
-    """A copy that belongs to no place in the file."""
+    """Return a copy that belongs to no place in the file."""
     if isinstance(node, Scalar):
         return Scalar(node.text, node.null, node.quote)
     return copied_map(node) if isinstance(node, Map) else List(_copied_entries(node))
 
 
 def copied_map(node: Map) -> Map:
-    """A copy of a map that belongs to no place in the file."""
+    """Return a copy of a map that belongs to no place in the file."""
     return Map(_copied_entries(node))
 
 
@@ -246,7 +246,7 @@ def _copied_entries(node: Map | List) -> list[Entry]:
 
 
 def same(first: Node, second: Node) -> bool:
-    """Whether two nodes say the same, whatever the way they are written.
+    """Return whether two nodes say the same, whatever the way they are written.
 
     An empty list and a null are the same: RViz writes "~" for both.
     """

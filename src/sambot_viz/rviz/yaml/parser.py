@@ -131,7 +131,7 @@ class _Reader:
         return node
 
     def _body_start(self, node: Map | List, after: int | None) -> int:
-        """Where a map or list begins: with the comments above its first entry."""
+        """Return the start of a map or list: of the comments above its first entry."""
         start = _known(node).start
         if node.flow or self.flow or after is None:
             return start
@@ -156,7 +156,7 @@ class _Reader:
     def _source(
         self, parent: Collection, key: Node | None, value: Node, lead: int
     ) -> YamlText | None:
-        """The place of an entry that has lines of its own."""
+        """Return the place of an entry that has lines of its own."""
         if not parent.entries:
             lead = _matched(_ANCHORS, self.text, lead)
         start = _matched(_GAP, self.text, lead)
@@ -188,7 +188,7 @@ class _Reader:
 
 
 def _matched(pattern: re.Pattern[str], text: str, start: int) -> int:
-    """Where a match that begins at `start` ends."""
+    """Return the end of a match that begins at `start`."""
     match = pattern.match(text, start)
     return match.end() if match else start
 

@@ -48,7 +48,7 @@ class Writer:
         self._changed: dict[int, bool] = {}
 
     def document(self, root: Node) -> str:
-        """The whole file."""
+        """Return the whole file."""
         self._note_changes(root)
         if self._whole or root.span is None or not self._can_patch(root):
             return self._fresh_root(root)
@@ -70,7 +70,7 @@ class Writer:
         return head + (scalar_text(root) if isinstance(root, Scalar) else "{}")
 
     def _can_patch(self, node: Node) -> bool:
-        """Whether the old text of a node can be kept, with changes in it."""
+        """Return whether the old text of a node can be kept, with changes in it."""
         if self._whole or node.span is None:
             return False
         if not self._changed[id(node)]:
@@ -85,7 +85,7 @@ class Writer:
         return not node.opaque and bool(node.entries and node.original)
 
     def _patched(self, node: Node, flow: bool = False) -> str:
-        """The old text of a node with the changes in it."""
+        """Return the old text of a node with the changes in it."""
         start, end = _bounds(node)
         if not self._changed[id(node)]:
             return self._text[start:end]
@@ -147,13 +147,13 @@ class Writer:
         return lead.lstrip(" \t\r\n") if first else lead
 
     def _comment(self, source: YamlText) -> str:
-        """The comment behind an old value that was on the line of its key."""
+        """Return the comment behind an old value that was on the line of its key."""
         if any(c in self._text[source.head : source.tail] for c in "\r\n"):
             return ""
         return self._text[source.tail : source.end].rstrip("\r\n")
 
     def _shifted(self, text: str, by: int, skip: bool) -> str:
-        """The text of an entry, indented more or less; `skip` its first line."""
+        """Return the text of an entry, indented more or less; `skip` its first line."""
         if by == 0:
             return text
         lines = text.splitlines(keepends=True)
@@ -168,7 +168,7 @@ class Writer:
         return "".join(lines)
 
     def _fresh_value(self, entry: Entry, column: int, comment: str = "") -> str:
-        """What follows a key's colon or a dash, with the line break."""
+        """Return the text after a key's colon or a dash, with the line break."""
         node, end = entry.value, comment + self._newline
         if isinstance(node, Scalar):
             return f" {scalar_text(node)}{end}"
@@ -189,7 +189,7 @@ def _bounds(node: Node) -> tuple[int, int]:
 
 
 def scalar_text(node: Scalar, flow: bool = False) -> str:
-    """A scalar on one line.
+    """Return a scalar on one line.
 
     Args:
         node: what to write; a text that was quoted stays quoted.

@@ -1,1 +1,1 @@
-"""What is under the cursor, and the marks around what is selected."""
+"""Picking in a browser's picture, and the boxes around the selection."""

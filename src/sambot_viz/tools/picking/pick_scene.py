@@ -1,4 +1,4 @@
-"""What the displays of a session show, asked by rays and rectangles."""
+"""Ask the displays of a session what rays and rectangles meet."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from sambot_viz.displays.picking.rays import Array, RayGrid
 
 @dataclass(frozen=True, slots=True)
 class PickSnapshot:
-    """What is drawn at one moment; rays can be followed without any lock.
+    """Everything drawn at one moment; rays can be followed without any lock.
 
     Attributes:
         geometries: of the displays that are shown, in their order.
@@ -30,7 +30,7 @@ class PickSnapshot:
 
     @property
     def triangles(self) -> int:
-        """How many triangles there are."""
+        """The number of triangles."""
         return sum(geometry.triangles for geometry in self.geometries)
 
     def first_hit(self, origin: Array, direction: Array, pixel: float) -> Hit:
@@ -115,7 +115,7 @@ class PickScene:
 
 
 def _union(one: Corners, other: Corners | None) -> Corners:
-    """The box around two boxes."""
+    """Return the box around two boxes."""
     if other is None:
         return one
     return np.minimum(one[0], other[0]), np.maximum(one[1], other[1])

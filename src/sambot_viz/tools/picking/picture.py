@@ -22,7 +22,7 @@ ScreenPoint = tuple[float, float]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Picture:
-    """What a browser's camera shows, in the fixed frame.
+    """The picture of a browser's camera, in the fixed frame.
 
     Attributes:
         eye: position of the camera, (3,) [m].
@@ -40,7 +40,7 @@ class Picture:
 
     @classmethod
     def of(cls, camera: viser.CameraHandle) -> Picture | None:
-        """The picture of a browser; None when its numbers are not a camera."""
+        """Return the picture of a browser; None when its numbers are not a camera."""
         wxyz, eye = _numbers(camera.wxyz, 4), _numbers(camera.position, 3)
         size = _numbers((camera.image_width, camera.image_height), 2)
         fov = _numbers((camera.fov,), 1)
@@ -68,7 +68,7 @@ class Picture:
         return along / np.linalg.norm(along)
 
     def pixels(self, one: ScreenPoint, other: ScreenPoint) -> RayGrid | None:
-        """The pixels of a rectangle between two of its corners, at least one.
+        """Return the pixels of a rectangle between two of its corners, at least one.
 
         Returns:
             The pixels; None when the numbers are not a rectangle.
@@ -98,7 +98,7 @@ class Picture:
 
 
 def _numbers(values: object, *shape: int) -> Array | None:
-    """What a browser sent as an array; None for what is not that many numbers."""
+    """Return numbers of a browser as an array; None for anything else."""
     try:
         array = np.asarray(values, np.float64)
     except (TypeError, ValueError):

@@ -60,6 +60,6 @@ class SelectionBoxes:
 
 
 def box_lines(low: Array, high: Array) -> npt.NDArray[np.float32]:
-    """The twelve edges of a box, (12, 2, 3) float32 [m]."""
+    """Return the twelve edges of a box, (12, 2, 3) float32 [m]."""
     points = low + CORNERS * (high - low)
     return points[EDGES].astype(np.float32)
