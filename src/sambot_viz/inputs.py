@@ -71,7 +71,7 @@ class Inputs:
     Args:
         options: what the user asked for.
         may_be_broken: whether a model or a config with a mistake in it is shown as
-            such, until it is saved right, rather than refused.
+            such, until it is fixed, rather than refused.
 
     Attributes:
         opened: when the files were opened [ns], as `time.time_ns` counts.

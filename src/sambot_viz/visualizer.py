@@ -102,8 +102,8 @@ class Visualizer:
 
         Args:
             inputs: the model and the config, with their options. What is broken in
-                them, if they may be, is shown by its problem, and itself as soon as
-                the file is saved right.
+                them, if they may be, is shown by its problem, and drawn as soon as
+                it is fixed.
             listening: a server that listens already, so that the options' host
                 and port do not count; it is stopped with the visualizer.
 

@@ -2,7 +2,7 @@
 
 A save with a mistake never removes the robot: the last good one stays, with the
 problem beside it, until a save fixes it. A file that has a mistake from the start is
-shown by its problem alone, and itself as soon as it is saved right.
+shown by its problem alone, and drawn as soon as it is fixed.
 """
 
 from __future__ import annotations
