@@ -89,3 +89,13 @@ def test_three_slashes_without_a_file_are_explained_too(tmp_path: Path) -> None:
 
     assert problem.code == "package-three-slashes"
     assert "no file was used" in problem.message
+
+
+def test_backslashes_after_a_package_are_the_cause_that_is_named(
+    tmp_path: Path,
+) -> None:
+    (problem,) = problems_with(tmp_path, r"package://arm\meshes\a.stl")
+
+    assert problem.code == "mesh-not-found"
+    assert r"it has \ in place of /" in problem.message
+    assert problem.hint == "write package://arm/meshes/a.stl"

@@ -124,6 +124,10 @@ class FileFinder:
             searched = ", ".join(found.searched[:4]) or "nowhere"
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
+            if "\\" in package:
+                reason = "it has \\ in place of /"
+                right = filename.replace("\\", "/")
+                hint = f"write {right}"
         elif found.searched == (_OUTSIDE,):
             reason = _OUTSIDE
             hint = "put the file below the model's folder, or open a model you trust"
