@@ -60,7 +60,7 @@ def test_a_step_costs_what_it_moves(tmp_path: Path, joints: int, moved: str) -> 
     steps = names if moved == "all" else [names[joints // 2]]
     with Visualizer(model, port=0) as viz:
         # Every step is to be drawn, not only those at the frame rate.
-        session_of(viz)._pacer.period = 0.0  # pyright: ignore[reportPrivateUsage]
+        session_of(viz).robot.set_period(0.0)
         ours = cpu_of(lambda q: viz.set_joint_positions(dict.fromkeys(steps, q)))
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     urdf = ViserUrdf(server, yourdfpy.URDF.load(io.StringIO(text)))

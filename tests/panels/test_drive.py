@@ -104,7 +104,7 @@ def test_the_yaw_is_shown_within_half_a_turn(
 
 
 def test_another_key_is_refused(panel: DrivePanel) -> None:
-    with pytest.raises(UsageError, match="not driven with the key '7'"):
+    with pytest.raises(UsageError, match="no key '7' drives the robot"):
         edit(panel, "drive/press", ["7"])
 
 

@@ -17,7 +17,7 @@ from sambot_viz.frames import FrameTree
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import ConfigItem, DisplayConfig
-from sambot_viz.session.signals import Audience, Change, Signal
+from sambot_viz.session.signals import Audience, Change, Signal, connect
 
 
 class Scene:
@@ -66,6 +66,8 @@ class Scene:
         self._tree_drawn = tree.version
         self._background: tuple[int, int, int] | None = None
         change.finish = self._finish
+        # Files are asked for, and arrive, only where displays are drawn.
+        connect([self.statuses], self._tell_progress)
 
     # The document
 
@@ -179,6 +181,8 @@ class Scene:
         if self.context.tree.version != self._tree_drawn:
             # A display, or an undone edit, has set frames.
             self.draw_frames()
+
+    def _tell_progress(self) -> None:
         self.progress.set(self.context.assets.progress)
 
     def _next_key(self) -> str:
