@@ -1,4 +1,4 @@
-"""What the page can call: each command is declared once, at the method that does it.
+"""Declare what the page can call, once, at the method that does it.
 
     @command("displays/rename", TEXT, TEXT, name="Rename")
     def _rename(self, row_id: str, name: str) -> None: ...
@@ -68,7 +68,7 @@ class Command:
     client_local: bool = False
 
     def json(self) -> dict[str, Json]:
-        """What the page gets."""
+        """Return what the page gets."""
         local = {"local": True} if self.client_local else {}
         return {"id": self.id, "in": "", "kind": "command", **local}
 

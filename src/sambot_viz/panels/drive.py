@@ -23,7 +23,7 @@ from sambot_viz.session.robot.motion import HOLD
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
 """Limits of the speeds [m/s] and [rad/s]."""
 KEYS = {"8": (0.1, 0.0), "2": (-0.1, 0.0), "4": (0.0, 0.25), "6": (0.0, -0.25)}
-"""What one press of a key adds [m/s] and [rad/s]."""
+"""Added by one press of a key [m/s] and [rad/s]."""
 STOP_KEY = "5"
 _POSE, _WHEELS = "drive/pose", "drive/wheels"
 

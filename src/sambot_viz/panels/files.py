@@ -28,7 +28,7 @@ AskPage = Callable[[Session, Client, str], MakePage]
 raises SambotVizError when there is no such motion."""
 _OF_DISK = ("file/save", "file/save-as", "file/list", "file/open")
 _UNNAMED = "robot"
-"""What a picture or a page is called when there is no robot."""
+"""Name of a picture or a page when there is no robot."""
 
 
 class Files(Protocol):
@@ -42,11 +42,11 @@ class Files(Protocol):
         """
 
     def saved(self, path: Path) -> None:
-        """The document is in this file now."""
+        """Note that the document is in this file now."""
 
 
 class FilesPanel(Panel):
-    """What the File menu needs.
+    """Opens, saves and downloads for the File menu.
 
     Args:
         session: whose document it is.
@@ -263,5 +263,5 @@ class FilesPanel(Panel):
 
 
 def _plain(name: str) -> str:
-    """A name that any disk takes."""
+    """Return a name that any disk takes."""
     return "".join(c if c.isalnum() or c in "-_. " else "_" for c in name)[:100]

@@ -1,4 +1,4 @@
-"""What the panels of the window have in common."""
+"""Base of the panels: what they send to the page, and when it is made again."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ class PeoplePanel(Panel):
 
 
 class OwnRolePanel(Panel):
-    """What the user of one browser may do, and what can be asked for and given.
+    """Shows one client its role, and takes requests for control.
 
     Args:
         session: what it shows.

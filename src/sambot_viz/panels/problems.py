@@ -121,7 +121,7 @@ def _head(
 
 
 def _details(problem: Problem, parent: str, *, hint: bool) -> Iterator[Row]:
-    """The remedy, the lines around the place, and the whole path."""
+    """Yield the remedy, the lines around the place, and the whole path."""
     if hint and problem.hint:
         yield _hint(parent, problem.hint)
     lines = problem_lines(problem, LINES_AROUND)
@@ -144,5 +144,5 @@ def _rest(row_id: str, parent: str, count: int) -> Row:
 
 
 def _id(*parts: object) -> str:
-    """The same for the same problem, whatever other problems there are."""
+    """Return the same id for the same problem, whatever others there are."""
     return f"p{hashlib.blake2s(repr(parts).encode(), digest_size=8).hexdigest()}"

@@ -39,7 +39,7 @@ _KINDS: tuple[tuple[type[Property], Kind], ...] = (
 
 
 def kind_of(prop: Property) -> Kind:
-    """How a property's row is drawn."""
+    """Return how a property's row is drawn."""
     if not prop.has_value:
         return "group"
     for cls, kind in _KINDS:
@@ -71,7 +71,7 @@ def property_rows(
 
 
 def is_listed(item: ConfigItem, declared: Declared) -> bool:
-    """Whether a property has a row now: it may depend on another one's value."""
+    """Tell whether a property has a row now: another one's value may hide it."""
     prop = declared.property
     if isinstance(prop, KeptProperty) or prop.support in ("none", "kept"):
         return False
@@ -122,7 +122,7 @@ def _setter(change: Change, path: str) -> Callable[[Any], object]:
 
 
 def _step(prop: Property) -> float | None:
-    """What an arrow key adds: one step of the unit that people think in."""
+    """Return what an arrow key adds: one step of the usual unit."""
     if isinstance(prop, IntProperty):
         return 1
     if isinstance(prop, FloatProperty | VectorProperty):

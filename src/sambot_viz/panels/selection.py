@@ -57,7 +57,7 @@ class SelectionPanel(Panel):
         self._frame: str = FIXED_FRAME
 
     def rows(self) -> Sequence[Row]:
-        """The frame of the poses, then a row per item with its facts."""
+        """Return the frame of the poses, then a row per item with its facts."""
         items = list(self._browser.tools.selection)
         if not items:
             return [Row("selection/none", "", "note", value=_NOTHING)]
@@ -83,7 +83,7 @@ class SelectionPanel(Panel):
         return made
 
     def values(self) -> dict[str, Json]:
-        """What a motion may have changed."""
+        """Return what a motion may have changed."""
         items = list(self._browser.tools.selection)
         made: list[Row] = []
         if len(items) == 2:
@@ -129,13 +129,13 @@ def _id(item: Selectable) -> str:
 
 
 def _fact_rows(prefix: str, parent: str, facts: Iterable[Fact]) -> Iterator[Row]:
-    """The rows of some facts; names such as "Visual" may occur twice."""
+    """Yield the rows of some facts; names such as "Visual" may occur twice."""
     for number, (name, value) in enumerate(facts):
         yield Row(f"{prefix}/{number}", parent, "readonly", name, value)
 
 
 def facts_of(session: Session, name: str, frame: str) -> list[Fact]:
-    """What is known about a link or frame.
+    """Return what is known about a link or frame.
 
     Args:
         session: where it is shown.
@@ -171,7 +171,7 @@ def _relations(tree: FrameTree, name: str) -> Iterator[Fact]:
 
 
 def _written(session: Session, name: str) -> Iterator[Fact]:
-    """What the model file says about a link, and where."""
+    """Yield what the model file says about a link, and where."""
     robot = session.robot.model
     link = None if robot is None else robot.links.get(name)
     if robot is None or link is None:
@@ -212,7 +212,7 @@ def _joint(session: Session, joint: Joint) -> Iterator[Fact]:
 
 
 def geometry_text(geometry: Geometry) -> str:
-    """A shape in a few words, such as "Box 0.42; 0.31; 0.18 m"."""
+    """Return a shape in a few words, such as "Box 0.42; 0.31; 0.18 m"."""
     if isinstance(geometry, MeshFile):
         return f"Mesh {geometry.filename}"
     if isinstance(geometry, Box):
@@ -224,7 +224,7 @@ def geometry_text(geometry: Geometry) -> str:
 
 
 def place_text(place: Place) -> str:
-    """A place as file:line, with the name of the file alone."""
+    """Return a place as file:line, with the name of the file alone."""
     return f"{place.file.rpartition('/')[2]}:{place.line}"
 
 

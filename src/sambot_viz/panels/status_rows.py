@@ -35,7 +35,7 @@ def global_status_rows(session: Session) -> Iterator[Row]:
 def status_rows(
     session: Session, display: Display, row_id: str, parent: str, *, all_rows: bool
 ) -> Iterator[Row]:
-    """The status of a display, bad rows first.
+    """Yield the rows of a display's status, bad ones first.
 
     Args:
         session: whose display it is.
@@ -63,7 +63,7 @@ def status_rows(
 
 
 def _why_no_robot(session: Session, parent: str) -> Iterator[Row]:
-    """The mistakes of the model, each at its line, for as long as there is no robot."""
+    """Yield the mistakes of the model, each at its line, while there is no robot."""
     problems = session.problems.of_saves.get("model", ())
     errors = [problem for problem in problems if problem.severity == "error"]
     for index, problem in enumerate(errors[:MOST_NAMES]):
@@ -74,7 +74,7 @@ def _why_no_robot(session: Session, parent: str) -> Iterator[Row]:
 
 
 def place_of(problem: Problem) -> str:
-    """The name of a problem's file, and the line."""
+    """Return the name of a problem's file, and the line."""
     if problem.file is None:
         return ""
     name = text(PurePath(problem.file).name, _LONGEST_FILE)
@@ -95,7 +95,7 @@ def _head(row_id: str, parent: str, name: str, level: str, *, lazy: bool) -> Row
 
 
 def fixed_frame_missing(session: Session) -> str:
-    """That the fixed frame does not exist, and which frames do; "" when it does."""
+    """Say that the fixed frame does not exist, and which do; "" when it does."""
     fixed, frames = session.scene.context.fixed_frame, session.frames.tree.frames
     if fixed in frames or not frames:
         return ""
@@ -103,6 +103,6 @@ def fixed_frame_missing(session: Session) -> str:
 
 
 def listed(names: Sequence[str], most: int = MOST_NAMES) -> str:
-    """Some names in a sentence; of many only the first ones."""
+    """Return some names in a sentence; of many only the first ones."""
     shown = ", ".join(names[:most])
     return f"{shown} and {len(names) - most} more" if len(names) > most else shown

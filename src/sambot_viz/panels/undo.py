@@ -14,7 +14,7 @@ from sambot_viz.session.clients.client import Client
 
 
 class UndoPanel(Panel):
-    """What can be undone and done again.
+    """Offers undo and redo.
 
     Args:
         session: whose edits these are.
@@ -51,7 +51,7 @@ class UndoPanel(Panel):
         return _said("Redone", self._history.redo(self._id))
 
     def _touched(self) -> Json:
-        """The row that the page goes to; two of one row have different numbers."""
+        """Return the row that the page goes to, with another number each time."""
         state = self._history.state(self._id).value
         number, item = state.times, state.touched
         if isinstance(item, DisplayConfig) and self._session.document.config.holds(

@@ -189,7 +189,7 @@ def look_as(
 
 
 def _read(sent: str) -> dict[str, Any]:
-    """The values of rows by their ids; nothing when it is not that."""
+    """Return the values of rows by their ids; none from another text."""
     try:
         values = json.loads(sent)
     except (ValueError, RecursionError):

@@ -1,4 +1,4 @@
-"""What the page can do with displays: add, copy, rename, move, remove."""
+"""Commands for displays: add, copy, rename, move, remove."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ class DisplaysPanel(Panel):
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
     def values(self) -> Mapping[str, Json]:
-        """What is shown of links and frames that are unfolded."""
+        """Return what is shown of links and frames that are unfolded."""
         return {
             _fact_id(row_id, key): value
             for facts in self._facts.values()
@@ -241,7 +241,7 @@ class DisplaysPanel(Panel):
 
 
 def _entry_id(parent: str, name: str) -> str:
-    """The id of a link, joint or frame; its name may hold slashes."""
+    """Return the id of a link, joint or frame; its name may hold slashes."""
     return f"{parent}/={name.replace('%', '%25').replace('/', '%2F')}"
 
 

@@ -14,7 +14,7 @@ DIGITS = 6
 
 
 def answer_rows(found: Explanation) -> Iterator[Row]:
-    """The pose in four forms, texts to copy, and the way step by step; or why not."""
+    """Yield the pose in four forms, texts to copy, and the way; or why not."""
     T = found.transform
     if T is None:
         yield Row("frames/why", "", "note", value=found.reason, level="error")
@@ -53,7 +53,7 @@ def _copied(
 
 
 def copies(parent: str, child: str, T: Transform) -> Iterator[tuple[str, str, str]]:
-    """A pose as other programs want it: key, name, text."""
+    """Yield a pose as other programs want it: key, name, text."""
     x, y, z = plain_numbers(T.translation.tolist())
     roll, pitch, yaw = plain_numbers(T.rpy)
     flags = (

@@ -60,7 +60,7 @@ class FramesPanel(Panel):
         return [Data("frames/shown", self._shown)]
 
     def values(self) -> dict[str, Json]:
-        """The answer, which follows motions while the panel is on the screen."""
+        """Return the answer; it follows motions while the panel is on the screen."""
         if not self._shown:
             return {}
         return {row.id: row.value for row in answer_rows(self._answer())}
@@ -251,7 +251,7 @@ class FramesPanel(Panel):
 
 
 def pasted_arguments(pasted: str) -> str:
-    """The arguments of static_transform_publisher out of a command or a launch file.
+    """Return static_transform_publisher's arguments from a command or a launch file.
 
     Args:
         pasted: "ros2 run tf2_ros static_transform_publisher 0 0 …", the arguments

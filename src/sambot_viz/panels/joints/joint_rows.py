@@ -11,7 +11,7 @@ from sambot_viz.panels.row import Row
 from sambot_viz.robot.joint import Joint
 
 STEP_ANGLE, STEP_LENGTH = 0.01, 0.001
-"""What an arrow key adds [rad] and [m]."""
+"""Added by an arrow key [rad] and [m]."""
 FEWEST_STEPS = 20
 """A joint with a short range has smaller steps, at least so many."""
 FOLLOWERS, SKIPPED = "joints/followers", "joints/skipped"

@@ -42,7 +42,7 @@ _FORMS: dict[str, tuple[str, Callable[[dict[str, float]], str]]] = {
 
 
 class JointsPanel(Panel):
-    """What joint_state_publisher_gui shows, and more.
+    """Shows what joint_state_publisher_gui shows, and more.
 
     Unlike there, typed values are exact, joints that mimic others and joints over a
     limit are shown, and wheels can keep turning.
