@@ -393,3 +393,19 @@ def test_a_number_makes_only_the_rows_of_its_display_again(displays: Displays) -
     displays.change("Ground", "Floor", to=False)
     robot = displays.named("Robot").id
     assert displays.all()[robot] is not after[robot]
+
+
+def test_rows_that_are_kept_show_what_has_moved_since(
+    displays: Displays, session: Session
+) -> None:
+    path = ("Frames of it", "Frames", "arm/tip")
+    for end in (1, 2, 3):
+        displays.unfold(*path[:end])
+    displays.all()
+    before = displays.panel.values()
+    session.robot.set_positions({"turn": 1.0})
+    moved = displays.panel.values()
+    assert moved != before
+    displays.change("Ground", "Floor", "Cell Size", to=2.5)
+    rows = displays.all()
+    assert {row_id: rows[row_id].value for row_id in moved} == moved

@@ -75,7 +75,16 @@ class DisplaysPanel(Panel):
 
     def rows(self) -> Sequence[Row]:
         """Return all rows, each after its parent."""
-        return [*mark_expanded(self._tree(), self._session.document.config.expanded)]
+        tree = self._tree()
+        now = self.values()
+        rows = (
+            # It was made before the last motion.
+            replace(row, value=now[row.id])
+            if row.id in now and row.value != now[row.id]
+            else row
+            for row in tree
+        )
+        return [*mark_expanded(rows, self._session.document.config.expanded)]
 
     def commands(self) -> list[Command]:
         """Return the command to unfold a row."""
