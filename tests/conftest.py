@@ -19,6 +19,13 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[1]
 NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
+GROUPS = {
+    "tests/browser/tasks/": "tasks",
+    "tests/browser/": "browser",
+    "tests/golden/": "browser",
+    "tests/jupyter/": "browser",
+}
+"""What a test's name begins with → the tests that one worker runs."""
 TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
 """The environment variable with the order of the browser tasks."""
 
@@ -28,13 +35,18 @@ def pytest_configure() -> None:
     os.environ.setdefault(TASK_SEED, str(secrets.randbelow(10**6)))
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """Let one worker of pytest-xdist run the tests that share a browser and pages."""
-    for item in items:
-        if "chromium" in getattr(item, "fixturenames", ()):
-            group = "tasks" if "tasks" in item.path.parts else "browser"
-            item.add_marker(pytest.mark.xdist_group(group))
+    # Marks do not: xdist 3.8 adds them to an attribute that pytest 9.2 does not have.
+    from xdist.scheduler import LoadScopeScheduling
+
+    class ByPages(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            fitting = (GROUPS[start] for start in GROUPS if nodeid.startswith(start))
+            return next(fitting, nodeid)
+
+    return ByPages(config, log)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
