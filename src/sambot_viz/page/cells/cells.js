@@ -145,7 +145,7 @@ const CELLS = {
   color: ColorCell,
   enum: EnumCell,
   frame: FrameCell,
-  fact: FactCell,
+  readonly: FactCell,
   display: (/** @type {any} */ { row, tab }) =>
     row.fixed ? null : html`<${Box} row=${row} tab=${tab} />`,
   status: (/** @type {any} */ { row, tab }) =>
