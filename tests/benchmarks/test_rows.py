@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import statistics
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
@@ -14,7 +13,7 @@ from urllib.parse import urlsplit
 import pytest
 import robots
 from inside import viser_server
-from protocol_client import ProtocolClient, Received
+from protocol_client import ROW_PATCH, ProtocolClient, Received
 from steps import RECORD, Times, delays, drag, report
 from viewer_page import viewer_url
 
@@ -197,10 +196,12 @@ def rows_of(messages: Sequence[Received]) -> Times:
     """When the row of the first joint changed."""
     found: Times = []
     for message in messages:
-        content = message.fields.get("updates", {}).get("content", "")
-        value = re.search(r'"j/joint_1":\{"value":([^,}]+)', content)
-        if value:
-            found.append((message.at, float(value[1])))
+        changed: dict[str, Any] = {}
+        if message.type == ROW_PATCH:
+            changed = message.fields.get("rows", {})
+        value = changed.get("j/joint_1", {}).get("value")
+        if value is not None:
+            found.append((message.at, float(value)))
     return found
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from protocol_client import ProtocolClient
-from troublemakers import garbage
+from troublemakers import garbage, garbage_edit
 
 from sambot_viz import Visualizer, bundled, viser_private
 from sambot_viz.server import inbound_filter
@@ -109,6 +109,7 @@ def test_no_garbage_raises_or_is_noticed_by_the_others(
     with caplog.at_level(logging.WARNING):
         for _ in range(1000):
             bad.send_raw(garbage(chance))
+            bad.send_edit(garbage_edit(chance))
         for client in (bad, user):
             client.settle(viz.viser)
         assert moves(viz, user, protocol(viz.viser.get_port()))

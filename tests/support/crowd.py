@@ -16,6 +16,7 @@ import asyncio
 import math
 import multiprocessing
 import os
+import secrets
 import signal
 import time
 from collections.abc import Generator, Sequence
@@ -31,6 +32,8 @@ import zstandard
 from protocol_client import CAMERA
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
+
+from sambot_viz.server.channel import SUBPROTOCOL
 
 LONGEST = 60.0
 """How long a crowd may take for anything [s]."""
@@ -203,20 +206,36 @@ async def _until_seen(lights: Sequence[Light], angle: float) -> None:
 
 async def _browse(port: int, light: Light, joined: asyncio.Event, meshes: int) -> None:
     start = time.perf_counter()
-    try:
-        async with connect(
-            f"ws://127.0.0.1:{port}",
-            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+    ticket = secrets.token_urlsafe(16)
+
+    def open_socket(subprotocol: str) -> connect:
+        return connect(
+            f"ws://127.0.0.1:{port}/?ticket={ticket}",
+            subprotocols=[Subprotocol(subprotocol)],
             max_size=None,
             compression=None,
             ping_interval=None,
-        ) as socket:
+        )
+
+    try:
+        async with (
+            open_socket(f"viser-v{viser.__version__}") as socket,
+            open_socket(SUBPROTOCOL) as channel,
+        ):
+            rows = asyncio.create_task(_count(channel, light))
             camera = {"type": "ViewerCameraMessage", **CAMERA}
             await socket.send(msgspec.msgpack.encode(camera))
             await _read(socket, light, joined, meshes, start)
+            await rows
     finally:
         light.closed = True
         joined.set()
+
+
+async def _count(channel: ClientConnection, light: Light) -> None:
+    """Count what the channel brings."""
+    async for data in channel:
+        light.bytes += len(data)
 
 
 async def _read(

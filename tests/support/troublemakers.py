@@ -40,13 +40,19 @@ def troublemakers(port: int) -> Generator[None]:
         process.join(10.0)
 
 
+def garbage_edit(chance: random.Random) -> object:
+    """What the page never sends through its channel, or only nearly."""
+    value = chance.choice([None, -1, 2**63, float("nan"), "x" * 2000, [], {"a": [1]}])
+    row = chance.choice(["j/drivewhl_l_joint", "joints/reset/x", "d/0/Alpha", ""])
+    return chance.choice([row, [row], [row, value], [row, value, value], value])
+
+
 def garbage(chance: random.Random) -> bytes:
     """A message that is wrong in some way, or only nearly right."""
     value = chance.choice([None, -1, 2**63, float("nan"), "x" * 2000, [], {"a": [1]}])
     names = ["ViewerCameraMessage", "GuiUpdateMessage", "ScenePointerMessage"]
     names += ["GetRenderResponseMessage", "FileTransferPart", "Shutdown", ""]
     row = chance.choice(["j/drivewhl_l_joint", "joints/reset/x", "d/0/Alpha", ""])
-    edits = [row, [row], [row, value], [row, value, value], value]
     message: object = chance.choice(
         [
             {"type": chance.choice(names), "uuid": row, "updates": value},
@@ -54,7 +60,7 @@ def garbage(chance: random.Random) -> bytes:
             {
                 "type": "GuiUpdateMessage",
                 "uuid": "sambot-viz",
-                "updates": {"value": chance.choice(edits)},
+                "updates": {"value": garbage_edit(chance)},
             },
             value,
         ]
