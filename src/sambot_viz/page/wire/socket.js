@@ -49,10 +49,13 @@ export class Socket {
     let last = Promise.resolve();
     socket.onmessage = ({ data }) => {
       this.heard = Date.now();
-      last = last.then(async () => {
-        const message = await decoded(data);
-        if (this.socket === socket && message !== "pong") this.take(message);
-      });
+      last = last
+        .then(async () => {
+          const message = await decoded(data);
+          if (this.socket === socket && message !== "pong") this.take(message);
+        })
+        // An error in one message must not keep the next ones from being taken.
+        .catch((error) => reportError(error));
     };
     socket.onclose = () => {
       // One that was given up may end much later.
