@@ -380,20 +380,8 @@ HOLDERS = {
     # To be given parts.
     "commands/snapshot.py",
     "export/page_file.py",
-    "panels/displays/display_commands.py",
-    "panels/displays/displays.py",
-    "panels/drive.py",
     "panels/files.py",
-    "panels/frames/frames.py",
-    "panels/joints/joints.py",
-    "panels/people.py",
     "panels/permalink/permalink.py",
-    "panels/selection.py",
-    "panels/session_info.py",
-    "panels/status_rows.py",
-    "panels/tools.py",
-    "panels/undo.py",
-    "panels/views.py",
     "server/config_store.py",
 }
 """Modules that may name `Session`: all others get the parts that they use."""

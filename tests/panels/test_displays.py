@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from inside import session_of
-from panel_rows import commands_of, data_of, edit, rows_of
+from panel_rows import commands_of, data_of, edit, panel_of, rows_of
 
 from sambot_viz import SambotVizError, Visualizer
 from sambot_viz.inputs import Inputs
@@ -52,8 +52,10 @@ class Displays:
 
     def __init__(self, session: Session) -> None:
         self.remade: list[Panel] = []
-        self.panel = DisplaysPanel(session, self.remade.append)
-        self.new = DisplayCommands(session, self.panel, self.remade.append)
+        self.panel = panel_of(DisplaysPanel, session, remake=self.remade.append)
+        self.new = panel_of(
+            DisplayCommands, session, displays=self.panel, remake=self.remade.append
+        )
 
     def all(self) -> dict[str, Row]:
         """Every row by its id, in the order of the page."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from panel_rows import edit
+from panel_rows import edit, panel_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import FrameError, UsageError
@@ -28,7 +28,7 @@ IN_ODOM = Answer("The fixed frame is odom now, to show the motion; Undo puts it 
 def panel(session: Session) -> Iterator[DrivePanel]:
     """The panel, with steps that only the test takes."""
     session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
-    yield DrivePanel(session)
+    yield panel_of(DrivePanel, session)
 
 
 @pytest.fixture
@@ -163,4 +163,4 @@ def test_a_robot_without_two_wheels_has_no_drive_panel(tmp_path: Path) -> None:
     model = tmp_path / "box.urdf"
     model.write_text('<robot name="box"><link name="a"/></robot>')
     with Visualizer(model, port=0, watch=False) as viz:
-        assert [*DrivePanel(session_of(viz)).rows()] == []
+        assert [*panel_of(DrivePanel, session_of(viz)).rows()] == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from panel_rows import edit, rows_of
+from panel_rows import edit, panel_of, rows_of
 
 from sambot_viz import FrameError, Visualizer, load_robot
 from sambot_viz.errors import UsageError
@@ -33,7 +33,7 @@ def said() -> list[tuple[str, Level]]:
 
 @pytest.fixture
 def panel(session: Session, said: list[tuple[str, Level]]) -> FramesPanel:
-    return FramesPanel(session, lambda *what: said.append(what), lambda _: None)
+    return panel_of(FramesPanel, session, say=lambda *what: said.append(what))
 
 
 def values(panel: FramesPanel) -> dict[str, object]:
@@ -111,7 +111,7 @@ def test_values_follow_motions_while_the_panel_is_on_the_screen(
 def test_two_browsers_ask_for_different_frames(
     session: Session, panel: FramesPanel
 ) -> None:
-    other = FramesPanel(session, lambda *_: None, lambda _: None)
+    other = panel_of(FramesPanel, session)
     ask(panel, "base_link", LEFT)
     assert rows_of(other)["frames/to"].value != "base_link"
     ask(other, LEFT, "base_link")

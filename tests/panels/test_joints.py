@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import yaml
 from inside import session_of
-from panel_rows import data_of, edit, row_named, rows_of
+from panel_rows import data_of, edit, panel_of, row_named, rows_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
@@ -48,7 +48,7 @@ def open_robot(tmp_path: Path) -> Iterator[Open]:
         path = tmp_path / "robot.urdf"
         path.write_text(f'<robot name="r"><link name="base"/>{"".join(joints)}</robot>')
         viz = opened.enter_context(Visualizer(path, port=0, watch=False))
-        return JointsPanel(session_of(viz), lambda panel: None)
+        return panel_of(JointsPanel, session_of(viz))
 
     with opened:
         yield make
@@ -56,7 +56,7 @@ def open_robot(tmp_path: Path) -> Iterator[Open]:
 
 @pytest.fixture
 def panel(session: Session) -> JointsPanel:
-    return JointsPanel(session, lambda panel: None)
+    return panel_of(JointsPanel, session)
 
 
 def answer(panel: JointsPanel, row_id: str, value: Any) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from panel_rows import data_of, edit
+from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.displays.picking.pick_geometry import Selectable
@@ -29,7 +29,7 @@ class Links:
 
     def __init__(self, session: Session, browser: Client, joints: bool = True) -> None:
         self.session, self.browser = session, browser
-        panel = JointsPanel(session, lambda panel: None)
+        panel = panel_of(JointsPanel, session)
         self.panel = PermalinkPanel(
             session,
             browser,

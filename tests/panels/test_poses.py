@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from panel_rows import data_of, edit
+from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import JointError, UsageError
@@ -38,7 +38,7 @@ def remade() -> list[Panel]:
 
 @pytest.fixture
 def panel(session: Session, remade: list[Panel]) -> PosesPanel:
-    return PosesPanel(session, remade.append)
+    return panel_of(PosesPanel, session, remake=remade.append)
 
 
 def send(panel: PosesPanel, row_id: str, *values: Any) -> Any:
@@ -57,7 +57,7 @@ def test_a_pose_is_kept_in_the_file_that_is_named_when_it_is_saved(
     assert names(panel) == ["half"] and remade == [panel]
     assert data_of(panel)["poses/place"] == f"Kept in {path}."
     with Visualizer(port=0, poses=path) as again:
-        other = PosesPanel(session_of(again), remade.append)
+        other = panel_of(PosesPanel, session_of(again), remake=remade.append)
         send(other, "poses/use", "half")
         assert again.joint_positions[LEFT] == 1.25
 
@@ -78,7 +78,7 @@ def test_choosing_a_pose_can_be_undone(
 def test_a_pose_of_another_robot_says_what_is_left_out(path: Path) -> None:
     path.write_text(f"odd: {{arm: 1.0, {LEFT}: 0.25}}\n")
     with Visualizer(port=0, poses=path) as viz:
-        panel = PosesPanel(session_of(viz), lambda panel: None)
+        panel = panel_of(PosesPanel, session_of(viz))
         said = send(panel, "poses/use", "odd")
         assert said == Answer("Without arm, which cannot be set")
         assert viz.joint_positions[LEFT] == 0.25
@@ -123,7 +123,7 @@ def test_a_visitor_keeps_poses_in_memory_only(
     session: Session, viz: Visualizer
 ) -> None:
     session.poses = session.poses.in_memory()
-    panel = PosesPanel(session, lambda panel: None)
+    panel = panel_of(PosesPanel, session)
     assert data_of(panel)["poses/place"] == "Kept in memory only."
     assert send(panel, "poses/save", "half") == Answer(
         "Saved pose 'half' in memory only"

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from panel_rows import data_of, edit
+from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
@@ -18,7 +18,7 @@ LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
 @pytest.fixture
 def panel(session: Session) -> JointsPanel:
-    return JointsPanel(session, lambda panel: None)
+    return panel_of(JointsPanel, session)
 
 
 def bring_back(
@@ -72,5 +72,5 @@ def test_a_position_that_the_row_would_refuse_moves_nothing(
 def test_where_the_joints_were_at_first_is_known() -> None:
     with Visualizer(port=0, joint_positions={RIGHT: 0.5}) as viz:
         viz.set_joint_positions({RIGHT: 0.1})
-        panel = JointsPanel(session_of(viz), lambda panel: None)
+        panel = panel_of(JointsPanel, session_of(viz))
         assert data_of(panel)["joints/first"] == {f"j/{RIGHT}": 0.5}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from panel_rows import edit, row_named, rows_of
+from panel_rows import edit, panel_of, row_named, rows_of
 
 from sambot_viz import Visualizer, load_robot
 from sambot_viz.displays.picking.pick_geometry import Selectable
@@ -28,7 +28,7 @@ RIGHT = Selectable("link", "drivewhl_r_link")
 
 @pytest.fixture
 def panel(session: Session, browser: Client) -> SelectionPanel:
-    return SelectionPanel(session, browser, lambda _: None)
+    return panel_of(SelectionPanel, session, browser)
 
 
 def facts(panel: SelectionPanel) -> dict[str, str]:

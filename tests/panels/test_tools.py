@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from panel_rows import data_of, edit, rows_of
+from panel_rows import data_of, edit, panel_of, rows_of
 
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import UsageError
@@ -16,7 +16,7 @@ TOOLS = ("Interact", "Move Camera", "Select", "Focus Camera", "Measure")
 
 @pytest.fixture
 def panel(session: Session, browser: Client) -> ToolsPanel:
-    return ToolsPanel(session, browser)
+    return panel_of(ToolsPanel, session, browser)
 
 
 def current(panel: ToolsPanel) -> list[str]:
@@ -82,7 +82,7 @@ def test_there_is_no_such_tool(panel: ToolsPanel) -> None:
 
 
 def test_the_colour_of_measure_is_a_row(session: Session, browser: Client) -> None:
-    panel = ToolPropertiesPanel(session, browser)
+    panel = panel_of(ToolPropertiesPanel, session, browser)
     rows = rows_of(panel)
     assert rows["tool_properties/Measure"].name == "Measure"
     color = rows["tool_properties/Measure/Line color"]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from panel_rows import data_of, edit
+from panel_rows import data_of, edit, panel_of
 
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.row import Answer
@@ -19,12 +19,12 @@ GRID = "rviz_default_plugins/Grid"
 
 @pytest.fixture
 def displays(session: Session) -> DisplaysPanel:
-    return DisplaysPanel(session, lambda panel: None)
+    return panel_of(DisplaysPanel, session)
 
 
 @pytest.fixture
 def panel(session: Session, browser: Client, displays: DisplaysPanel) -> UndoPanel:
-    return UndoPanel(session, browser, displays)
+    return panel_of(UndoPanel, session, browser, displays=displays)
 
 
 def touched(panel: UndoPanel) -> Any:
@@ -105,7 +105,7 @@ def test_other_edits_and_other_browsers_name_nothing(
     with session.history.acting(browser.client_id):
         session.document.set_option("Frame Rate", 10)
         session.display_edits.rename_display(session.document.config.displays[0], "One")
-    other = UndoPanel(session, join(), displays)
+    other = panel_of(UndoPanel, session, join(), displays=displays)
     edit(panel, "edit/undo", None)
     assert touched(other) is None
     with session.history.acting(browser.client_id):

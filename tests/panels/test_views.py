@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from panel_rows import data_of, edit, row_named, rows_of
+from panel_rows import data_of, edit, panel_of, row_named, rows_of
 
 from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
@@ -20,7 +20,7 @@ ORBIT, ABOVE = "Orbit (rviz_default_plugins)", "TopDownOrtho (rviz_default_plugi
 
 @pytest.fixture
 def panel(session: Session, browser: Client) -> ViewsPanel:
-    return ViewsPanel(session, browser)
+    return panel_of(ViewsPanel, session, browser)
 
 
 def test_the_numbers_are_those_of_the_current_view(panel: ViewsPanel) -> None:
@@ -142,7 +142,7 @@ def test_with_follow_the_presenter_the_others_see_what_one_does(
     panel: ViewsPanel,
     join: Callable[[], Client],
 ) -> None:
-    other = ViewsPanel(session, join())
+    other = panel_of(ViewsPanel, session, join())
     edit(panel, "view/Distance", 5.0)
     assert rows_of(other)["view/Distance"].value != 5.0
     edit(other, "view/:follow", True)

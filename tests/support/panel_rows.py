@@ -2,11 +2,41 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from inspect import signature
+from typing import Any, TypeVar
 
 from sambot_viz.panels import validation
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
+from sambot_viz.session import Session
+from sambot_viz.session.clients.client import Client
+from sambot_viz.session.scene.joint_arrow import JointArrow
+
+P = TypeVar("P", bound=Panel)
+
+
+def panel_of(
+    kind: Callable[..., P], session: Session, client: Client | None = None, **more: Any
+) -> P:
+    """Make a panel: its arguments have the names of the session's parts.
+
+    Args:
+        kind: its class.
+        session: what it shows.
+        client: for whom.
+        more: other arguments; without them it says and remakes nothing.
+    """
+    given = {
+        "client": client,
+        "client_id": client and client.client_id,
+        "arrow": JointArrow(session.scene, session.worker),
+        "say": lambda sentence, level: None,
+        "remake": lambda panel: None,
+        **more,
+    }
+    names = signature(kind).parameters
+    return kind(**{n: given[n] if n in given else getattr(session, n) for n in names})
 
 
 def rows_of(panel: Panel) -> dict[str, Row]:

@@ -26,7 +26,7 @@ class BrowserPanels:
 
     Args:
         session: what it shows.
-        browser: the browser.
+        client: the browser.
         files: the disk, for those who may use it.
         ask_page: makes a page of what is seen; None leaves that out.
         displays: the rows of the displays, for everyone.
@@ -39,7 +39,7 @@ class BrowserPanels:
     def __init__(
         self,
         session: Session,
-        browser: Client,
+        client: Client,
         files: Files | None,
         ask_page: AskPage | None,
         displays: DisplaysPanel,
@@ -48,7 +48,7 @@ class BrowserPanels:
         self._notices = NoticePanel()
         self._displays = displays
         self._shared_row = shared_row
-        self._browser = browser
+        self._client = client
         self._sync = RowSync(
             session.worker, self._panels(session, files, ask_page), "browser"
         )
@@ -57,19 +57,21 @@ class BrowserPanels:
     def _panels(
         self, session: Session, files: Files | None, ask_page: AskPage | None
     ) -> list[Panel]:
-        browser, displays = self._browser, self._displays
+        client, displays, remake = self._client, self._displays, self._remake
+        document, history, robot = session.document, session.history, session.robot
+        scene, roles, frames = session.scene, session.roles, session.frames
         keep = displays.keep_unfolded
         return [
             self._notices,
-            OwnRolePanel(session, browser, self.say),
-            ToolsPanel(session, browser),
-            UndoPanel(session, browser, displays),
-            ViewsPanel(session, browser),
-            SelectionPanel(session, browser, self._remake),
-            ToolPropertiesPanel(session, browser),
-            FramesPanel(session, self.say, self._remake),
-            PermalinkPanel(session, browser, self._shared_row, self._remake),
-            FilesPanel(session, browser, files, ask_page, keep, self.say, self._remake),
+            OwnRolePanel(roles, client.client_id, self.say),
+            ToolsPanel(client, scene),
+            UndoPanel(client.client_id, history, document, displays),
+            ViewsPanel(client, document, session.clients, roles, history),
+            SelectionPanel(client, scene, robot, remake),
+            ToolPropertiesPanel(client, document),
+            FramesPanel(frames, robot, scene, self.say, remake),
+            PermalinkPanel(session, client, self._shared_row, remake),
+            FilesPanel(session, client, files, ask_page, keep, self.say, remake),
         ]
 
     def close(self) -> None:

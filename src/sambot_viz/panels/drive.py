@@ -16,9 +16,10 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Kind, Row
-from sambot_viz.session import Session
-from sambot_viz.session.robot.drive import ODOM
+from sambot_viz.session.clients.follow_view import FollowView
+from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.motion import HOLD
+from sambot_viz.session.robot.robot_state import RobotState
 
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
 """Limits of the speeds [m/s] and [rad/s]."""
@@ -32,22 +33,24 @@ class DrivePanel(Panel):
     """Drives a robot with two wheels; without them the panel is empty.
 
     Args:
-        session: whose robot is driven.
+        follow_view: shows the motion when it starts.
     """
 
     name = "drive"
     period = 0.1
 
-    def __init__(self, session: Session) -> None:
-        self.remade_by = (session.robot.changed,)
-        self.moved_by = (session.drive.velocity, session.drive.pose_changed)
-        self._session = session
-        self._drive = session.drive
-        self._follow_view = session.follow_view
+    def __init__(
+        self, drive: Drive, robot: RobotState, follow_view: FollowView
+    ) -> None:
+        self.remade_by = (robot.changed,)
+        self.moved_by = (drive.velocity, drive.pose_changed)
+        self._drive = drive
+        self._robot = robot
+        self._follow_view = follow_view
 
     def rows(self) -> Sequence[Row]:
         """Return the speeds, where the robot is, and its wheels."""
-        wheels, robot = self._drive.wheels, self._session.robot.model
+        wheels, robot = self._drive.wheels, self._robot.model
         if wheels is None or robot is None:
             return []
         return [
@@ -112,7 +115,7 @@ class DrivePanel(Panel):
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there is a robot with two wheels."""
-        return self._drive.wheels is not None and self._session.robot.model is not None
+        return self._drive.wheels is not None and self._robot.model is not None
 
     @command("drive/hold", NUMBER, NUMBER)
     def _hold(self, v: float, w: float) -> Answer | None:

@@ -6,40 +6,36 @@ from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
-import viser
-
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Level
-from sambot_viz.session import Session
-from sambot_viz.session.clients.client import Client
-from sambot_viz.session.people.roles import Participant
+from sambot_viz.session.people.roles import Participant, Roles
 
 
 class PeoplePanel(Panel):
     """Who is there, for everyone.
 
     Args:
-        session: whose browsers these are.
+        is_copy: whether one client has the session as a private copy.
     """
 
     name = "people"
 
-    def __init__(self, session: Session) -> None:
-        self.remade_by = (session.roles.changed,)
-        self._session = session
+    def __init__(self, roles: Roles, is_copy: bool) -> None:
+        self.remade_by = (roles.changed,)
+        self._roles = roles
+        self._is_copy = is_copy
 
     def data(self) -> Sequence[Data]:
         """Return how many there are, and the names of some."""
-        roles = self._session.roles
+        roles = self._roles
         people = roles.people
         control = [person.name for person in people.values() if person.has_control]
         requests = [
             [id, person.name] for id, person in people.items() if person.requests
         ]
         given = any(p.has_control and not p.presenter for p in people.values())
-        private = isinstance(self._session.audience, viser.ClientHandle)
         state = {
             "clients": len(people),
             "presented": roles.presented,
@@ -47,7 +43,7 @@ class PeoplePanel(Panel):
             "viewers": len(people) - len(control),
             "requests": requests,
             "given": given and roles.presented,
-            "copy": self._session.options.session == "shared" and private,
+            "copy": self._is_copy,
         }
         return [Data("people/state", state)]
 
@@ -56,19 +52,17 @@ class OwnRolePanel(Panel):
     """Shows one client its role, and takes requests for control.
 
     Args:
-        session: what it shows.
-        browser: the browser.
+        client_id: whose role it is.
         say: shows the user a sentence.
     """
 
     name = "role"
 
     def __init__(
-        self, session: Session, browser: Client, say: Callable[[str, Level], None]
+        self, roles: Roles, client_id: int, say: Callable[[str, Level], None]
     ) -> None:
-        self.remade_by = (session.roles.changed,)
-        self._session = session
-        self._roles, self._id = session.roles, browser.client_id
+        self.remade_by = (roles.changed,)
+        self._roles, self._id = roles, client_id
         self._say = say
         self._before: Participant | None = None
         self._helpers: frozenset[str] = frozenset()

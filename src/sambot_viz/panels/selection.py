@@ -15,8 +15,9 @@ from sambot_viz.panels.row import Json, Row
 from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
-from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
 
 SHOWN = 30
 """At most this many selected items are listed."""
@@ -33,8 +34,7 @@ class SelectionPanel(Panel):
     """Lists the selection, and how far two selected items are apart.
 
     Args:
-        session: what is shown.
-        browser: whose selection it is.
+        client: whose selection it is.
         remake: called when another frame was chosen.
     """
 
@@ -43,22 +43,23 @@ class SelectionPanel(Panel):
     period = 0.2
 
     def __init__(
-        self, session: Session, browser: Client, remake: Callable[[Panel], None]
+        self,
+        client: Client,
+        scene: Scene,
+        robot: RobotState,
+        remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (
-            session.scene.frames,
-            session.robot.changed,
-            browser.tools.changed,
-        )
-        self.moved_by = (session.robot.positions,)
-        self._session = session
-        self._browser = browser
+        self.remade_by = (scene.frames, robot.changed, client.tools.changed)
+        self.moved_by = (robot.positions,)
+        self._client = client
+        self._context = scene.context
+        self._robot = robot
         self._remake = remake
         self._frame: str = FIXED_FRAME
 
     def rows(self) -> Sequence[Row]:
         """Return the frame of the poses, then a row per item with its facts."""
-        items = list(self._browser.tools.selection)
+        items = list(self._client.tools.selection)
         if not items:
             return [Row("selection/none", "", "note", value=_NOTHING)]
         made = [self._frame_row()]
@@ -84,7 +85,7 @@ class SelectionPanel(Panel):
 
     def values(self) -> dict[str, Json]:
         """Return what a motion may have changed."""
-        items = list(self._browser.tools.selection)
+        items = list(self._client.tools.selection)
         made: list[Row] = []
         if len(items) == 2:
             made.extend(_fact_rows("apart", "", self._apart(items[0], items[1])))
@@ -110,12 +111,13 @@ class SelectionPanel(Panel):
         self._remake(self)
 
     def _facts(self, item: Selectable) -> Sequence[Fact]:
-        session = self._session
-        return facts_of(session, item.name, session.scene.context.frame(self._frame))
+        context = self._context
+        frame = context.frame(self._frame)
+        return facts_of(context.tree, self._robot, item.name, frame)
 
     def _apart(self, first: Selectable, second: Selectable) -> Iterator[Fact]:
         try:
-            found = distance_between(self._session.frames.tree, first.name, second.name)
+            found = distance_between(self._context.tree, first.name, second.name)
         except LookupRefused as refused:
             yield "Distance", refused.rviz_text
             return
@@ -134,18 +136,19 @@ def _fact_rows(prefix: str, parent: str, facts: Iterable[Fact]) -> Iterator[Row]
         yield Row(f"{prefix}/{number}", parent, "readonly", name, value)
 
 
-def facts_of(session: Session, name: str, frame: str) -> list[Fact]:
+def facts_of(tree: FrameTree, robot: RobotState, name: str, frame: str) -> list[Fact]:
     """Return what is known about a link or frame.
 
     Args:
-        session: where it is shown.
+        tree: where it may be.
+        robot: what is shown.
         name: the link or frame.
         frame: the frame in which its pose is given.
     """
     return [
-        *_pose(session.frames.tree, name, frame),
-        *_relations(session.frames.tree, name),
-        *_written(session, name),
+        *_pose(tree, name, frame),
+        *_relations(tree, name),
+        *_written(robot, name),
     ]
 
 
@@ -170,15 +173,15 @@ def _relations(tree: FrameTree, name: str) -> Iterator[Fact]:
         yield "Children", ", ".join(children)
 
 
-def _written(session: Session, name: str) -> Iterator[Fact]:
+def _written(shown: RobotState, name: str) -> Iterator[Fact]:
     """Yield what the model file says about a link, and where."""
-    robot = session.robot.model
+    robot = shown.model
     link = None if robot is None else robot.links.get(name)
     if robot is None or link is None:
         return
     for joint in robot.joints.values():
         if joint.child == name:
-            yield from _joint(session, joint)
+            yield from _joint(shown, joint)
     below = [joint.name for joint in robot.joints.values() if joint.parent == name]
     if below:
         yield "Child joints", ", ".join(below)
@@ -196,13 +199,13 @@ def _link(link: Link) -> Iterator[Fact]:
         yield "Written at", place_text(link.place)
 
 
-def _joint(session: Session, joint: Joint) -> Iterator[Fact]:
+def _joint(robot: RobotState, joint: Joint) -> Iterator[Fact]:
     at = "" if joint.place is None else f", {place_text(joint.place)}"
     yield "Joint", f"{joint.name} ({joint.type}){at}"
-    if not joint.movable or session.robot.joints is None:
+    if not joint.movable or robot.joints is None:
         return
     unit = "m" if joint.type == "prismatic" else "rad"
-    position = session.robot.joints.all_positions().get(joint.name, joint.start)
+    position = robot.joints.all_positions().get(joint.name, joint.start)
     lower, upper = joint.range
     limits = f"{lower:.5g} … {upper:.5g}"
     if joint.type == "continuous":

@@ -8,7 +8,7 @@ from pathlib import PurePath
 from sambot_viz.displays.display import Display
 from sambot_viz.errors import Problem
 from sambot_viz.panels.row import Level, Row
-from sambot_viz.session import Session
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.text import text
 
 LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
@@ -17,11 +17,11 @@ _STATUS = "status"
 _LONGEST_FILE = 60
 
 
-def global_status_rows(session: Session) -> Iterator[Row]:
+def global_status_rows(scene: Scene) -> Iterator[Row]:
     """RViz's Global Status."""
-    status = session.scene.global_status()
+    status = scene.global_status()
     yield _head(_STATUS, "", "Global Status", status.level, lazy=False)
-    there = fixed_frame_missing(session)
+    there = fixed_frame_missing(scene)
     yield Row(
         f"{_STATUS}/Fixed Frame",
         _STATUS,
@@ -33,15 +33,22 @@ def global_status_rows(session: Session) -> Iterator[Row]:
 
 
 def status_rows(
-    session: Session, display: Display, row_id: str, parent: str, *, all_rows: bool
+    display: Display,
+    row_id: str,
+    parent: str,
+    scene: Scene,
+    mistakes: Sequence[Problem],
+    *,
+    all_rows: bool,
 ) -> Iterator[Row]:
     """Yield the rows of a display's status, bad ones first.
 
     Args:
-        session: whose display it is.
         display: one that is shown.
         row_id: the id of its status.
         parent: the id of its row.
+        scene: where it is drawn.
+        mistakes: problems of the model, while there is no robot for them.
         all_rows: False leaves out the rows of a status that is Ok.
     """
     status = display.status
@@ -49,23 +56,22 @@ def status_rows(
     yield _head(row_id, parent, "Status", status.level, lazy=lazy)
     if lazy:
         return
-    missing = fixed_frame_missing(session)
+    missing = fixed_frame_missing(scene)
     if missing and status.level != "Ok":
         level = LEVELS[status.level]
         fixed = f"{row_id}/:fixed"
         yield Row(fixed, row_id, "status", "Fixed Frame", missing, level=level)
     own_robot = display.robot_display and display.robot_display.own_robot
-    if session.robot.model is None and own_robot is None and status.level != "Ok":
-        yield from _why_no_robot(session, row_id)
+    if own_robot is None and status.level != "Ok":
+        yield from _why_no_robot(mistakes, row_id)
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]
         yield Row(f"{row_id}/{key}", row_id, "status", key, row.text, level=level)
 
 
-def _why_no_robot(session: Session, parent: str) -> Iterator[Row]:
+def _why_no_robot(mistakes: Sequence[Problem], parent: str) -> Iterator[Row]:
     """Yield the mistakes of the model, each at its line, while there is no robot."""
-    problems = session.problems.of_saves.get("model", ())
-    errors = [problem for problem in problems if problem.severity == "error"]
+    errors = [problem for problem in mistakes if problem.severity == "error"]
     for index, problem in enumerate(errors[:MOST_NAMES]):
         where = place_of(problem)
         said = f"{where}: {problem.message}" if where else problem.message
@@ -94,9 +100,9 @@ def _head(row_id: str, parent: str, name: str, level: str, *, lazy: bool) -> Row
     )
 
 
-def fixed_frame_missing(session: Session) -> str:
+def fixed_frame_missing(scene: Scene) -> str:
     """Say that the fixed frame does not exist, and which do; "" when it does."""
-    fixed, frames = session.scene.context.fixed_frame, session.frames.tree.frames
+    fixed, frames = scene.context.fixed_frame, scene.context.tree.frames
     if fixed in frames or not frames:
         return ""
     return f"Frame [{fixed}] does not exist. There are: {listed(sorted(frames))}"

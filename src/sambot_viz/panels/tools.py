@@ -10,8 +10,9 @@ from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Data, Json, Row
-from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.tools.tool import Tool
 
 _PLACE = Argument(float, optional=True)
@@ -25,20 +26,20 @@ class ToolsPanel(Panel):
     pressed again, it goes back to the default tool.
 
     Args:
-        session: what is shown.
-        browser: whose tools these are.
+        client: whose tools these are.
+        scene: is drawn again by Reset.
     """
 
     name = "tools"
 
-    def __init__(self, session: Session, browser: Client) -> None:
-        self.remade_by = (browser.tools.changed,)
-        self._session = session
-        self._browser = browser
+    def __init__(self, client: Client, scene: Scene) -> None:
+        self.remade_by = (client.tools.changed,)
+        self._client = client
+        self._scene = scene
 
     def data(self) -> Sequence[Data]:
         """Return the tools, the hint of the current one, and what is selected."""
-        tools = self._browser.tools
+        tools = self._client.tools
         hint = tools.status or tools.current.help
         touch = hint.replace(tools.current.help, tools.current.touch)
         return [
@@ -48,7 +49,7 @@ class ToolsPanel(Panel):
         ]
 
     def _tool(self, tool: Tool) -> Json:
-        current = tool is self._browser.tools.current
+        current = tool is self._client.tools.current
         return {
             "name": tool.label,
             "key": tool.key.lower(),
@@ -58,7 +59,7 @@ class ToolsPanel(Panel):
         }
 
     def _kind(self, label: str) -> str:
-        for tool in self._browser.tools.tools:
+        for tool in self._client.tools.tools:
             if tool.label == label:
                 return tool.kind
         raise UsageError(f"there is no tool '{label}'")
@@ -66,62 +67,62 @@ class ToolsPanel(Panel):
     @command("tools/reset", name="Reset")
     def _reset(self) -> None:
         """Draw the scene again for everyone."""
-        self._session.scene.refresh()
+        self._scene.refresh()
 
     @command("tools/choose", TEXT, client_local=True)
     def _choose(self, label: str) -> None:
-        self._browser.tools.choose(self._kind(label))
+        self._client.tools.choose(self._kind(label))
 
     @command("tools/press", TEXT, client_local=True)
     def _press(self, label: str) -> None:
-        self._browser.tools.press(self._kind(label))
+        self._client.tools.press(self._kind(label))
 
     @command("tools/escape", client_local=True)
     def _escape(self) -> None:
-        self._browser.tools.escape()
+        self._client.tools.escape()
 
     @command("tools/hover", NUMBER, NUMBER, client_local=True)
     def _hover(self, x: float, y: float) -> None:
-        self._browser.tools.hover((x, y))
+        self._client.tools.hover((x, y))
 
     @command("tools/right_click", client_local=True)
     def _right_click(self) -> None:
-        self._browser.tools.right_click()
+        self._client.tools.right_click()
 
     @command("tools/focus", _PLACE, _PLACE, client_local=True)
     def _focus(self, x: float | None, y: float | None) -> None:
-        self._browser.tools.focus(None if x is None or y is None else (x, y))
+        self._client.tools.focus(None if x is None or y is None else (x, y))
 
     @command("tools/zero", client_local=True)
     def _zero(self) -> None:
-        self._browser.view.zero()
+        self._client.view.zero()
 
 
 class ToolPropertiesPanel(Panel):
     """The settings of the tools that the document lists, as in RViz.
 
     Args:
-        session: whose document it is.
-        browser: whose tools these are.
+        client: whose tools these are.
+        document: keeps their settings.
     """
 
     name = "tool_properties"
 
-    def __init__(self, session: Session, browser: Client) -> None:
-        self.remade_by = (browser.tools.changed,)
-        self._session = session
-        self._browser = browser
+    def __init__(self, client: Client, document: ShownDocument) -> None:
+        self.remade_by = (client.tools.changed,)
+        self._client = client
+        self._document = document
 
     def rows(self) -> Sequence[Row]:
         """Return a group per tool that has settings."""
-        made = [row for tool in self._browser.tools.tools for row in self._of(tool)]
+        made = [row for tool in self._client.tools.tools for row in self._of(tool)]
         return made or [Row("tool_properties/none", "", "note", value=_NO_SETTINGS)]
 
     def _of(self, tool: Tool) -> Sequence[Row]:
         if tool.config is None:
             return ()
         group = f"tool_properties/{tool.label}"
-        change = partial(self._session.document.set_tool_property, tool.kind)
+        change = partial(self._document.set_tool_property, tool.kind)
         below = [*property_rows(tool.config, group, change)]
         head = Row(
             group,

@@ -9,27 +9,32 @@ from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Json
 from sambot_viz.rviz import DisplayConfig
-from sambot_viz.session import Session
-from sambot_viz.session.clients.client import Client
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.undo import History
 
 
 class UndoPanel(Panel):
     """Offers undo and redo.
 
     Args:
-        session: whose edits these are.
-        browser: who made them.
+        client_id: who made the edits.
+        history: keeps them.
+        document: has what they touched, or no longer.
         displays: the rows that edits touch.
     """
 
     name = "edit"
 
     def __init__(
-        self, session: Session, browser: Client, displays: DisplaysPanel
+        self,
+        client_id: int,
+        history: History,
+        document: ShownDocument,
+        displays: DisplaysPanel,
     ) -> None:
-        self._history, self._id = session.history, browser.client_id
-        self.remade_by = (session.history.state(self._id),)
-        self._session, self._displays = session, displays
+        self._history, self._id = history, client_id
+        self.remade_by = (history.state(client_id),)
+        self._document, self._displays = document, displays
 
     def data(self) -> Sequence[Data]:
         """Return what would be undone and done again, and what was touched last."""
@@ -54,9 +59,7 @@ class UndoPanel(Panel):
         """Return the row that the page goes to, with another number each time."""
         state = self._history.state(self._id).value
         number, item = state.times, state.touched
-        if isinstance(item, DisplayConfig) and self._session.document.config.holds(
-            item
-        ):
+        if isinstance(item, DisplayConfig) and self._document.config.holds(item):
             return {"number": number, "row": self._displays.id_of(item)}
         return None
 

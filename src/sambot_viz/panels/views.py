@@ -15,9 +15,13 @@ from sambot_viz.panels.row import Data, Json, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
-from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.client_view import ClientView
+from sambot_viz.session.clients.clients import Clients
+from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import mouse_facts
+from sambot_viz.session.people.roles import Roles
+from sambot_viz.session.undo import History
 from sambot_viz.views.registry import VIEWS
 
 CURRENT = "view"
@@ -30,20 +34,29 @@ class ViewsPanel(Panel):
     typed moves only this camera. The saved views belong to the document.
 
     Args:
-        session: whose document it is.
-        browser: whose camera it is.
+        client: whose camera it is.
+        document: has the saved views.
+        clients: may all follow the presenter.
+        roles: tells whether there is one.
+        history: does not record what a page restores.
     """
 
     name = "views"
 
-    def __init__(self, session: Session, browser: Client) -> None:
-        self.remade_by = (
-            session.document.views,
-            session.clients.follow_presenter,
-            browser.view.changed,
-        )
-        self._session = session
-        self._browser = browser
+    def __init__(
+        self,
+        client: Client,
+        document: ShownDocument,
+        clients: Clients,
+        roles: Roles,
+        history: History,
+    ) -> None:
+        self._follow = clients.follow_presenter
+        self.remade_by = (document.views, self._follow, client.view.changed)
+        self._client = client
+        self._document = document
+        self._roles = roles
+        self._history = history
         self._ids = Ids[ViewConfig]("saved")
 
     def rows(self) -> Sequence[Row]:
@@ -52,15 +65,15 @@ class ViewsPanel(Panel):
             self._type(),
             *self._current(),
             self._follow_row(),
-            *map(self._saved, self._session.document.config.saved_views),
+            *map(self._saved, self._document.config.saved_views),
         ]
 
     def data(self) -> Sequence[Data]:
         """Return what the mouse does to the current view."""
-        return [Data("view/shown", mouse_facts(self._browser.view.view))]
+        return [Data("view/shown", mouse_facts(self._client.view.view))]
 
     def _type(self) -> Row:
-        view = self._browser.view.view
+        view = self._client.view.view
         return Row(
             "view/type",
             "",
@@ -71,11 +84,11 @@ class ViewsPanel(Panel):
             help=view.help,
             extra={"apart": True},
             client_local=True,
-            set=lambda label: self._browser.view.set_kind(KINDS[label]),
+            set=lambda label: self._client.view.set_kind(KINDS[label]),
         )
 
     def _current(self) -> Iterator[Row]:
-        view = self._browser.view.view
+        view = self._client.view.view
         yield Row(
             CURRENT,
             "",
@@ -86,27 +99,24 @@ class ViewsPanel(Panel):
             expanded=True,
             bold=True,
         )
-        if not self._browser.view.supported:
+        if not self._client.view.supported:
             yield Row("view/:unknown", CURRENT, "note", value=_UNKNOWN, level="warn")
-        change = self._browser.view.set
+        change = self._client.view.set
         yield from property_rows(view.config, CURRENT, change, client_local=True)
 
     def _follow_row(self) -> Row:
         camera = "the presenter's camera shows"
-        if not self._session.roles.presented:
+        if not self._roles.presented:
             camera = "the camera shows that moved last"
         return Row(
             "view/:follow",
             CURRENT,
             "bool",
             "Follow the presenter",
-            value=self._session.clients.follow_presenter.value,
+            value=self._follow.value,
             help=f"All browsers show what {camera}.",
-            set=self._follow,
+            set=self._follow.set,
         )
-
-    def _follow(self, on: bool) -> None:
-        self._session.clients.follow_presenter.set(on)
 
     @command("views/restore", TEXT, TEXT, client_local=True)
     def _restore(self, label: str, sent: str) -> None:
@@ -115,9 +125,8 @@ class ViewsPanel(Panel):
         That is not an edit to undo: the user sees what was there before.
         """
         values = _read(sent)
-        look_as(
-            self._session, self._browser, KINDS.get(label), lambda r: values.get(r.id)
-        )
+        kind = KINDS.get(label)
+        look_as(self._client.view, self._history, kind, lambda r: values.get(r.id))
 
     # The saved views
 
@@ -136,48 +145,47 @@ class ViewsPanel(Panel):
 
     def _saved_view(self, row_id: str) -> ViewConfig:
         saved = self._ids.find(row_id)
-        if saved is None or saved not in self._session.document.config.saved_views:
+        if saved is None or saved not in self._document.config.saved_views:
             raise UsageError("this saved view no longer exists")
         return saved
 
     @command("views/use", TEXT, client_local=True)
     def _use(self, row_id: str) -> None:
-        self._browser.view.use(self._saved_view(row_id))
+        self._client.view.use(self._saved_view(row_id))
 
     @command("views/save")
     def _save(self) -> None:
-        self._browser.view.save()
+        self._client.view.save()
 
     @command("views/rename", TEXT, TEXT)
     def _rename(self, row_id: str, name: str) -> None:
         if not name.strip():
             raise UsageError("a saved view needs a name")
-        self._browser.view.saved.rename(self._saved_view(row_id), name.strip())
+        self._client.view.saved.rename(self._saved_view(row_id), name.strip())
 
     @command("views/remove", TEXT)
     def _remove(self, row_id: str) -> None:
-        self._browser.view.saved.remove(self._saved_view(row_id))
+        self._client.view.saved.remove(self._saved_view(row_id))
 
 
 def look_as(
-    session: Session,
-    browser: Client,
+    view: ClientView,
+    history: History,
     kind: str | None,
     wanted: Callable[[Row], Json],
 ) -> None:
     """Show the view of another page, or of this page at another time; no edit to undo.
 
     Args:
-        session: what is shown.
-        browser: whose view it is.
+        view: the view of the page.
+        history: does not record it.
         kind: the type of the view; None keeps it.
         wanted: the value for each row of the view, not checked yet; None keeps it.
 
     Raises:
         UsageError: a value that it cannot have.
     """
-    view = browser.view
-    with session.history.unrecorded():
+    with history.unrecorded():
         if kind is not None and kind != view.view.kind:
             view.set_kind(kind)
         rows = property_rows(view.view.config, CURRENT, view.set)

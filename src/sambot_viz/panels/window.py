@@ -21,6 +21,7 @@ from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.scene.joint_arrow import JointArrow
 
 
 class Window:
@@ -45,23 +46,38 @@ class Window:
         self._ask_page = ask_page
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
-        self._displays = DisplaysPanel(session, self._remake)
+        self._displays = DisplaysPanel(
+            session.document,
+            session.display_edits,
+            session.scene,
+            session.robot,
+            session.problems,
+            self._remake,
+        )
         self._shared = RowSync(session.worker, self._panels(joints), "session")
-        session.clients.listeners.append(self._browser)
-        for browser in session.clients.all.values():
-            self._browser(browser, True)
+        session.clients.listeners.append(self._take_client)
+        for client in session.clients.all.values():
+            self._take_client(client, True)
 
     def _panels(self, joints: bool) -> list[Panel]:
-        session = self._session
-        panels: list[Panel] = [SessionInfoPanel(session), StatusBarPanel(session.scene)]
-        panels.append(PeoplePanel(session))
-        panels.append(self._displays)
-        panels.append(ProblemsPanel(session.problems, self._remake))
-        panels.append(DisplayCommands(session, self._displays, self._remake))
+        session, remake = self._session, self._remake
+        robot, scene, history = session.robot, session.scene, session.history
+        is_copy = session.private and session.options.session == "shared"
+        panels: list[Panel] = [
+            SessionInfoPanel(session.document, scene, session.private),
+            StatusBarPanel(scene),
+            PeoplePanel(session.roles, is_copy),
+            self._displays,
+            ProblemsPanel(session.problems, remake),
+            DisplayCommands(session.display_edits, self._displays, remake),
+        ]
         if joints:
-            panels.append(JointsPanel(session, self._remake))
-            panels.append(PosesPanel(session, self._remake))
-            panels.append(DrivePanel(session))
+            arrow = JointArrow(scene, session.worker)
+            panels += [
+                JointsPanel(robot, session.motion, history, arrow, remake),
+                PosesPanel(session.poses, robot, history, remake),
+                DrivePanel(session.drive, robot, session.follow_view),
+            ]
         return panels
 
     def _shared_row(self, row_id: str) -> Row | None:
@@ -73,23 +89,23 @@ class Window:
 
     def close(self) -> None:
         """Follow the session no longer."""
-        self._session.clients.listeners.remove(self._browser)
+        self._session.clients.listeners.remove(self._take_client)
         for panels in self._browsers.values():
             panels.close()
         self._shared.close()
 
-    def _browser(self, browser: Client, joined: bool) -> None:
+    def _take_client(self, client: Client, joined: bool) -> None:
         if joined:
-            self._browsers[browser.client_id] = BrowserPanels(
+            self._browsers[client.client_id] = BrowserPanels(
                 self._session,
-                browser,
+                client,
                 self._files,
                 self._ask_page,
                 self._displays,
                 self._shared_row,
             )
         else:
-            panels = self._browsers.pop(browser.client_id, None)
+            panels = self._browsers.pop(client.client_id, None)
             if panels is not None:
                 panels.close()
 

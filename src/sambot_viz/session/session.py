@@ -64,6 +64,7 @@ class Session:
     Attributes:
         lock: the worker's; held while the state changes.
         change: changes the state, sends that, and tells it.
+        private: whether only one client sees it.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -86,7 +87,7 @@ class Session:
         self.poses = poses or Presets()
         change = self.change = Change(worker, audience)
         clock = clock or WallClock()
-        private = isinstance(audience, viser.ClientHandle)
+        private = self.private = isinstance(audience, viser.ClientHandle)
         self.roles = Roles(change, options.presenter is not None and not private)
         history = self.history = History(change)
 

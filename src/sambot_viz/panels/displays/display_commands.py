@@ -13,7 +13,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import row_text
-from sambot_viz.session import Session
+from sambot_viz.session.document.display_edits import DisplayEdits
 
 TYPES: list[Json] = [
     *({"kind": kind, "help": display.help} for kind, display in DISPLAYS.items()),
@@ -29,7 +29,6 @@ class DisplayCommands(Panel):
     with its mark.
 
     Args:
-        session: whose displays these are.
         displays: the rows of the displays.
         remake: called when a display was made.
     """
@@ -38,11 +37,11 @@ class DisplayCommands(Panel):
 
     def __init__(
         self,
-        session: Session,
+        display_edits: DisplayEdits,
         displays: DisplaysPanel,
         remake: Callable[[Panel], None],
     ) -> None:
-        self._session = session
+        self._display_edits = display_edits
         self._displays = displays
         self._remake = remake
         self._made: Json = None
@@ -56,16 +55,14 @@ class DisplayCommands(Panel):
         """Add a display at the end."""
         if kind not in DISPLAYS:
             raise UsageError(f"displays of type {row_text(kind)} cannot be added")
-        self._note(
-            self._session.display_edits.add_display(kind, name=name.strip() or None),
-            mark,
-        )
+        made = self._display_edits.add_display(kind, name=name.strip() or None)
+        self._note(made, mark)
 
     @command("displays/duplicate", TEXT, TEXT, name="Duplicate")
     def _duplicate(self, row_id: str, mark: str) -> None:
         """Copy a display, behind it."""
         config = self._displays.display_of(row_id)
-        self._note(self._session.display_edits.duplicate_display(config), mark)
+        self._note(self._display_edits.duplicate_display(config), mark)
 
     def _note(self, config: DisplayConfig, mark: str) -> None:
         self._made = {"mark": mark, "row": self._displays.id_of(config)}
@@ -73,18 +70,16 @@ class DisplayCommands(Panel):
 
     @command("displays/remove", TEXT, name="Remove")
     def _delete(self, row_id: str) -> None:
-        self._session.display_edits.remove_display(self._displays.display_of(row_id))
+        self._display_edits.remove_display(self._displays.display_of(row_id))
 
     @command("displays/rename", TEXT, TEXT, name="Rename")
     def _rename(self, row_id: str, name: str) -> None:
         if not name.strip():
             raise UsageError("a display needs a name")
         display = self._displays.display_of(row_id)
-        self._session.display_edits.rename_display(display, name.strip())
+        self._display_edits.rename_display(display, name.strip())
 
     @command("displays/move", TEXT, TEXT, INTEGER, name="Move")
     def _move(self, row_id: str, group: str, index: int) -> None:
         into = self._displays.display_of(group) if group else None
-        self._session.display_edits.move_display(
-            self._displays.display_of(row_id), index, into
-        )
+        self._display_edits.move_display(self._displays.display_of(row_id), index, into)

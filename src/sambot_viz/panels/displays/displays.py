@@ -19,7 +19,11 @@ from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_row
 from sambot_viz.panels.unfolded import LazyRows, keep_expanded, mark_expanded
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.class_name import GROUP, row_text
-from sambot_viz.session import Session
+from sambot_viz.session.document.display_edits import DisplayEdits
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.problems import Problems
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import connect
 
 OPTIONS = "options"
@@ -32,25 +36,36 @@ class DisplaysPanel(Panel):
     when a page has unfolded what they are below: a robot has hundreds.
 
     Args:
-        session: whose displays these are.
         remake: called when a page has unfolded something.
     """
 
     name = "displays"
 
-    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
+    def __init__(
+        self,
+        document: ShownDocument,
+        display_edits: DisplayEdits,
+        scene: Scene,
+        robot: RobotState,
+        problems: Problems,
+        remake: Callable[[Panel], None],
+    ) -> None:
         whole = (
-            session.document.replaced,
-            session.document.options,
-            session.document.displays,
-            session.scene.statuses,
-            session.scene.frames,
-            session.robot.changed,
-            session.problems.shown,
+            document.replaced,
+            document.options,
+            document.displays,
+            scene.statuses,
+            scene.frames,
+            robot.changed,
+            problems.shown,
         )
-        self.remade_by = (*whole, session.document.values)
-        self.moved_by = (session.robot.positions,)
-        self._session = session
+        self.remade_by = (*whole, document.values)
+        self.moved_by = (robot.positions,)
+        self._document = document
+        self._display_edits = display_edits
+        self._scene = scene
+        self._robot = robot
+        self._problems = problems
         self._ids = Ids[DisplayConfig]("d")
         self._remake = remake
         self._lazy = LazyRows("displays/unfold", self._unfolded)
@@ -84,7 +99,7 @@ class DisplaysPanel(Panel):
             else row
             for row in tree
         )
-        return [*mark_expanded(rows, self._session.document.config.expanded)]
+        return [*mark_expanded(rows, self._document.config.expanded)]
 
     def commands(self) -> list[Command]:
         """Return the command to unfold a row."""
@@ -92,10 +107,10 @@ class DisplaysPanel(Panel):
 
     def keep_unfolded(self, unfolded: Collection[str]) -> None:
         """Write into the document which rows are unfolded, from their ids."""
-        keep_expanded(self._session.document.config, self._tree(), unfolded)
+        keep_expanded(self._document.config, self._tree(), unfolded)
 
     def _tree(self) -> list[Row]:
-        configs = self._session.document.config.displays
+        configs = self._document.config.displays
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
     def values(self) -> Mapping[str, Json]:
@@ -120,26 +135,24 @@ class DisplaysPanel(Panel):
             UsageError: it no longer exists.
         """
         config = self._ids.find(row_id)
-        if config is None or not self._session.document.config.holds(config):
+        if config is None or not self._document.config.holds(config):
             raise UsageError("this display no longer exists")
         return config
 
     # The rows
 
     def _global_rows(self) -> Iterator[Row]:
-        session = self._session
+        document = self._document
         yield Row(OPTIONS, "", "group", "Global Options", icon="options", expanded=True)
         yield from property_rows(
-            session.document.config.global_options, OPTIONS, session.document.set_option
+            document.config.global_options, OPTIONS, document.set_option
         )
-        yield from global_status_rows(session)
+        yield from global_status_rows(self._scene)
 
     def _display_rows(
         self, configs: Sequence[DisplayConfig], parent: str
     ) -> Iterator[Row]:
-        displays = {
-            id(display.config): display for display in self._session.scene.displays
-        }
+        displays = {id(display.config): display for display in self._scene.displays}
         for config in configs:
             display = displays.get(id(config))
             revision = 0 if display is None else display.revision
@@ -181,17 +194,22 @@ class DisplaysPanel(Panel):
             help=_help(config, display),
             bold=True,
             extra={"display": config.kind, "group": config.kind == GROUP},
-            set=partial(self._session.display_edits.set_enabled, config),
+            set=partial(self._display_edits.set_enabled, config),
         )
 
     def _status_rows(self, display: Display, parent: str) -> Iterator[Row]:
         row_id = f"{parent}/:status"
+        # While there is no robot, why.
+        of_model = self._problems.of_saves.get("model", ())
+        mistakes = of_model if self._robot.model is None else ()
         unfolded = self._lazy.is_unfolded(row_id)
-        return status_rows(self._session, display, row_id, parent, all_rows=unfolded)
+        return status_rows(
+            display, row_id, parent, self._scene, mistakes, all_rows=unfolded
+        )
 
     def _property_rows(self, display: Display, parent: str) -> Iterator[Row]:
         item = display.config
-        change = partial(self._session.display_edits.set_property, display)
+        change = partial(self._display_edits.set_property, display)
         entries = {found.title: found for found in display.entries()}
         robot_display = display.robot_display
         notes = robot_display.notes() if robot_display else dict[str, str]()
@@ -223,9 +241,8 @@ class DisplaysPanel(Panel):
     ) -> Iterator[Row]:
         for name in entries.names:
             item, row_id = entries.item(name), _entry_id(parent, name)
-            change = partial(
-                self._session.display_edits.set_entry, display, entries.title, name
-            )
+            edits = self._display_edits
+            change = partial(edits.set_entry, display, entries.title, name)
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
             unfolded = self._lazy.is_unfolded(row_id)

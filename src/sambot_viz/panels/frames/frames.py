@@ -15,9 +15,11 @@ from sambot_viz.panels.command import FLAG, NUMBER, TEXT, command
 from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json, Level, Row
-from sambot_viz.session import Session
 from sambot_viz.session.limits import MOST_FRAMES, require_room
+from sambot_viz.session.robot.frames import Frames
+from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.robot.user_frames import UserFrame
+from sambot_viz.session.scene.scene import Scene
 
 Say = Callable[[str, Level], None]
 """Shows a sentence to the browser."""
@@ -32,7 +34,6 @@ class FramesPanel(Panel):
     everyone.
 
     Args:
-        session: whose frames these are.
         say: shows a sentence to the browser that asks.
         remake: called when there is another answer.
     """
@@ -41,11 +42,18 @@ class FramesPanel(Panel):
     period = 0.2
 
     def __init__(
-        self, session: Session, say: Say, remake: Callable[[Panel], None]
+        self,
+        frames: Frames,
+        robot: RobotState,
+        scene: Scene,
+        say: Say,
+        remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (session.scene.frames, session.robot.changed)
-        self.moved_by = (session.robot.positions,)
-        self._session = session
+        self.remade_by = (scene.frames, robot.changed)
+        self.moved_by = (robot.positions,)
+        self._frames = frames
+        self._robot = robot
+        self._context = scene.context
         self._say = say
         self._remake = remake
         self._from = self._to = ""
@@ -68,20 +76,18 @@ class FramesPanel(Panel):
     # The look-up
 
     @property
-    def _frames(self) -> tuple[str, str]:
+    def _asked(self) -> tuple[str, str]:
         """From and To; something that moves is a good first thing to look at."""
-        context, tree = self._session.scene.context, self._session.frames.tree
+        context, tree = self._context, self._frames.tree
         moving = next(iter(context.moving), None) or next(iter(tree.frames), "")
         return self._from or context.fixed_frame, self._to or moving
 
     def _answer(self) -> Explanation:
-        source, target = self._frames
-        return explain(
-            self._session.frames.tree, source, target, self._session.robot.model
-        )
+        source, target = self._asked
+        return explain(self._frames.tree, source, target, self._robot.model)
 
     def _choice(self) -> Iterator[Row]:
-        source, target = self._frames
+        source, target = self._asked
         yield Row(
             "frames/from",
             "",
@@ -110,7 +116,7 @@ class FramesPanel(Panel):
     # The static transforms
 
     def _static(self) -> Iterator[Row]:
-        added = {c: f for c, f in self._session.frames.added.items() if f.static}
+        added = {c: f for c, f in self._frames.added.items() if f.static}
         yield Row(
             "frames/static",
             "",
@@ -167,13 +173,13 @@ class FramesPanel(Panel):
         xyz: Sequence[float] | None,
         rpy: Sequence[float] | None,
     ) -> None:
-        added = self._session.frames.added[child]
+        added = self._frames.added[child]
         old = added.transform
         transform = Transform.from_xyz_rpy(
             old.translation.tolist() if xyz is None else xyz,
             old.rpy if rpy is None else rpy,
         )
-        self._session.frames.add(added.parent, child, transform)
+        self._frames.add(added.parent, child, transform)
 
     # What the page can ask for
 
@@ -207,7 +213,7 @@ class FramesPanel(Panel):
 
     def _add(self, wanted: StaticTransform) -> None:
         parent, child = wanted.parent, wanted.child
-        tree = self._session.frames.tree
+        tree = self._frames.tree
         for name, what in ((parent, "parent"), (child, "child")):
             if not name:
                 raise UsageError(f"name the {what} frame")
@@ -218,15 +224,15 @@ class FramesPanel(Panel):
                 f"in the air; {hint}"
             )
         self._check_parent(child)
-        added = self._session.frames.added
+        added = self._frames.added
         require_room(len({*added, child}), MOST_FRAMES, "added frames")
-        self._session.frames.add(parent, child, wanted.transform)
+        self._frames.add(parent, child, wanted.transform)
         said = "; ".join((f"{child} is set in {parent}", *wanted.warnings))
         self._say(said, "warn" if wanted.warnings else "ok")
 
     def _check_parent(self, child: str) -> None:
         """Refuse a child that something else moves: in tf2 a frame has one parent."""
-        added, robot = self._session.frames.added.get(child), self._session.robot.model
+        added, robot = self._frames.added.get(child), self._robot.model
         if added is not None and not added.static:
             by, parent = "Drive", added.parent
         elif added is None and robot is not None:
@@ -247,7 +253,7 @@ class FramesPanel(Panel):
 
     @command("frames/remove", TEXT)
     def _remove(self, row_id: str) -> None:
-        self._session.frames.remove(row_id.removeprefix("static/"))
+        self._frames.remove(row_id.removeprefix("static/"))
 
 
 def pasted_arguments(pasted: str) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 from sambot_viz.errors import UsageError
 from sambot_viz.joints import JointState
+from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.values import (
     as_arguments,
     as_launch_parameters,
@@ -21,9 +22,11 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.robot.joint import Joint
-from sambot_viz.session import Session
 from sambot_viz.session.limits import MOST_POSES, require_room
+from sambot_viz.session.robot.motion import Motion
+from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
+from sambot_viz.session.undo import History
 
 FASTEST = 100.0
 """Of a wheel that keeps turning [rad/s]."""
@@ -48,33 +51,42 @@ class JointsPanel(Panel):
     limit are shown, and wheels can keep turning.
 
     Args:
-        session: whose joints these are.
+        arrow: shows which way a joint moves.
         remake: called when rows other than the positions have changed.
     """
 
     name = "joints"
 
-    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        self.remade_by = (session.robot.changed,)
-        self.moved_by = (session.robot.positions, session.motion.turning)
-        self._session = session
+    def __init__(
+        self,
+        robot: RobotState,
+        motion: Motion,
+        history: History,
+        arrow: JointArrow,
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self.remade_by = (robot.changed,)
+        self.moved_by = (robot.positions, motion.turning)
+        self._robot = robot
+        self._motion = motion
+        self._history = history
+        self._arrow = arrow
         self._remake = remake
         self._rate = 1.0
-        self._arrow = JointArrow(session.scene, session.worker)
 
     def rows(self) -> Sequence[Row]:
         """Return the joints, in groups if they are many, and the turn rate."""
         joints = self._sliders()
         if joints is None:
-            why = _NO_ROBOT if self._session.robot.model is None else _NOTHING_TO_MOVE
+            why = _NO_ROBOT if self._robot.model is None else _NOTHING_TO_MOVE
             return [Row("joints/none", "", "note", value=why)]
         return [*joint_rows(joints, self._move), *self._rate_row(joints)]
 
     def data(self) -> Sequence[Data]:
         """Return which joints are over a limit or turning, and where all began."""
-        if self._session.robot.joints is None:
+        if self._robot.joints is None:
             return ()
-        first = {joint_id(n): q for n, q in self._session.robot.first.items() if q != 0}
+        first = {joint_id(n): q for n, q in self._robot.first.items() if q != 0}
         return [
             *(Data(key, value) for key, value in self._states().items()),
             Data("joints/first", first),
@@ -82,7 +94,7 @@ class JointsPanel(Panel):
 
     def values(self) -> dict[str, Any]:
         """Return the positions, and what else a motion changes."""
-        joints = self._session.robot.joints
+        joints = self._robot.joints
         if joints is None:
             return {}
         positions = joints.all_positions().items()
@@ -93,30 +105,30 @@ class JointsPanel(Panel):
         return self._sliders() is not None
 
     def _sliders(self) -> JointState | None:
-        joints = self._session.robot.joints
+        joints = self._robot.joints
         return joints if joints is not None and joints.sliders else None
 
     def _states(self) -> dict[str, Any]:
-        joints, turning = self._session.robot.joints, self._session.motion.turning.value
+        joints, turning = self._robot.joints, self._motion.turning.value
         return {
             "joints/over": [] if joints is None else list(joints.over_limit()),
             "joints/turning": [joint_id(name) for name in turning],
-            "joints/untouched": not self._session.robot.moved,
+            "joints/untouched": not self._robot.moved,
         }
 
     # Positions
 
     def _move(self, joint: Joint, value: float) -> None:
-        self._session.robot.set_positions({joint.name: value})
+        self._robot.set_positions({joint.name: value})
         self._arrow.moved(joint)
 
     @command("joints/center")
     def _center(self) -> None:
-        self._session.robot.center()
+        self._robot.center()
 
     @command("joints/randomize")
     def _randomize(self) -> None:
-        self._session.robot.randomize()
+        self._robot.randomize()
 
     @command("joints/restore", LIST, LIST)
     def _restore(self, row_ids: list[Any], positions: list[Any]) -> Answer | None:
@@ -126,7 +138,7 @@ class JointsPanel(Panel):
         two pages that come back the first one restores the joints.
         """
         joints = self._sliders()
-        if self._session.robot.moved or joints is None:
+        if self._robot.moved or joints is None:
             return None
         rows = {row.id: row for row in joint_rows(joints, self._move)}
         wanted: dict[str, float] = {}
@@ -135,12 +147,12 @@ class JointsPanel(Panel):
             if row is None or row.kind != "slider":
                 raise UsageError("this robot does not have these joints")
             wanted[row.name] = validate(row, position)
-        self._session.robot.set_positions(wanted, "Restore joints")
+        self._robot.set_positions(wanted, "Restore joints")
         return Answer("The joints were restored; Undo puts them back to their start")
 
     @command("joints/copy", TEXT, client_local=True)
     def _copy(self, form: str) -> Answer:
-        joints = self._session.robot.joints
+        joints = self._robot.joints
         if joints is None or form not in _FORMS:
             raise UsageError(f"there is no form '{form}' to copy joints in")
         what, write = _FORMS[form]
@@ -176,7 +188,7 @@ class JointsPanel(Panel):
     def _set_rate(self, rate: float) -> None:
         before = self._rate
         self._take_rate(rate)
-        self._session.history.record(
+        self._history.record(
             "Turn rate",
             partial(self._take_rate, before),
             partial(self._take_rate, rate),
@@ -186,14 +198,14 @@ class JointsPanel(Panel):
 
     def _take_rate(self, rate: float) -> None:
         self._rate = rate
-        for name in self._session.motion.turning.value:
-            self._session.motion.turn(name, rate)
+        for name in self._motion.turning.value:
+            self._motion.turn(name, rate)
         self._remake(self)
 
     @command("joints/turn", TEXT)
     def _turn(self, row_id: str) -> None:
         """Start the wheel of a row, or stop it."""
-        name, motion = row_id.removeprefix(ID_PREFIX), self._session.motion
+        name, motion = row_id.removeprefix(ID_PREFIX), self._motion
         if motion.turns(name):
             motion.turn(name, 0.0)
         elif self._rate == 0:
@@ -203,25 +215,25 @@ class JointsPanel(Panel):
 
     def _start(self, name: str) -> None:
         """Let a wheel turn; undo stops it, and puts it where it stood before."""
-        session = self._session
-        session.motion.turn(name, self._rate)
+        robot, motion = self._robot, self._motion
+        motion.turn(name, self._rate)
         before = reached = self._position(name)
 
         def put_back() -> None:
             nonlocal reached
             reached = self._position(name)
-            session.motion.turn(name, 0.0)
-            session.robot.move({name: before}, {})
+            motion.turn(name, 0.0)
+            robot.move({name: before}, {})
 
-        session.history.record(
+        self._history.record(
             f"Turn {name}",
             put_back,
-            lambda: session.robot.move({name: reached}, {}),
+            lambda: robot.move({name: reached}, {}),
             of_document=False,
         )
 
     def _position(self, name: str) -> float:
-        joints = self._session.robot.joints
+        joints = self._robot.joints
         if joints is None or name not in joints.positions:
             raise UsageError(f"there is no joint '{name}' that can be set")
         return joints.positions[name]
@@ -231,53 +243,62 @@ class PosesPanel(Panel):
     """The poses that have a name, and the file they are kept in.
 
     Args:
-        session: whose joints take the poses.
+        robot: its joints take them.
+        history: records that one is removed.
         remake: called when the poses have changed.
     """
 
     name = "poses"
 
-    def __init__(self, session: Session, remake: Callable[[Panel], None]) -> None:
-        self.remade_by = (session.robot.changed,)
-        self._session = session
+    def __init__(
+        self,
+        poses: Presets,
+        robot: RobotState,
+        history: History,
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self.remade_by = (robot.changed,)
+        self._poses = poses
+        self._robot = robot
+        self._history = history
         self._remake = remake
 
     def data(self) -> Sequence[Data]:
         """Return the names of the poses, and where they are kept."""
         if not self.offers("poses/use"):
             return ()
-        names = list(self._session.poses.names)
+        names = list(self._poses.names)
         return [
             Data("poses/names", names),
             Data("poses/place", f"Kept {self._place()}."),
         ]
 
     def _place(self) -> str:
-        path = self._session.poses.path
+        path = self._poses.path
         return "in memory only" if path is None else f"in {path.absolute()}"
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there are joints to pose."""
-        joints = self._session.robot.joints
+        joints = self._robot.joints
         return joints is not None and bool(joints.sliders)
 
     @command("poses/use", TEXT)
     def _use(self, name: str) -> Answer | None:
-        left_out = self._session.robot.take_pose(name, self._session.poses.get(name))
+        left_out = self._robot.take_pose(name, self._poses.get(name))
         if left_out:
             return Answer(f"Without {', '.join(left_out)}, which cannot be set")
         return None
 
     @command("poses/save", TEXT)
     def _save(self, name: str) -> Answer:
-        name, joints = name.strip(), self._session.robot.joints
+        name, joints = name.strip(), self._robot.joints
         if joints is None:
             raise UsageError("there is no robot to save a pose of")
         if len(name) > LONGEST_POSE_NAME:
             raise UsageError(
                 f"a pose's name has at most {LONGEST_POSE_NAME} characters"
             )
-        poses = self._session.poses
+        poses = self._poses
         require_room(len({*poses.names, name}), MOST_POSES, "named poses")
         poses.save(name, joints.positions)
         self._remake(self)
@@ -285,7 +306,7 @@ class PosesPanel(Panel):
 
     @command("poses/remove", TEXT)
     def _delete(self, name: str) -> Answer:
-        poses = self._session.poses
+        poses = self._poses
         pose = poses.get(name)
 
         def change(action: Callable[[], None]) -> None:
@@ -296,7 +317,7 @@ class PosesPanel(Panel):
         remove = partial(change, partial(poses.remove, name))
         remove()
         label = f"Remove pose {name}"
-        self._session.history.record(label, save, remove, of_document=False)
+        self._history.record(label, save, remove, of_document=False)
         return Answer(f"Removed pose '{name}'; Undo brings it back")
 
 

@@ -158,7 +158,8 @@ class PermalinkPanel(Panel):
                 return None
             return value
 
-        look_as(self._session, self._browser, kinds[link.kind], wanted)
+        view, history = self._browser.view, self._session.history
+        look_as(view, history, kinds[link.kind], wanted)
         link.missing["property of the view"] += [p for p in link.view if p not in used]
 
     def _move(self, link: PermalinkParts) -> None:
