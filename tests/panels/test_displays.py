@@ -271,6 +271,15 @@ def test_links_are_listed_when_they_are_unfolded(displays: Displays) -> None:
     assert "Position" in below
 
 
+def test_links_are_unfolded_while_the_displays_change(displays: Displays) -> None:
+    links = displays.named("Robot", "Links")
+    (unfold,) = displays.panel.commands()
+    # The rows of what has changed are made a moment later.
+    displays.change("Ground", to=False)
+    unfold.run(links.id)
+    assert displays.below("Robot", "Links")[-2:] == ["arm/tip", "base"]
+
+
 def test_a_link_is_switched_off_alone(displays: Displays, session: Session) -> None:
     displays.unfold("Robot", "Links")
     displays.change("Robot", "Links", "arm/tip", to=False)

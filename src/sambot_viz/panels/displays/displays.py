@@ -80,9 +80,10 @@ class DisplaysPanel(Panel):
         self._disconnect()
 
     def _forget(self) -> None:
+        # What can be unfolded stays so until other rows are made: a page that asks in
+        # between would wait for ever.
         self._made.clear()
         self._facts.clear()
-        self._lazy.clear()
 
     def _unfolded(self) -> None:
         self._forget()
@@ -110,6 +111,8 @@ class DisplaysPanel(Panel):
         keep_expanded(self._document.config, self._tree(), unfolded)
 
     def _tree(self) -> list[Row]:
+        if not self._made:
+            self._lazy.clear()
         configs = self._document.config.displays
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
