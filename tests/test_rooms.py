@@ -368,7 +368,6 @@ def test_no_two_rooms_import_each_other(repository: Path) -> None:
 
 
 HOLDERS = {
-    # Those that build a session, or find the one of a client.
     "export/recorded_scene.py",
     "panels/browser.py",
     "panels/window.py",
@@ -377,14 +376,9 @@ HOLDERS = {
     "server/sessions.py",
     "session/__init__.py",
     "visualizer.py",
-    # To be given parts.
-    "commands/snapshot.py",
-    "export/page_file.py",
-    "panels/files.py",
-    "panels/permalink/permalink.py",
-    "server/config_store.py",
 }
-"""Modules that may name `Session`: all others get the parts that they use."""
+"""Modules that may name `Session`: they build one, find that of a client or make its
+panels; all others get the parts that they use."""
 
 
 def test_only_few_modules_take_a_whole_session(repository: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from typing import Any
 
 import pytest
@@ -14,6 +14,13 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer
 from sambot_viz.errors import SambotVizError
 from sambot_viz.export import page_file as pages
+from sambot_viz.session import Session
+from sambot_viz.session.clients.client import Client
+
+
+def ask(session: Session, client: Client, motion: str) -> Coroutine[Any, Any, bytes]:
+    past = session.robot.recorder.last_minute()
+    return pages.ask_page(session.copy(), past, client, motion)()
 
 
 def test_while_a_page_is_made_the_loop_and_the_session_are_free(
@@ -38,9 +45,7 @@ def test_while_a_page_is_made_the_loop_and_the_session_are_free(
         browsers = list(session.clients.all.values())
         assert len(browsers) == 2
         asked = [
-            asyncio.run_coroutine_threadsafe(
-                pages.ask_page(session, browser, "sweep")(), loop
-            )
+            asyncio.run_coroutine_threadsafe(ask(session, browser, "sweep"), loop)
             for browser in browsers
         ]
         assert begun.wait(10.0)
@@ -67,7 +72,7 @@ def test_a_page_that_is_too_large_is_not_sent(
         session = session_of(viz)
         (browser,) = session.clients.all.values()
         made = asyncio.run_coroutine_threadsafe(
-            pages.ask_page(session, browser, "none")(), viz.viser.get_event_loop()
+            ask(session, browser, "none"), viz.viser.get_event_loop()
         )
         with pytest.raises(SambotVizError, match="the page would have 1 MB"):
             made.result(20.0)

@@ -9,13 +9,14 @@ from typing import Any
 
 import pytest
 from inside import files_of, session_of
-from panel_rows import edit
+from panel_rows import edit, panel_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
 from sambot_viz.export.page_file import ask_page
 from sambot_viz.panels.files import FilesPanel
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.pictures import PicturesPanel
 from sambot_viz.panels.row import Row
 from sambot_viz.panels.unfolded import keep_expanded
 from sambot_viz.session import Session, config_file
@@ -39,23 +40,28 @@ class Page:
         self.sentences: list[str] = []
         self.unfolded: set[str] = set()
         (browser,) = session.clients.all.values()
-        files = files_of(viz) if disk else None
-        self.panel = FilesPanel(
-            session,
-            browser,
-            files,
-            ask_page,
-            self.unfolded.update,
-            lambda sentence, level: self.sentences.append(f"{level}: {sentence}"),
-            self.remade,
-        )
+        more = {
+            "files": files_of(viz) if disk else None,
+            "ask_page": ask_page,
+            "keep_unfolded": self.unfolded.update,
+            "say": lambda words, level: self.sentences.append(f"{level}: {words}"),
+            "remake": self.remade,
+        }
+        self.panel = panel_of(FilesPanel, session, browser, **more)
+        self.pictures = panel_of(PicturesPanel, session, browser, **more)
         self.remade(self.panel)
+
+    @property
+    def items(self) -> set[str]:
+        panels = (self.panel, self.pictures)
+        return {item.id for panel in panels for item in panel.items()}
 
     def remade(self, panel: Panel) -> None:
         self.data = {data.id: data.json() for data in panel.data()}
 
     def act(self, command_id: str, *values: Any) -> None:
-        edit(self.panel, command_id, list(values))
+        pictures = command_id in ("file/picture", "file/page")
+        edit(self.pictures if pictures else self.panel, command_id, list(values))
         self.remade(self.panel)
 
     def value(self, data_id: str) -> Any:
@@ -289,7 +295,7 @@ def test_a_visitor_may_download_and_uses_no_disk_of_the_server(
     visitor = Page(viz, session_of(viz), disk=False)
     state = visitor.value("file/state")
     assert state["private"] and "folder" not in state
-    assert {item.id for item in visitor.panel.items()} == {
+    assert visitor.items == {
         "file/state",
         "file/download",
         "file/picture",

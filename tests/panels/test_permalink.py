@@ -14,6 +14,7 @@ from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.row import Answer
+from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 
@@ -30,13 +31,14 @@ class Links:
     def __init__(self, session: Session, browser: Client, joints: bool = True) -> None:
         self.session, self.browser = session, browser
         panel = panel_of(JointsPanel, session)
-        self.panel = PermalinkPanel(
+        self.panel = panel_of(
+            PermalinkPanel,
             session,
             browser,
-            lambda row_id: next(
+            views=panel_of(ViewsPanel, session, browser),
+            row=lambda row_id: next(
                 (r for r in panel.rows() if joints and r.id == row_id), None
             ),
-            lambda panel: None,
         )
 
     def act(self, command_id: str, *sent: Any) -> Any:

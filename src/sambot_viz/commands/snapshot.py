@@ -21,7 +21,7 @@ from sambot_viz.problems import write_problems
 
 if TYPE_CHECKING:
     from sambot_viz.export.view_picture import Picture
-    from sambot_viz.session import Session
+    from sambot_viz.session.scene.scene import Scene
 
 LARGEST = 8192
 """Longest side of a picture [pixels]: the limit of software WebGL."""
@@ -43,7 +43,7 @@ def run(words: list[str]) -> int:
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions()[0]
         write_problems(session.document.config.problems)
-        _report_fixed_frame(session)
+        _report_fixed_frame(session.scene)
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
             camera = session.document_view.camera
@@ -98,11 +98,11 @@ def _exit_on_sigterm() -> Generator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
-def _report_fixed_frame(session: Session) -> None:
+def _report_fixed_frame(scene: Scene) -> None:
     """Warn when the fixed frame does not exist, because the picture is empty then."""
-    status = session.scene.global_status()
+    status = scene.global_status()
     if status.level != "Ok":
-        frames = ", ".join(session.frames.tree.frames) or "none"
+        frames = ", ".join(scene.context.tree.frames) or "none"
         warn(f"Fixed Frame: {status.text}; existing frames: {frames}")
 
 

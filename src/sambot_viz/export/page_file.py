@@ -18,18 +18,15 @@ from sambot_viz.export.recorded_scene import recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.animation import sweep
 from sambot_viz.server.page_files import page_of_viser
-from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.robot_framing import Size, window_of
 from sambot_viz.session.document.document_view import DocumentView, mouse_facts
-from sambot_viz.session.robot.motion_recorder import MotionSample
+from sambot_viz.session.robot.motion_recorder import MotionSample, Past
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
 
 Motion = Literal["sweep", "past", "none"]
-Past = tuple[MotionSample, Sequence[MotionSample]]
-"""The first values of everything, and the steps from there."""
 PERIOD = 1.0 / 30.0
 """Time between two steps of a motion [s]."""
 REST = 0.5
@@ -138,12 +135,13 @@ class PageError(SambotVizError):
 
 
 def ask_page(
-    session: Session, client: Client, motion: str
+    scene: SessionCopy, past: Past, client: Client, motion: str
 ) -> Callable[[], Coroutine[Any, Any, bytes]]:
-    """Note what a browser sees now, for `panels.files`.
+    """Note what a browser sees now, for `panels.pictures`.
 
     Args:
-        session: what is shown.
+        scene: what is shown.
+        past: how it has moved.
         client: who looks at it.
         motion: what is to move (see `page_file`).
 
@@ -154,15 +152,11 @@ def ask_page(
     Raises:
         UsageError: there is no such motion, or nothing has moved.
     """
-    with session.lock:
-        past = session.robot.recorder.last_minute()
-        if motion == "past" and not past[1]:
-            raise UsageError("nothing has moved in the last minute")
-        if motion not in ("sweep", "past", "none"):
-            raise UsageError(f"there is no motion '{motion}'")
-        scene, view = session.copy(), ViewState.of(client)
-    make = partial(page_file, scene, view, motion, past)
-    return partial(_made, make)
+    if motion == "past" and not past[1]:
+        raise UsageError("nothing has moved in the last minute")
+    if motion not in ("sweep", "past", "none"):
+        raise UsageError(f"there is no motion '{motion}'")
+    return partial(_made, partial(page_file, scene, ViewState.of(client), motion, past))
 
 
 async def _made(make: Callable[[], bytes]) -> bytes:

@@ -6,11 +6,12 @@ import re
 from collections.abc import Callable, Sequence
 
 from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.files import AskPage, Files, FilesPanel
+from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
 from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.people import OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
+from sambot_viz.panels.pictures import AskPage, PicturesPanel
 from sambot_viz.panels.row import Answer, Data, Json, Level, LongText, Row
 from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.selection import SelectionPanel
@@ -60,18 +61,43 @@ class BrowserPanels:
         client, displays, remake = self._client, self._displays, self._remake
         document, history, robot = session.document, session.history, session.robot
         scene, roles, frames = session.scene, session.roles, session.frames
-        keep = displays.keep_unfolded
+        keep, clients = displays.keep_unfolded, session.clients
+        views = ViewsPanel(client, document, clients, roles, history)
         return [
             self._notices,
             OwnRolePanel(roles, client.client_id, self.say),
             ToolsPanel(client, scene),
             UndoPanel(client.client_id, history, document, displays),
-            ViewsPanel(client, document, session.clients, roles, history),
+            views,
             SelectionPanel(client, scene, robot, remake),
             ToolPropertiesPanel(client, document),
             FramesPanel(frames, robot, scene, self.say, remake),
-            PermalinkPanel(session, client, self._shared_row, remake),
-            FilesPanel(session, client, files, ask_page, keep, self.say, remake),
+            PermalinkPanel(
+                client,
+                document,
+                scene,
+                robot,
+                session.toggles,
+                roles,
+                views,
+                self._shared_row,
+                remake,
+            ),
+            FilesPanel(
+                client,
+                document,
+                robot,
+                scene,
+                history,
+                clients,
+                files,
+                keep,
+                self.say,
+                remake,
+            ),
+            PicturesPanel(
+                client, scene, robot, session.copy, session.worker, ask_page, self.say
+            ),
         ]
 
     def close(self) -> None:

@@ -1,40 +1,33 @@
-"""The .rviz file and pictures, for one browser: open, save, download."""
+"""The .rviz file, for one browser: open, save, download."""
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from sambot_viz.errors import ConfigError, SambotVizError, UsageError
-from sambot_viz.panels.command import FLAG, INTEGER, LIST, TEXT, command
+from sambot_viz.errors import ConfigError, UsageError
+from sambot_viz.panels.command import FLAG, LIST, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json, Level
 from sambot_viz.robot.model import Robot
-from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.config_file import UNNAMED, ConfigFile
-from sambot_viz.session.picture import (
-    LONGEST_SIDE,
-    SHORTEST_SIDE,
-    PictureError,
-    picture_of,
-)
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.undo import History
 
-MakePage = Callable[[], Awaitable[bytes]]
-"""Makes an HTML file, on the event loop; raises SambotVizError when there is none."""
-AskPage = Callable[[Session, Client, str], MakePage]
-"""Notes what a browser sees now, for a page with a motion: "sweep", "past" or "none";
-raises SambotVizError when there is no such motion."""
 _OF_DISK = ("file/save", "file/save-as", "file/list", "file/open")
-_UNNAMED = "robot"
-"""Name of a picture or a page when there is no robot."""
 
 
 class Files(Protocol):
     """The disk of the server, for those who may use it."""
 
-    def open(self, session: Session, path: Path) -> None:
+    def open(
+        self, path: Path, shown: ShownDocument, clients: Clients, robot: Robot | None
+    ) -> None:
         """Show another .rviz file.
 
         Raises:
@@ -49,10 +42,8 @@ class FilesPanel(Panel):
     """Opens, saves and downloads for the File menu.
 
     Args:
-        session: whose document it is.
-        browser: who asks, and gets the downloads.
+        client: who asks, and gets the downloads.
         files: the disk; None for a visitor, who may only download.
-        ask_page: makes a page of what is seen; None leaves that out.
         keep_unfolded: writes into the document which rows are unfolded, from their
             ids.
         say: shows a sentence to this browser.
@@ -63,32 +54,36 @@ class FilesPanel(Panel):
 
     def __init__(
         self,
-        session: Session,
-        browser: Client,
+        client: Client,
+        document: ShownDocument,
+        robot: RobotState,
+        scene: Scene,
+        history: History,
+        clients: Clients,
         files: Files | None,
-        ask_page: AskPage | None,
         keep_unfolded: Callable[[Collection[str]], None],
         say: Callable[[str, Level], None],
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (session.document.file, session.robot.changed)
-        self.moved_by = (session.history.modified,)
-        self._session = session
-        self._browser = browser
+        self.remade_by = (document.file, robot.changed)
+        self.moved_by = (history.modified,)
+        self._client = client
+        self._document = document
+        self._robot = robot
+        self._context = scene.context
+        self._history = history
+        self._clients = clients
         self._files = files
-        self._ask_page = ask_page
         self._keep_unfolded = keep_unfolded
         self._say = say
         self._remake = remake
-        self._file = ConfigFile(session.document, session.robot, session.scene)
+        self._file = ConfigFile(document, robot, scene)
         self._facts: dict[str, Json] = {}
         self._files_of: object = None
         self._robot_of: Robot | None = None
         self._names: Sequence[str] = ()
         self._answer: Json = None
         self._answers = 0
-        self._drawing = False
-        self._making = False
 
     def data(self) -> Sequence[Data]:
         """Return where the document is, the files there are, and the last answer."""
@@ -106,16 +101,13 @@ class FilesPanel(Panel):
 
         This is called for every step of a slider, once for each browser.
         """
-        session = self._session
-        files, robot = (
-            (session.document.config.file, session.scene.context.config_file),
-            session.robot.model,
-        )
+        files = (self._document.config.file, self._context.config_file)
+        robot = self._robot.model
         # Comparing two robots would compare all their links.
         if files != self._files_of or robot is not self._robot_of:
             self._files_of, self._robot_of = files, robot
             self._facts = self._look_up()
-        return self._facts | {"modified": session.history.modified.value}
+        return self._facts | {"modified": self._history.modified.value}
 
     def _look_up(self) -> dict[str, Json]:
         file = self._file
@@ -129,10 +121,8 @@ class FilesPanel(Panel):
         return facts
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether this browser may use the disk, and whether pages can be made."""
-        if command_id in _OF_DISK:
-            return self._files is not None
-        return command_id != "file/page" or self._ask_page is not None
+        """Tell whether this browser may use the disk."""
+        return command_id not in _OF_DISK or self._files is not None
 
     @property
     def _disk(self) -> Files:
@@ -162,10 +152,9 @@ class FilesPanel(Panel):
         self._reply("save-as", done=path.name)
 
     def _save(self, path: Path | None, unfolded: list[Json]) -> None:
-        with self._session.lock:
-            self._browser.view.store()
-            self._keep_unfolded({row for row in unfolded if isinstance(row, str)})
-            path = self._file.save(path)
+        self._client.view.store()
+        self._keep_unfolded({row for row in unfolded if isinstance(row, str)})
+        path = self._file.save(path)
         self._disk.saved(path)
         self._say(f"Saved {path.name} in {path.absolute().parent}", "ok")
 
@@ -180,7 +169,7 @@ class FilesPanel(Panel):
     def _open(self, name: str) -> None:
         path = self._file.listed(name)
         try:
-            self._disk.open(self._session, path)
+            self._disk.open(path, self._document, self._clients, self._robot.model)
         except ConfigError as error:
             problem = error.problems[0]
             place = "" if problem.line is None else f"line {problem.line}: "
@@ -195,73 +184,9 @@ class FilesPanel(Panel):
     @command("file/download", client_local=True)
     def _download(self) -> None:
         name = self._file.name or UNNAMED
-        config = self._session.document.config
+        config = self._document.config
         before = config.detached_view()
-        self._browser.view.store()
+        self._client.view.store()
         text = config.to_yaml()
         config.store_view(before)
-        self._send(name, text.encode())
-
-    def _send(self, name: str, content: bytes) -> None:
-        self._browser.client.send_file_download(name, content, save_immediately=True)
-        self._browser.client.flush()
-
-    @command("file/picture", INTEGER, INTEGER, name="picture", client_local=True)
-    def _picture(self, width: int, height: int) -> None:
-        for length in (width, height):
-            if not SHORTEST_SIDE <= length <= LONGEST_SIDE:
-                raise UsageError(
-                    f"a picture has {SHORTEST_SIDE} to {LONGEST_SIDE} pixels on a side"
-                )
-        if self._drawing:
-            raise UsageError("a picture is being drawn already")
-        self._drawing = True
-        self._session.worker.run_on_loop(self._draw(width, height))
-
-    async def _draw(self, width: int, height: int) -> None:
-        """Have the browser draw, and send it the file; runs on the event loop."""
-        name = f"{self._name()}.png"
-        sentence, level = f"Saved {name}, {width} × {height} pixels", "ok"
-        try:
-            background = self._session.scene.context.background
-            picture = await picture_of(self._browser, background, width, height)
-            self._send(name, picture)
-        except PictureError as error:
-            sentence, level = f"No picture: {error}", "error"
-        finally:
-            self._drawing = False
-        # The loop serves every browser and waits for no lock.
-        self._session.worker.post(lambda: self._say(sentence, level))
-
-    @command("file/page", TEXT, name="page", client_local=True)
-    def _page(self, motion: str) -> None:
-        if self._ask_page is None:
-            raise UsageError("pages cannot be made here")
-        if self._making:
-            raise UsageError("a page is being made already")
-        make = self._ask_page(self._session, self._browser, motion)
-        self._making = True
-        self._session.worker.run_on_loop(self._make(make))
-
-    async def _make(self, make: MakePage) -> None:
-        """Have a page made, and send it; runs on the event loop."""
-        name = f"{self._name()}.html"
-        sentence, level = "No page: internal error", "error"
-        try:
-            page = await make()
-            self._send(name, page)
-            sentence, level = f"Saved {name}, {len(page) / 1e6:.1f} MB", "ok"
-        except SambotVizError as error:
-            sentence = f"No page: {error}"
-        finally:
-            self._making = False
-            self._session.worker.post(lambda: self._say(sentence, level))
-
-    def _name(self) -> str:
-        robot = self._session.robot.model
-        return _UNNAMED if robot is None else _plain(robot.name)
-
-
-def _plain(name: str) -> str:
-    """Return a name that any disk takes."""
-    return "".join(c if c.isalnum() or c in "-_. " else "_" for c in name)[:100]
+        self._client.download(name, text.encode())

@@ -16,7 +16,6 @@ from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.class_name import row_text
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import mouse_facts
@@ -126,7 +125,28 @@ class ViewsPanel(Panel):
         """
         values = _read(sent)
         kind = KINDS.get(label)
-        look_as(self._client.view, self._history, kind, lambda r: values.get(r.id))
+        self.look_as(kind, lambda row: values.get(row.id))
+
+    def look_as(self, kind: str | None, wanted: Callable[[Row], Json]) -> None:
+        """Show the view of another page, or of another time; no edit to undo.
+
+        Args:
+            kind: the type of the view; None keeps it.
+            wanted: the value for each row of the view, not checked yet; None keeps it.
+
+        Raises:
+            UsageError: a value that it cannot have.
+        """
+        view = self._client.view
+        with self._history.unrecorded():
+            if kind is not None and kind != view.view.kind:
+                view.set_kind(kind)
+            rows = property_rows(view.view.config, CURRENT, view.set)
+            # Another target turns the numbers that come after it.
+            for row in sorted(rows, key=lambda row: row.kind != "frame"):
+                value = None if row.set is None else wanted(row)
+                if row.set is not None and value is not None:
+                    row.set(validate(row, value))
 
     # The saved views
 
@@ -166,34 +186,6 @@ class ViewsPanel(Panel):
     @command("views/remove", TEXT)
     def _remove(self, row_id: str) -> None:
         self._client.view.saved.remove(self._saved_view(row_id))
-
-
-def look_as(
-    view: ClientView,
-    history: History,
-    kind: str | None,
-    wanted: Callable[[Row], Json],
-) -> None:
-    """Show the view of another page, or of this page at another time; no edit to undo.
-
-    Args:
-        view: the view of the page.
-        history: does not record it.
-        kind: the type of the view; None keeps it.
-        wanted: the value for each row of the view, not checked yet; None keeps it.
-
-    Raises:
-        UsageError: a value that it cannot have.
-    """
-    with history.unrecorded():
-        if kind is not None and kind != view.view.kind:
-            view.set_kind(kind)
-        rows = property_rows(view.view.config, CURRENT, view.set)
-        # Another target turns the numbers that come after it.
-        for row in sorted(rows, key=lambda row: row.kind != "frame"):
-            value = None if row.set is None else wanted(row)
-            if row.set is not None and value is not None:
-                row.set(validate(row, value))
 
 
 def _read(sent: str) -> dict[str, Any]:

@@ -10,10 +10,11 @@ from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
-from sambot_viz.panels.files import AskPage, Files
+from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints.joints import JointsPanel, PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import PeoplePanel
+from sambot_viz.panels.pictures import AskPage
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.row import Answer, Row
 from sambot_viz.panels.row_store import ClientRows

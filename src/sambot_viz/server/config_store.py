@@ -13,8 +13,9 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
-from sambot_viz.session import Session
+from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.config_file import fit_own_config
+from sambot_viz.session.document.document import ShownDocument
 
 _MANAGER = "Visualization Manager"
 
@@ -81,20 +82,22 @@ class ConfigStore:
             self.current, self.view = document, _view_of(document)
         return True
 
-    def open(self, session: Session, path: Path) -> None:
+    def open(
+        self, path: Path, shown: ShownDocument, clients: Clients, robot: Robot | None
+    ) -> None:
         """Show another file in the session of all browsers.
 
         Raises:
             ConfigError: it cannot be read, or is not a .rviz document.
         """
         document = self.read(path)
-        fit_own_config(document, session.robot.model)
+        fit_own_config(document, robot)
         self._prepare(document)
         with self._lock:
             self.file, self.view = path, _view_of(document)
             self.current, self.trusted = document, False
-        session.document.replace(document, trusted=False)
-        session.clients.show_view()
+        shown.replace(document, trusted=False)
+        clients.show_view()
         for listener in self.on_open:
             listener()
 

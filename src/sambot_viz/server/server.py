@@ -16,7 +16,8 @@ from sambot_viz.errors import Problem
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
-from sambot_viz.panels.files import AskPage, Files
+from sambot_viz.panels.files import Files
+from sambot_viz.panels.pictures import AskPage
 from sambot_viz.robot.model import Robot
 from sambot_viz.server import outbox
 from sambot_viz.server.listener import Listener, listen

@@ -28,10 +28,14 @@ from sambot_viz.panels.permalink.permalink_parts import (
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
-from sambot_viz.panels.views import CURRENT, look_as
+from sambot_viz.panels.views import CURRENT, ViewsPanel
 from sambot_viz.rviz import FIXED_FRAME, ConfigItem
-from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.document.toggles import Toggles
+from sambot_viz.session.people.roles import Roles
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.views.registry import VIEWS
 
 
@@ -39,8 +43,8 @@ class PermalinkPanel(Panel):
     """Makes permalinks, and shows what they say.
 
     Args:
-        session: what is shown.
-        browser: whose view and selection it is.
+        client: whose view and selection it is.
+        views: shows the view of a link.
         row: finds the row of a joint, by its id.
         remake: called when a link has been made.
     """
@@ -49,13 +53,23 @@ class PermalinkPanel(Panel):
 
     def __init__(
         self,
-        session: Session,
-        browser: Client,
+        client: Client,
+        document: ShownDocument,
+        scene: Scene,
+        robot: RobotState,
+        toggles: Toggles,
+        roles: Roles,
+        views: ViewsPanel,
         row: Callable[[str], Row | None],
         remake: Callable[[Panel], None],
     ) -> None:
-        self._session = session
-        self._browser = browser
+        self._client = client
+        self._document = document
+        self._scene = scene
+        self._robot = robot
+        self._toggles = toggles
+        self._roles = roles
+        self._views = views
         self._row = row
         self._remake = remake
         self._made: Json = None
@@ -76,28 +90,28 @@ class PermalinkPanel(Panel):
 
     def _parts(self) -> Iterator[Pair]:
         """Yield names and values; the last one shows that none is missing."""
-        view = self._browser.view.view
+        view = self._client.view.view
         yield "view", view.kind.rpartition("/")[2]
         for row in property_rows(view.config, CURRENT, lambda path, value: None):
             default = _default(view.config, row)
             if row.set is not None and row.value not in (None, default):
                 yield f"view.{_path(row)}", written(row.value)
-        robot = self._session.robot.model
+        robot = self._robot.model
         if robot is not None:
             yield "robot", robot.name
-        fixed = self._session.scene.context.fixed_frame
-        if fixed != self._session.document.first_fixed_frame:
+        fixed = self._scene.context.fixed_frame
+        if fixed != self._document.first_fixed_frame:
             yield "fixed", fixed
         yield from self._moved()
-        for name, toggle in self._session.toggles.all().items():
+        for name, toggle in self._toggles.all().items():
             if toggle.on != toggle.first:
                 yield f"show.{name}", ON if toggle.on else OFF
-        for item in self._browser.tools.selection:
+        for item in self._client.tools.selection:
             yield "select", f"{item.kind}:{item.name}"
         yield "v", VERSION
 
     def _moved(self) -> Iterator[Pair]:
-        joints, first = self._session.robot.joints, self._session.robot.first
+        joints, first = self._robot.joints, self._robot.first
         if joints is None:
             return
         for name, q in joints.positions.items():
@@ -111,9 +125,9 @@ class PermalinkPanel(Panel):
     @command("permalink/open", LIST, LIST, name="link", client_local=True)
     def _open(self, names: list[Any], values: list[Any]) -> Answer:
         link = PermalinkParts.read(names, values)
-        robot = self._session.robot.model
+        robot = self._robot.model
         link.elsewhere = robot is not None and link.robot not in (None, robot.name)
-        link.watching = not self._session.roles.may_edit(self._browser.client_id)
+        link.watching = not self._roles.may_edit(self._client.client_id)
         # The camera is in the fixed frame.
         self._fix(link)
         self._look(link)
@@ -123,22 +137,22 @@ class PermalinkPanel(Panel):
         return link.answer()
 
     def _fix(self, link: PermalinkParts) -> None:
-        session, frame = self._session, link.fixed
-        if frame is None or frame == session.scene.context.fixed_frame:
+        frame = link.fixed
+        if frame is None or frame == self._scene.context.fixed_frame:
             return
-        if frame not in session.frames.tree.frames:
+        if frame not in self._scene.context.tree.frames:
             link.missing["frame"] += [frame]
         elif link.watching:
             link.kept = True
         else:
-            session.document.set_option("Fixed Frame", frame)
+            self._document.set_option("Fixed Frame", frame)
 
     def _look(self, link: PermalinkParts) -> None:
         kinds = {kind.rpartition("/")[2]: kind for kind in VIEWS}
         if link.kind not in kinds:
             link.missing["view"] += [link.kind]
             return
-        frames = {FIXED_FRAME, *self._session.frames.tree.frames}
+        frames = {FIXED_FRAME, *self._scene.context.tree.frames}
         used: set[str] = set()
 
         def wanted(row: Row) -> Json:
@@ -146,7 +160,7 @@ class PermalinkPanel(Panel):
             used.add(path)
             given = link.view.get(path)
             if given is None:
-                return _default(self._browser.view.view.config, row)
+                return _default(self._client.view.view.config, row)
             value = read(row, given)
             if row.kind == "frame" and value not in frames:
                 link.missing["frame"] += [given]
@@ -158,12 +172,11 @@ class PermalinkPanel(Panel):
                 return None
             return value
 
-        view, history = self._browser.view, self._session.history
-        look_as(view, history, kinds[link.kind], wanted)
+        self._views.look_as(kinds[link.kind], wanted)
         link.missing["property of the view"] += [p for p in link.view if p not in used]
 
     def _move(self, link: PermalinkParts) -> None:
-        session, joints = self._session, self._session.robot.joints
+        joints = self._robot.joints
         if joints is None:
             link.missing["joint"] += link.joints
             return
@@ -171,7 +184,7 @@ class PermalinkPanel(Panel):
         positions: dict[str, float] = {}
         if not link.elsewhere:
             # What a link does not name is where it was at first.
-            first = session.robot.first.items()
+            first = self._robot.first.items()
             positions = {n: q for n, q in first if rows.get(n) is not None}
         link.missing["joint"] += [name for name in link.joints if name not in rows]
         for name, row in rows.items():
@@ -189,14 +202,14 @@ class PermalinkPanel(Panel):
         if changed and link.watching:
             link.kept = True
         elif changed:
-            session.robot.set_positions(changed, "Open a link")
+            self._robot.set_positions(changed, "Open a link")
 
     def _switch(self, link: PermalinkParts) -> None:
-        for name in sorted(link.switches.keys() - self._session.toggles.all().keys()):
+        for name in sorted(link.switches.keys() - self._toggles.all().keys()):
             link.missing["display or part of one"] += [name.replace("/=", "/")]
         # A switch for all links turns each of them: those of the links come after it.
         for of_entries in (False, True):
-            for name, toggle in self._session.toggles.all().items():
+            for name, toggle in self._toggles.all().items():
                 if ("/=" in name) is not of_entries:
                     continue
                 as_now = toggle.on if link.elsewhere else toggle.first
@@ -210,7 +223,7 @@ class PermalinkPanel(Panel):
                         link.refuse(str(error))
 
     def _select(self, link: PermalinkParts) -> None:
-        robot, frames = self._session.robot.model, self._session.frames.tree.frames
+        robot, frames = self._robot.model, self._scene.context.tree.frames
         links: Collection[str] = () if robot is None else robot.links
         items: set[Selectable] = set()
         for given in link.selected:
@@ -221,8 +234,8 @@ class PermalinkPanel(Panel):
                 items.add(Selectable("frame", name))
             else:
                 link.missing[kind if kind in ("link", "frame") else "item"] += [name]
-        if items != set(self._browser.tools.selection):
-            self._browser.tools.select(items, None)
+        if items != set(self._client.tools.selection):
+            self._client.tools.select(items, None)
 
 
 def _path(row: Row) -> str:

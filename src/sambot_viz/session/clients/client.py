@@ -38,6 +38,11 @@ class Client:
         self.view = view
         self.tools = tools
 
+    def download(self, name: str, content: bytes) -> None:
+        """Have the page save a file on its user's own computer."""
+        self.client.send_file_download(name, content, save_immediately=True)
+        self.client.flush()
+
     def close(self) -> None:
         """Follow the session no longer: the page was closed."""
         self.tools.close()

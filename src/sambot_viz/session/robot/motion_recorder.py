@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from array import array
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.geometry import Matrix
@@ -44,6 +44,10 @@ class MotionSample:
     time: float
     positions: Mapping[str, float]
     frames: Mapping[str, Matrix]
+
+
+Past = tuple[MotionSample, Sequence[MotionSample]]
+"""The first values of everything, and the steps from there."""
 
 
 class MotionRecorder:
@@ -97,7 +101,7 @@ class MotionRecorder:
         """A frame is about to move from here, T_parent_child (4, 4)."""
         self._frames_before.setdefault(frame, T)
 
-    def last_minute(self) -> tuple[MotionSample, list[MotionSample]]:
+    def last_minute(self) -> Past:
         """Where everything was before, and the steps since; none when nothing moved."""
         self._forget(self._clock.now() - LONGEST)
         notes = self._notes
