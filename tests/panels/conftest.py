@@ -30,5 +30,5 @@ def join(
 
 
 @pytest.fixture
-def browser(join: Callable[[], Client]) -> Client:
+def client(join: Callable[[], Client]) -> Client:
     return join()

@@ -127,17 +127,17 @@ def test_stop_and_reset_put_robot_wheels_and_path_back(
 
 
 def test_driving_fixes_a_frame_that_the_robot_moves_in(
-    panel: DrivePanel, session: Session, browser: Client
+    panel: DrivePanel, session: Session, client: Client
 ) -> None:
     assert session.scene.context.fixed_frame == "base_link"
-    browser.view.set("Distance", 2.0)
-    with session.history.acting(browser.client_id):
+    client.view.set("Distance", 2.0)
+    with session.history.acting(client.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) == IN_ODOM
     assert session.scene.context.fixed_frame == "odom"
-    assert browser.view.values["Distance"] > 2
-    with session.history.acting(browser.client_id):
+    assert client.view.values["Distance"] > 2
+    with session.history.acting(client.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) is None
-    session.history.undo(browser.client_id)
+    session.history.undo(client.client_id)
     assert session.scene.context.fixed_frame == "base_link"
 
 

@@ -39,7 +39,7 @@ class Page:
     def __init__(self, viz: Visualizer, session: Session, disk: bool = True) -> None:
         self.sentences: list[str] = []
         self.unfolded: set[str] = set()
-        (browser,) = session.clients.all.values()
+        (client,) = session.clients.all.values()
         more = {
             "files": files_of(viz) if disk else None,
             "ask_page": ask_page,
@@ -47,8 +47,8 @@ class Page:
             "say": lambda words, level: self.sentences.append(f"{level}: {words}"),
             "remake": self.remade,
         }
-        self.panel = panel_of(FilesPanel, session, browser, **more)
-        self.pictures = panel_of(PicturesPanel, session, browser, **more)
+        self.panel = panel_of(FilesPanel, session, client, **more)
+        self.pictures = panel_of(PicturesPanel, session, client, **more)
         self.remade(self.panel)
 
     @property
@@ -82,15 +82,15 @@ def viz(folder: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
 
 
 @pytest.fixture
-def client(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> ProtocolClient:
-    client = protocol(viz.viser.get_port())
-    client.settle(viz.viser)
-    client.wait_until(lambda: bool(session_of(viz).clients.all))
-    return client
+def peer(viz: Visualizer, protocol: Callable[..., ProtocolClient]) -> ProtocolClient:
+    peer = protocol(viz.viser.get_port())
+    peer.settle(viz.viser)
+    peer.wait_until(lambda: bool(session_of(viz).clients.all))
+    return peer
 
 
 @pytest.fixture
-def page(viz: Visualizer, client: ProtocolClient) -> Page:
+def page(viz: Visualizer, peer: ProtocolClient) -> Page:
     return Page(viz, session_of(viz))
 
 
@@ -264,14 +264,14 @@ def test_a_broken_file_is_not_opened_and_the_reason_has_its_line(
 
 
 def test_saving_and_downloading_take_the_view_of_the_browser(
-    page: Page, client: ProtocolClient, folder: Path, viz: Visualizer
+    page: Page, peer: ProtocolClient, folder: Path, viz: Visualizer
 ) -> None:
-    (browser,) = session_of(viz).clients.all.values()
-    browser.view.set("Distance", 4.5)
-    mark = client.mark()
+    (client,) = session_of(viz).clients.all.values()
+    client.view.set("Distance", 4.5)
+    mark = peer.mark()
     page.act("file/download")
-    client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
-    (part,) = (m for m in client.since(mark) if m.type == "FileTransferPart")
+    peer.wait_until(lambda: peer.types(mark)["FileTransferPart"] == 1)
+    (part,) = (m for m in peer.since(mark) if m.type == "FileTransferPart")
     assert b"Distance: 4.5" in part.fields["content"]
     assert session_of(viz).document.config.view.get("Distance") != 4.5
     page.act("file/save", [])
@@ -279,18 +279,18 @@ def test_saving_and_downloading_take_the_view_of_the_browser(
 
 
 def test_the_config_comes_as_a_download_of_its_name_without_another_click(
-    page: Page, client: ProtocolClient
+    page: Page, peer: ProtocolClient
 ) -> None:
-    mark = client.mark()
+    mark = peer.mark()
     page.act("file/download")
-    client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
-    (start,) = (m for m in client.since(mark) if m.type == "FileTransferStartDownload")
+    peer.wait_until(lambda: peer.types(mark)["FileTransferPart"] == 1)
+    (start,) = (m for m in peer.since(mark) if m.type == "FileTransferStartDownload")
     assert start.fields["filename"] == "mine.rviz"
     assert start.fields["save_immediately"]
 
 
 def test_a_visitor_may_download_and_uses_no_disk_of_the_server(
-    viz: Visualizer, client: ProtocolClient, folder: Path
+    viz: Visualizer, peer: ProtocolClient, folder: Path
 ) -> None:
     visitor = Page(viz, session_of(viz), disk=False)
     state = visitor.value("file/state")
@@ -309,21 +309,21 @@ def test_the_file_that_was_saved_or_opened_last_is_followed(
     folder: Path, protocol: Callable[..., ProtocolClient], how: str
 ) -> None:
     with Visualizer(config=folder / "mine.rviz", port=0, watch=True) as viz:
-        client = protocol(viz.viser.get_port())
+        peer = protocol(viz.viser.get_port())
         session = session_of(viz)
-        client.wait_until(lambda: bool(session.clients.all))
+        peer.wait_until(lambda: bool(session.clients.all))
         page = Page(viz, session)
         page.act(
             f"file/{how}", *(["new", False, []] if how == "save-as" else ["other.rviz"])
         )
         name = page.value("file/state")["name"]
         (folder / name).write_text(CONFIG.replace("Floor", "Changed"), "utf-8")
-        client.wait_until(
+        peer.wait_until(
             lambda: [d.name for d in session.document.config.displays] == ["Changed"]
         )
         (folder / "mine.rviz").write_text(CONFIG.replace("Floor", "Old"), "utf-8")
         (folder / name).write_text(CONFIG.replace("Floor", "Again"), "utf-8")
-        client.wait_until(
+        peer.wait_until(
             lambda: [d.name for d in session.document.config.displays] == ["Again"]
         )
 
@@ -343,14 +343,14 @@ def test_a_bundled_config_is_saved_beside_the_model_or_where_the_program_works(
     monkeypatch.chdir(work)
     for given, folder in ((model, model.parent), (None, work)):
         with Visualizer(given, config=config, port=0) as viz:
-            client = protocol(viz.viser.get_port())
+            peer = protocol(viz.viser.get_port())
             session = session_of(viz)
-            client.wait_until(lambda session=session: bool(session.clients.all))
+            peer.wait_until(lambda session=session: bool(session.clients.all))
             page = Page(viz, session)
             assert page.value("file/state")["folder"] == str(folder)
             with pytest.raises(UsageError, match="no file of its own"):
                 page.act("file/save", [])
-            client.close()
+            peer.close()
 
 
 def test_unfolded_rows_are_written_as_rviz_names_them(folder: Path) -> None:
@@ -384,19 +384,19 @@ def test_an_empty_list_of_unfolded_rows_means_that_all_are_folded(
 
 
 def test_a_page_of_what_has_moved_is_a_download_one_at_a_time(
-    viz: Visualizer, page: Page, client: ProtocolClient
+    viz: Visualizer, page: Page, peer: ProtocolClient
 ) -> None:
     with pytest.raises(UsageError, match="nothing has moved in the last minute"):
         page.act("file/page", "past")
     with pytest.raises(UsageError, match="there is no motion 'jump'"):
         page.act("file/page", "jump")
     viz.set_joint_positions({"drivewhl_l_joint": 1.0})
-    mark = client.mark()
+    mark = peer.mark()
     page.act("file/page", "past")
     with pytest.raises(UsageError, match="a page is being made already"):
         page.act("file/page", "past")
-    client.wait_until(lambda: bool(page.sentences))
+    peer.wait_until(lambda: bool(page.sentences))
     assert page.sentences == ["ok: Saved sam_bot.html, 0.9 MB"]
-    client.wait_until(lambda: client.types(mark)["FileTransferPart"] == 1)
-    (part,) = (m for m in client.since(mark) if m.type == "FileTransferPart")
+    peer.wait_until(lambda: peer.types(mark)["FileTransferPart"] == 1)
+    (part,) = (m for m in peer.since(mark) if m.type == "FileTransferPart")
     assert b"<title>sam_bot</title>" in part.fields["content"]

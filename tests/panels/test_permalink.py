@@ -28,21 +28,21 @@ END = [["v", "1"]]
 class Links:
     """The links of one browser: what it copies, and what it is told."""
 
-    def __init__(self, session: Session, browser: Client, joints: bool = True) -> None:
-        self.session, self.browser = session, browser
+    def __init__(self, session: Session, client: Client, joints: bool = True) -> None:
+        self.session, self.client = session, client
         panel = panel_of(JointsPanel, session)
         self.panel = panel_of(
             PermalinkPanel,
             session,
-            browser,
-            views=panel_of(ViewsPanel, session, browser),
+            client,
+            views=panel_of(ViewsPanel, session, client),
             row=lambda row_id: next(
                 (r for r in panel.rows() if joints and r.id == row_id), None
             ),
         )
 
     def act(self, command_id: str, *sent: Any) -> Any:
-        with self.session.history.acting(self.browser.client_id):
+        with self.session.history.acting(self.client.client_id):
             return edit(self.panel, command_id, list(sent))
 
     def copy(self) -> Pairs:
@@ -59,31 +59,31 @@ class Links:
 
 
 @pytest.fixture
-def links(session: Session, browser: Client) -> Links:
-    return Links(session, browser)
+def links(session: Session, client: Client) -> Links:
+    return Links(session, client)
 
 
 def state(links: Links) -> dict[str, Any]:
-    session, view = links.session, links.browser.view
+    session, view = links.session, links.client.view
     assert session.robot.joints is not None
     return {
         "joints": dict(session.robot.joints.positions),
         "kind": view.view.kind,
         "view": dict(view.values),
         "switches": {name: switch.on for name, switch in session.toggles.all().items()},
-        "selection": list(links.browser.tools.selection),
+        "selection": list(links.client.tools.selection),
         "fixed": session.scene.context.fixed_frame,
     }
 
 
 def change(links: Links) -> None:
     """Move, turn, switch and select something."""
-    session, browser = links.session, links.browser
+    session, client = links.session, links.client
     session.document.set_option("Fixed Frame", "base_footprint")
     session.robot.set_positions({LEFT: 1.25})
-    browser.view.set_kind("rviz_default_plugins/XYOrbit")
-    browser.view.set("Distance", 2.5)
-    browser.view.set("Focal Point", (0.5, -0.25, 0.0))
+    client.view.set_kind("rviz_default_plugins/XYOrbit")
+    client.view.set("Distance", 2.5)
+    client.view.set("Focal Point", (0.5, -0.25, 0.0))
     wanted = {
         "Grid/Enabled": False,
         "TF/Show Names": False,
@@ -91,7 +91,7 @@ def change(links: Links) -> None:
     }
     for name, on in wanted.items():
         session.toggles.all()[name].set(on)
-    browser.tools.select(
+    client.tools.select(
         {Selectable("link", "base_link"), Selectable("frame", "front_caster")}, None
     )
 
@@ -126,12 +126,12 @@ def test_a_link_shows_the_same_in_another_program(
     change(links)
     parts, wanted = links.copy(), state(links)
     with Visualizer(port=0) as other:
-        client = protocol(other.viser.get_port())
-        client.settle(other.viser)
+        peer = protocol(other.viser.get_port())
+        peer.settle(other.viser)
         session = session_of(other)
-        client.wait_until(lambda: bool(session.clients.all))
-        (browser,) = session.clients.all.values()
-        there = Links(session, browser)
+        peer.wait_until(lambda: bool(session.clients.all))
+        (client,) = session.clients.all.values()
+        there = Links(session, client)
         session.robot.set_positions({RIGHT: 0.5})
         assert there.open(parts) == "Opened the link"
         assert state(there) == wanted
@@ -147,11 +147,11 @@ def test_a_link_brings_its_own_program_back_and_is_one_step_to_undo(
     session.robot.set_positions({RIGHT: 1.0})
     session.toggles.all()["Grid/Enabled"].set(True)
     session.toggles.all()["TF/Show Arrows"].set(False)
-    links.browser.tools.select(set(), None)
+    links.client.tools.select(set(), None)
     before = state(links)
     assert links.open(parts) == "Opened the link"
     assert state(links) == wanted
-    session.history.undo(links.browser.client_id)
+    session.history.undo(links.client.client_id)
     kept = ("joints", "switches")
     assert {k: state(links)[k] for k in kept} == {k: before[k] for k in kept}
 
@@ -188,7 +188,7 @@ def test_values_that_cannot_be_are_named_and_the_rest_is_shown(links: Links) -> 
             *END,
         ]
     )
-    assert links.browser.view.values["Distance"] == 3.0
+    assert links.client.view.values["Distance"] == 3.0
     assert state(links)["joints"] == {LEFT: 0.0, RIGHT: 0.5}
     assert "no frame 'nowhere'" in said
     assert "no property of the view 'Colour'" in said
@@ -241,12 +241,12 @@ def test_a_position_at_a_limit_stays_inside_it(
         "utf-8",
     )
     with Visualizer(model, port=0) as viz:
-        client = protocol(viz.viser.get_port())
-        client.settle(viz.viser)
+        peer = protocol(viz.viser.get_port())
+        peer.settle(viz.viser)
         session = session_of(viz)
-        client.wait_until(lambda: bool(session.clients.all))
-        (browser,) = session.clients.all.values()
-        links = Links(session, browser)
+        peer.wait_until(lambda: bool(session.clients.all))
+        (client,) = session.clients.all.values()
+        links = Links(session, client)
         session.robot.set_positions({"elbow": 1.5707963})
         parts = links.copy()
         assert ["j.elbow", "1.5707963"] in parts
@@ -273,12 +273,12 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
     protocol: Callable[..., Any],
 ) -> None:
     with Visualizer(port=0, presenter="who-has-this-drives") as viz:
-        client = protocol(viz.viser.get_port())
-        client.settle(viz.viser)
+        peer = protocol(viz.viser.get_port())
+        peer.settle(viz.viser)
         session = session_of(viz)
-        client.wait_until(lambda: bool(session.clients.all))
-        (browser,) = session.clients.all.values()
-        links = Links(session, browser)
+        peer.wait_until(lambda: bool(session.clients.all))
+        (client,) = session.clients.all.values()
+        links = Links(session, client)
         assert all(command.client_local for command in links.panel.commands())
         only_view = [*ORBIT, *END]
         assert links.open(only_view) == "Opened the link"
@@ -293,14 +293,14 @@ def test_who_watches_sees_the_view_of_a_link_and_moves_nothing(
 
 
 def test_a_page_without_the_joints_panel_shows_the_view_and_moves_no_joint(
-    session: Session, browser: Client
+    session: Session, client: Client
 ) -> None:
-    links = Links(session, browser, joints=False)
+    links = Links(session, client, joints=False)
     session.robot.set_positions({LEFT: 1.0})
     said = links.open([*ORBIT, [f"j.{LEFT}", "0.5"], [f"j.{RIGHT}", "1"], *END])
     assert said.endswith("not all of it: this page has no panel that moves joints")
     assert state(links)["joints"] == {LEFT: 1.0, RIGHT: 0.0}
-    assert browser.view.values["Distance"] == 3.0
+    assert client.view.values["Distance"] == 3.0
 
 
 def test_another_config_begins_with_its_own_switches(

@@ -22,9 +22,9 @@ def panel(session: Session) -> JointsPanel:
 
 
 def bring_back(
-    panel: JointsPanel, session: Session, browser: int, joints: dict[str, Any]
+    panel: JointsPanel, session: Session, client: int, joints: dict[str, Any]
 ) -> object:
-    with session.history.acting(browser):
+    with session.history.acting(client):
         return edit(panel, "joints/restore", [[*joints], [*joints.values()]])
 
 

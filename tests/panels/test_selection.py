@@ -27,8 +27,8 @@ RIGHT = Selectable("link", "drivewhl_r_link")
 
 
 @pytest.fixture
-def panel(session: Session, browser: Client) -> SelectionPanel:
-    return panel_of(SelectionPanel, session, browser)
+def panel(session: Session, client: Client) -> SelectionPanel:
+    return panel_of(SelectionPanel, session, client)
 
 
 def facts(panel: SelectionPanel) -> dict[str, str]:
@@ -40,8 +40,8 @@ def test_nothing_is_selected_at_first(panel: SelectionPanel) -> None:
     assert "Choose Select" in row.value
 
 
-def test_a_link_has_its_facts(panel: SelectionPanel, browser: Client) -> None:
-    browser.tools.select({LEFT}, None)
+def test_a_link_has_its_facts(panel: SelectionPanel, client: Client) -> None:
+    client.tools.select({LEFT}, None)
     found = facts(panel)
     assert found["Position"] == "-0.12; 0.18; -0.05 m"
     assert found["Parent"] == "base_link"
@@ -52,9 +52,9 @@ def test_a_link_has_its_facts(panel: SelectionPanel, browser: Client) -> None:
 
 
 def test_a_motion_changes_the_values_only(
-    panel: SelectionPanel, browser: Client, viz: Visualizer, session: Session
+    panel: SelectionPanel, client: Client, viz: Visualizer, session: Session
 ) -> None:
-    browser.tools.select({LEFT}, None)
+    client.tools.select({LEFT}, None)
     before = rows_of(panel)
     viz.set_joint_positions({"drivewhl_l_joint": 1.0})
     values = panel.values()
@@ -65,48 +65,48 @@ def test_a_motion_changes_the_values_only(
 
 
 def test_poses_are_shown_in_a_chosen_frame(
-    panel: SelectionPanel, browser: Client
+    panel: SelectionPanel, client: Client
 ) -> None:
-    browser.tools.select({LEFT}, None)
+    client.tools.select({LEFT}, None)
     edit(panel, "selection/frame", "drivewhl_l_link")
     assert facts(panel)["Position"] == "0; 0; 0 m"
     edit(panel, "selection/frame", "nowhere")
     assert "nowhere" in facts(panel)["Pose"]
 
 
-def test_two_items_are_so_far_apart(panel: SelectionPanel, browser: Client) -> None:
-    browser.tools.select({LEFT, RIGHT}, None)
+def test_two_items_are_so_far_apart(panel: SelectionPanel, client: Client) -> None:
+    client.tools.select({LEFT, RIGHT}, None)
     found = facts(panel)
     assert found["Distance"].startswith("0.36 m, from ")
     assert "along the axes of" in found["Offset"]
-    browser.tools.select({Selectable("link", "base_link")}, "shift")
+    client.tools.select({Selectable("link", "base_link")}, "shift")
     assert "Distance" not in facts(panel)
 
 
-def test_three_items_come_folded(panel: SelectionPanel, browser: Client) -> None:
-    browser.tools.select({LEFT, RIGHT}, None)
+def test_three_items_come_folded(panel: SelectionPanel, client: Client) -> None:
+    client.tools.select({LEFT, RIGHT}, None)
     heads = [row for row in panel.rows() if row.kind == "group"]
     assert [row.expanded for row in heads] == [True, True]
-    browser.tools.select({Selectable("link", "base_link")}, "shift")
+    client.tools.select({Selectable("link", "base_link")}, "shift")
     heads = [row for row in panel.rows() if row.kind == "group"]
     assert [row.expanded for row in heads] == [False, False, False]
 
 
 def test_a_long_selection_says_how_many_more_there_are(
-    panel: SelectionPanel, browser: Client
+    panel: SelectionPanel, client: Client
 ) -> None:
     many = {Selectable("frame", f"f{number}") for number in range(SHOWN + 2)}
-    browser.tools.select(many, None)
+    client.tools.select(many, None)
     assert rows_of(panel)["selection/more"].value == "and 2 more"
 
 
 def test_the_body_has_a_mass_and_children(
-    panel: SelectionPanel, browser: Client, session: Session, tmp_path: Path
+    panel: SelectionPanel, client: Client, session: Session, tmp_path: Path
 ) -> None:
     model = tmp_path / "post.urdf"
     model.write_text(POST, "utf-8")
     session.show_robot(load_robot(model))
-    browser.tools.select({Selectable("link", "foot")}, None)
+    client.tools.select({Selectable("link", "foot")}, None)
     found = facts(panel)
     assert found["Mass"] == "2.5 kg"
     assert found["Children"] == "post"

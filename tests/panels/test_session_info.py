@@ -9,6 +9,6 @@ from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 
 
-def test_nothing_is_being_read_at_rest(session: Session, browser: Client) -> None:
+def test_nothing_is_being_read_at_rest(session: Session, client: Client) -> None:
     assert session.scene.context.assets.wait(30.0)
     assert data_of(StatusBarPanel(session.scene))["statusbar/progress"] is None

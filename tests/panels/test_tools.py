@@ -15,8 +15,8 @@ TOOLS = ("Interact", "Move Camera", "Select", "Focus Camera", "Measure")
 
 
 @pytest.fixture
-def panel(session: Session, browser: Client) -> ToolsPanel:
-    return panel_of(ToolsPanel, session, browser)
+def panel(session: Session, client: Client) -> ToolsPanel:
+    return panel_of(ToolsPanel, session, client)
 
 
 def current(panel: ToolsPanel) -> list[str]:
@@ -70,9 +70,9 @@ def test_fingers_have_a_hint_of_their_own(panel: ToolsPanel) -> None:
     assert hint["touch"].startswith("One finger")
 
 
-def test_what_is_selected_is_named(panel: ToolsPanel, browser: Client) -> None:
+def test_what_is_selected_is_named(panel: ToolsPanel, client: Client) -> None:
     assert data_of(panel)["tools/selected"] == []
-    browser.tools.select({Selectable("link", "base_link")}, None)
+    client.tools.select({Selectable("link", "base_link")}, None)
     assert data_of(panel)["tools/selected"] == ["base_link"]
 
 
@@ -81,8 +81,8 @@ def test_there_is_no_such_tool(panel: ToolsPanel) -> None:
         edit(panel, "tools/press", ["Paint"])
 
 
-def test_the_colour_of_measure_is_a_row(session: Session, browser: Client) -> None:
-    panel = panel_of(ToolPropertiesPanel, session, browser)
+def test_the_colour_of_measure_is_a_row(session: Session, client: Client) -> None:
+    panel = panel_of(ToolPropertiesPanel, session, client)
     rows = rows_of(panel)
     assert rows["tool_properties/Measure"].name == "Measure"
     color = rows["tool_properties/Measure/Line color"]

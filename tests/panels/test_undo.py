@@ -23,8 +23,8 @@ def displays(session: Session) -> DisplaysPanel:
 
 
 @pytest.fixture
-def panel(session: Session, browser: Client, displays: DisplaysPanel) -> UndoPanel:
-    return panel_of(UndoPanel, session, browser, displays=displays)
+def panel(session: Session, client: Client, displays: DisplaysPanel) -> UndoPanel:
+    return panel_of(UndoPanel, session, client, displays=displays)
 
 
 def touched(panel: UndoPanel) -> Any:
@@ -33,7 +33,7 @@ def touched(panel: UndoPanel) -> Any:
 
 
 def test_the_display_that_undo_or_redo_touches_is_named(
-    panel: UndoPanel, session: Session, browser: Client, displays: DisplaysPanel
+    panel: UndoPanel, session: Session, client: Client, displays: DisplaysPanel
 ) -> None:
     first = session.document.config.displays[0]
     changes: tuple[Callable[[], object], ...] = (
@@ -42,7 +42,7 @@ def test_the_display_that_undo_or_redo_touches_is_named(
         lambda: session.display_edits.remove_display(first),
     )
     for change in changes:
-        with session.history.acting(browser.client_id):
+        with session.history.acting(client.client_id):
             change()
         edit(panel, "edit/undo", None)
         assert touched(panel) == displays.id_of(first)
@@ -51,7 +51,7 @@ def test_the_display_that_undo_or_redo_touches_is_named(
 
 
 def test_a_display_that_is_not_there_after_it_is_not_named(
-    panel: UndoPanel, session: Session, browser: Client, displays: DisplaysPanel
+    panel: UndoPanel, session: Session, client: Client, displays: DisplaysPanel
 ) -> None:
     makers: tuple[Callable[[], Any], ...] = (
         lambda: session.display_edits.add_display(GRID),
@@ -60,7 +60,7 @@ def test_a_display_that_is_not_there_after_it_is_not_named(
         ),
     )
     for make in makers:
-        with session.history.acting(browser.client_id):
+        with session.history.acting(client.client_id):
             made = make()
         edit(panel, "edit/undo", None)
         assert touched(panel) is None
@@ -69,10 +69,10 @@ def test_a_display_that_is_not_there_after_it_is_not_named(
 
 
 def test_each_undo_is_told_from_the_one_before(
-    panel: UndoPanel, session: Session, browser: Client
+    panel: UndoPanel, session: Session, client: Client
 ) -> None:
     for name in ("One", "Two"):
-        with session.history.acting(browser.client_id):
+        with session.history.acting(client.client_id):
             session.display_edits.rename_display(
                 session.document.config.displays[0], name
             )
@@ -84,9 +84,9 @@ def test_each_undo_is_told_from_the_one_before(
 
 
 def test_undo_and_redo_say_what_they_did(
-    panel: UndoPanel, session: Session, browser: Client
+    panel: UndoPanel, session: Session, client: Client
 ) -> None:
-    with session.history.acting(browser.client_id):
+    with session.history.acting(client.client_id):
         session.document.set_option("Frame Rate", 10)
     for row_id, said in (
         ("edit/undo", "Undone: Global Options: Frame Rate"),
@@ -98,17 +98,17 @@ def test_undo_and_redo_say_what_they_did(
 def test_other_edits_and_other_browsers_name_nothing(
     panel: UndoPanel,
     session: Session,
-    browser: Client,
+    client: Client,
     displays: DisplaysPanel,
     join: Callable[[], Client],
 ) -> None:
-    with session.history.acting(browser.client_id):
+    with session.history.acting(client.client_id):
         session.document.set_option("Frame Rate", 10)
         session.display_edits.rename_display(session.document.config.displays[0], "One")
     other = panel_of(UndoPanel, session, join(), displays=displays)
     edit(panel, "edit/undo", None)
     assert touched(other) is None
-    with session.history.acting(browser.client_id):
+    with session.history.acting(client.client_id):
         session.document.set_option("Frame Rate", 10)
     edit(panel, "edit/undo", None)
     assert touched(panel) is None

@@ -19,8 +19,8 @@ ORBIT, ABOVE = "Orbit (rviz_default_plugins)", "TopDownOrtho (rviz_default_plugi
 
 
 @pytest.fixture
-def panel(session: Session, browser: Client) -> ViewsPanel:
-    return panel_of(ViewsPanel, session, browser)
+def panel(session: Session, client: Client) -> ViewsPanel:
+    return panel_of(ViewsPanel, session, client)
 
 
 def test_the_numbers_are_those_of_the_current_view(panel: ViewsPanel) -> None:
@@ -50,16 +50,14 @@ def test_another_type_has_its_own_numbers(panel: ViewsPanel) -> None:
     assert data_of(panel)["view/shown"]["kind"] == "TopDownOrtho"
 
 
-def test_zero_goes_back_to_where_rviz_begins(
-    panel: ViewsPanel, browser: Client
-) -> None:
+def test_zero_goes_back_to_where_rviz_begins(panel: ViewsPanel, client: Client) -> None:
     edit(panel, "view/Distance", 2.5)
-    browser.view.zero()
+    client.view.zero()
     assert rows_of(panel)["view/Distance"].value == 10.0
 
 
 def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
-    panel: ViewsPanel, session: Session, browser: Client
+    panel: ViewsPanel, session: Session, client: Client
 ) -> None:
     wanted = {
         "view/Target Frame": "base_link",
@@ -67,12 +65,12 @@ def test_a_page_that_comes_back_shows_its_view_which_is_not_an_edit(
         "view/X": 0.25,
         "view/Angle": 0.5,
     }
-    with session.history.acting(browser.client_id):
+    with session.history.acting(client.client_id):
         edit(panel, "views/restore", [ABOVE, json.dumps(wanted)])
     rows = rows_of(panel)
     assert rows["view/type"].value == ABOVE
     assert {row_id: rows[row_id].value for row_id in wanted} == wanted
-    assert session.history.state(browser.client_id).value.undo is None
+    assert session.history.state(client.client_id).value.undo is None
 
 
 @pytest.mark.parametrize("values", ["", "[1]", "[" * 1000, '{"view/nothing": 1}'])
@@ -121,14 +119,14 @@ def test_the_page_is_told_what_its_mouse_has_to_know(panel: ViewsPanel) -> None:
 
 
 def test_an_unknown_type_is_shown_as_orbit_and_says_so(
-    session: Session, browser: Client, panel: ViewsPanel, tmp_path: Path
+    session: Session, client: Client, panel: ViewsPanel, tmp_path: Path
 ) -> None:
     assert "view/:unknown" not in rows_of(panel)
     path = tmp_path / "spiral.rviz"
     text = bundled.config_path().read_text("utf-8")
     path.write_text(text.replace("rviz_default_plugins/Orbit", "a/Spiral"), "utf-8")
     session.document.replace(load_config(path))
-    browser.view.show()
+    client.view.show()
     rows = rows_of(panel)
     assert "not known here" in rows["view/:unknown"].value
     assert rows["view/type"].value == ORBIT
@@ -138,7 +136,7 @@ def test_an_unknown_type_is_shown_as_orbit_and_says_so(
 
 def test_with_follow_the_presenter_the_others_see_what_one_does(
     session: Session,
-    browser: Client,
+    client: Client,
     panel: ViewsPanel,
     join: Callable[[], Client],
 ) -> None:
