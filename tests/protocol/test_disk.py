@@ -13,7 +13,7 @@ from inside import session_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.server import inbound_filter
+from sambot_viz.server import connection
 
 Connect = Callable[..., ProtocolClient]
 
@@ -85,7 +85,7 @@ def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (folder / "link.urdf").symlink_to(outside / "secret.urdf")
     (folder / "dangling.rviz").symlink_to(outside / "new.rviz")
     monkeypatch.chdir(tmp_path / "started")
-    monkeypatch.setattr(inbound_filter, "BURST", 1e6)
+    monkeypatch.setattr(connection, "BURST", 1e6)
     return folder
 
 

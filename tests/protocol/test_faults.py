@@ -15,7 +15,7 @@ from protocol_client import ProtocolClient
 from troublemakers import garbage, garbage_edit
 
 from sambot_viz import Visualizer, bundled, viser_private
-from sambot_viz.server import inbound_filter
+from sambot_viz.server import connection
 
 Connect = Callable[..., ProtocolClient]
 LEFT = "drivewhl_l_joint"
@@ -100,8 +100,8 @@ def test_no_garbage_raises_or_is_noticed_by_the_others(
     capfd: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(inbound_filter, "MESSAGES_PER_SECOND", 1e6)
-    monkeypatch.setattr(inbound_filter, "BURST", 1e6)
+    monkeypatch.setattr(connection, "MESSAGES_PER_SECOND", 1e6)
+    monkeypatch.setattr(connection, "BURST", 1e6)
     chance = random.Random(1)
     bad = protocol(viz.viser.get_port())
     bad.settle(viz.viser)

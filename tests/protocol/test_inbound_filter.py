@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import Visualizer
-from sambot_viz.server import client_writer, inbound_filter
+from sambot_viz.server import client_writer, connection, inbound_filter
 
 Connect = Callable[..., ProtocolClient]
 SLIDER = "joints", "drivewhl_l_joint"
@@ -330,8 +330,8 @@ def noise() -> np.ndarray:
 def test_a_flood_is_slowed_down_and_its_rest_keeps_nobody_waiting(
     protocol: Connect, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(inbound_filter, "BURST", 1.0)
-    monkeypatch.setattr(inbound_filter, "MESSAGES_PER_SECOND", 0.5)
+    monkeypatch.setattr(connection, "BURST", 1.0)
+    monkeypatch.setattr(connection, "MESSAGES_PER_SECOND", 0.5)
     gone = threading.Event()
     with Visualizer(port=0) as viz:
         client = protocol(viz.viser.get_port())

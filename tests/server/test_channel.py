@@ -2,24 +2,41 @@
 
 from __future__ import annotations
 
+import asyncio
 import secrets
-from collections.abc import Callable, Iterator
+import threading
+import time
+from collections.abc import Awaitable, Callable, Iterator
 from contextlib import ExitStack
+from types import SimpleNamespace
 from typing import Any
 
 import msgspec.msgpack
 import pytest
 import viser
 from page_rows import decode
+from patience import until
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
 from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.protocol import State
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin, Subprotocol
 
 from sambot_viz import Visualizer
+from sambot_viz.panels.row_store import ClientRows, RowStore
 from sambot_viz.server import channel as channel_module
-from sambot_viz.server import inbound_filter
-from sambot_viz.server.channel import CLIENT_LEFT, PAGE_LEFT, PING, PONG, SUBPROTOCOL
+from sambot_viz.server import connection, inbound_filter
+from sambot_viz.server.channel import (
+    CLIENT_LEFT,
+    PAGE_LEFT,
+    PING,
+    PONG,
+    SUBPROTOCOL,
+    Channel,
+    Channels,
+)
+from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.inbound_filter import NoSessions
 
 Protocol = Callable[..., ProtocolClient]
 VISER = f"viser-v{viser.__version__}"
@@ -151,6 +168,138 @@ def test_a_page_that_lost_its_connections_without_a_word_takes_them_over(
     again = pages.channel(viz, ticket)
     pages.viser(viz, ticket)
     assert rows(again)[1]["of"] == "browser"
+
+
+def test_a_client_that_leaves_as_the_channel_comes_is_not_taken_for_the_next(
+    viz: Visualizer, pages: Pages, ticket: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def answers(self: Connection, timeout: float) -> bool:
+        # Its answer is the last that comes of it.
+        self.transport.abort()
+        await asyncio.sleep(0.1)
+        return True
+
+    gone = pages.viser(viz, ticket)
+    wait_for_clients(viz, 1)
+    monkeypatch.setattr(Connection, "answers", answers)
+    channel = pages.channel(viz, ticket)
+    closed_with(gone)
+    wait_for_clients(viz, 0)
+    pages.viser(viz, ticket)
+    rows(channel)
+    channel.send(f'["{JOINT}",0.5]')
+    assert until_changed(channel, JOINT) == {"value": 0.5}
+
+
+def test_who_leaves_before_it_has_the_ticket_does_not_get_it(ticket: str) -> None:
+    async def silent(timeout: float) -> bool:
+        return False
+
+    def page(state: State) -> Any:
+        return SimpleNamespace(
+            context=ClientContext(ticket=ticket),
+            state=state,
+            answers=silent,
+            transport=SimpleNamespace(abort=lambda: None),
+        )
+
+    async def run() -> None:
+        channels, holder = Channels(), page(State.OPEN)
+        assert channels.claim(holder) is None
+        waiting = channels.claim(page(State.CLOSED))
+        assert isinstance(waiting, Awaitable)
+        refused = await waiting
+        assert refused is not None and refused.status_code == 409
+        holder.on_lost()
+        assert channels.claim(page(State.CONNECTING)) is None
+
+    asyncio.run(run())
+
+
+def test_both_connections_of_a_page_have_one_limit(
+    viz: Visualizer, pages: Pages, ticket: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connection, "BURST", 20.0)
+    monkeypatch.setattr(connection, "MESSAGES_PER_SECOND", 10.0)
+    client = pages.viser(viz, ticket)
+    rows(channel := pages.channel(viz, ticket))
+    # What one of them sends is counted for the other.
+    for _ in range(39):
+        client.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **CAMERA}))
+    assert client.ping().wait(10.0)
+    start = time.monotonic()
+    channel.send(PING)
+    while channel.recv(timeout=10.0) != PONG:
+        pass
+    assert time.monotonic() - start > 0.1
+
+
+def test_a_slow_page_gets_the_newest_state_only() -> None:
+    sent: list[Any] = []
+    free = asyncio.Event()
+
+    class Writer:
+        async def send(self, message: str | bytes) -> None:
+            sent.append(decode(message))
+            await free.wait()
+
+    async def run() -> None:
+        stores = RowStore("session"), RowStore("browser")
+        for store in stores:
+            store.replace(store._scope, [{"id": store._scope, "value": 0}])
+        slow: Any = SimpleNamespace(writer=Writer())
+        writing = asyncio.ensure_future(
+            Channel(slow, NoSessions).write(1, ClientRows(stores))
+        )
+        while not sent:
+            await asyncio.sleep(0)
+        for value in range(1000):
+            stores[0].update("session", {"value": value})
+            stores[0].tell()
+        free.set()
+        while len(sent) < 3:
+            await asyncio.sleep(0)
+        for _ in range(10):
+            await asyncio.sleep(0)
+        writing.cancel()
+
+    asyncio.run(run())
+    assert [part["of"] for part in sent] == ["session", "browser", "session"]
+    assert sent[2]["rows"] == {"session": {"value": 999}}
+
+
+def test_no_change_is_missed_while_rows_are_made_in_another_thread() -> None:
+    store, page = RowStore("session"), dict[str, Any]()
+    store.replace("p", [{"id": "a", "value": 0}])
+    done = threading.Event()
+
+    def change() -> None:
+        for value in range(3000):
+            ids = ("a", "b", "c")[: 1 + value % 3]
+            if value % 50 == 0:
+                store.replace("p", [{"id": i, "value": value} for i in ids])
+            store.update("a", {"value": value, "help": None if value % 2 else "x"})
+        done.set()
+
+    thread = threading.Thread(target=change)
+    thread.start()
+    version, last = 0, False
+    while not last:
+        last = done.is_set()
+        version, message = store.since(version)
+        part = {} if message is None else decode(message)
+        for items in part.get("panels", {}).values():
+            page = {row["id"]: row for row in items}
+        for row_id, patch in part.get("rows", {}).items():
+            row = {**page[row_id], **patch}
+            page[row_id] = {k: v for k, v in row.items() if v is not None}
+    thread.join()
+    assert page == {row_id: store.get(row_id) for row_id in page}
+    assert page["a"]["value"] == 2999
+
+
+def wait_for_clients(viz: Visualizer, count: int) -> None:
+    until(lambda: len(viz.viser.get_clients()) == count)
 
 
 def test_a_channel_needs_a_ticket(viz: Visualizer, pages: Pages) -> None:

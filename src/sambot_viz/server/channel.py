@@ -32,15 +32,13 @@ from sambot_viz.panels import validation
 from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.server.connection import Connection
 from sambot_viz.server.inbound_filter import (
-    BURST,
     CLOSE_TIME,
-    MESSAGES_PER_SECOND,
     ClientHandler,
     NoSessions,
     report,
 )
 from sambot_viz.server.page_files import plain_page
-from sambot_viz.server.rate_limit import InFlightLimit, TokenBucket
+from sambot_viz.server.rate_limit import InFlightLimit
 
 SUBPROTOCOL = "sambot-viz-1"
 """Another number: an older page cannot talk to this server."""
@@ -92,8 +90,10 @@ class Channels:
         """
         alive = await holder.answers(ANSWER_TIME)
         holders, ticket = self._holders(connection), connection.context.ticket
-        # Another one may have taken it meanwhile.
-        if alive or holders.get(ticket, holder) is not holder:
+        # Another one may have taken it meanwhile, and this one may have left: nothing
+        # would take the ticket from it.
+        taken = holders.get(ticket, holder) is not holder
+        if alive or taken or connection.state is State.CLOSED:
             return _in_use()
         holder.transport.abort()
         self._hold(connection)
@@ -158,28 +158,38 @@ class Channels:
         client, rows = await asyncio.wait_for(
             self._client_of(connection), WAIT_FOR_CLIENT
         )
-        connection.client = client
         assert client.client_id is not None
         await channel.write(client.client_id, rows)
 
     async def _client_of(self, connection: Connection) -> tuple[Connection, ClientRows]:
         """Wait for the client with the same ticket, and for its rows."""
-        context, first = connection.context, True
+        ticket, first = connection.context.ticket, True
         while True:
-            client = self._clients.get(context.ticket)
-            rows = None
-            if client is not None and client.client_id is not None:
-                same = (client.context.presenter, client.context.copy)
-                # A viewer with the ticket of a presenter gets nothing.
-                if same == (context.presenter, context.copy):
-                    rows = self.handler.rows_of(client.client_id)
+            client = self._clients.get(ticket)
+            rows = None if client is None else self._rows_of(client, connection)
             if client is not None and rows is not None:
                 # A page that comes again has perhaps lost both connections.
-                if not first or await client.answers(ANSWER_TIME):
+                if first and not await client.answers(ANSWER_TIME):
+                    client.transport.abort()
+                    client.on_lost()
+                elif self._clients.get(ticket) is client:
+                    # Not later: from here on the channel ends when its client leaves.
+                    connection.client, connection.rate = client, client.rate
                     return client, rows
-                client.transport.abort()
+                # Another client may have joined while this one was asked.
+                first = False
+                continue
             first = False
             await self._changed.wait()
+
+    def _rows_of(self, client: Connection, channel: Connection) -> ClientRows | None:
+        """Return the rows of a client for a channel; None when it gets none (yet)."""
+        own, other = channel.context, client.context
+        # A viewer with the ticket of a presenter gets nothing.
+        same = (other.presenter, other.copy) == (own.presenter, own.copy)
+        if client.client_id is None or not same:
+            return None
+        return self.handler.rows_of(client.client_id)
 
 
 class Channel:
@@ -201,11 +211,10 @@ class Channel:
 
     async def read(self) -> None:
         """Take what the page sends, until its connection ends."""
-        rate = TokenBucket(MESSAGES_PER_SECOND, BURST)
         in_flight = InFlightLimit(self._behind)
         while True:
             message = await self.connection.receive()
-            if (pause := rate.take()) > 0.0:
+            if (pause := self.connection.rate.take()) > 0.0:
                 if self.connection.state is not State.OPEN:
                     # It has left a flood, which nobody has to wait for.
                     continue

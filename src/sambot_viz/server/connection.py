@@ -17,6 +17,10 @@ from sambot_viz.server.client_writer import ClientWriter
 from sambot_viz.server.connection_limit import ConnectionLimiter
 from sambot_viz.server.rate_limit import TokenBucket
 
+MESSAGES_PER_SECOND = 300.0
+"""A user with a mouse sends about 110: 60 values and 50 cameras."""
+BURST = 600.0
+"""How many messages may come at once."""
 SMALL_FRAME = 1000
 """The size of larger parts is limited with that of their message [bytes]."""
 SMALL_FRAMES_PER_SECOND = 10.0
@@ -50,6 +54,7 @@ class Connection(ServerConnection):
     Attributes:
         context: what its request has said.
         writer: sends to it.
+        rate: limits what it sends; a page's channel has that of its client.
         read: reads the next message that may be handled; the inbound filter when
             there is one.
         client_id: viser's number of the client; None for a channel.
@@ -63,6 +68,7 @@ class Connection(ServerConnection):
         super().__init__(*arguments, **settings)
         self.context = ClientContext()
         self.writer = ClientWriter(self)
+        self.rate = TokenBucket(MESSAGES_PER_SECOND, BURST)
         self.read: Callable[[], Awaitable[Data]] = self.receive
         self.client_id: int | None = None
         self.client: Connection | None = None

@@ -37,16 +37,12 @@ from sambot_viz.server.client_messages import (
     decode,
 )
 from sambot_viz.server.connection import Connection
-from sambot_viz.server.rate_limit import InFlightLimit, TokenBucket
+from sambot_viz.server.rate_limit import InFlightLimit
 
 LARGEST_MESSAGE = 64 * 1024
 """A connection that sends a longer message is closed [bytes]."""
 LONGEST_TEXT = 1000
 """Of a value that is a text [characters]."""
-MESSAGES_PER_SECOND = 300.0
-"""A user with a mouse sends about 110: 60 values and 50 cameras."""
-BURST = 600.0
-"""How many messages may come at once."""
 CLOSE_TIME = 1.0
 """How long the end of the program waits for a browser to close its connection [s]."""
 LOG_PERIOD = 10.0
@@ -118,14 +114,13 @@ class InboundFilter:
         self._client_id = client_id
         self._connection = connection
         self._known = False
-        self._rate = TokenBucket(MESSAGES_PER_SECOND, BURST)
         self._in_flight = InFlightLimit(self._behind)
 
     async def read(self) -> bytes:
         """Return the next message that may be handled."""
         while True:
             raw = await self._connection.receive()
-            pause = self._rate.take()
+            pause = self._connection.rate.take()
             if pause > 0.0:
                 if self._connection.state is not State.OPEN:
                     # It has left a flood, which nobody has to wait for.
