@@ -34,6 +34,25 @@ test("a change of one row is heard by that row alone", () => {
   assert.deepEqual(heard, ["a/x"]);
 });
 
+test("a row that can be unfolded from now on is heard by its panel, which draws the arrow", () => {
+  for (const part of [
+    { rows: { b: { lazy: true } } },
+    {
+      panels: {
+        displays: [
+          row("a", { value: 1 }),
+          row("a/x", { in: "a", value: 2 }),
+          row("b", { value: 3, lazy: true }),
+        ],
+      },
+    },
+  ]) {
+    const { rows, heard } = grid();
+    rows.take("session", part);
+    assert.deepEqual(heard, ["b", "panel:displays"]);
+  }
+});
+
 test("a change that says what is known already is not heard", () => {
   const { rows, heard } = grid();
   rows.take("session", { rows: { a: { value: 1 } } });

@@ -20,6 +20,9 @@
  *   all: nothing of what came before holds
  */
 
+/** What a tree is laid out by, beside the list of its rows. @type {(keyof Row)[]} */
+const LAYOUT = ["lazy", "open", "apart"];
+
 export class Rows {
   constructor() {
     /** @type {Map<string, Row>} */
@@ -92,18 +95,20 @@ export class Rows {
     }
     this.panels.set(name, ids);
     const below = new Map([[`panel:${name}`, /** @type {string[]} */ ([])]]);
+    let moved = !same(before, ids);
     for (const row of rows) {
       const key = row.in || `panel:${name}`;
       if (!below.has(key)) below.set(key, []);
       /** @type {string[]} */ (below.get(key)).push(row.id);
       this.held.delete(row.id);
-      if (!same(this.byId.get(row.id), row)) {
+      const old = this.byId.get(row.id);
+      if (!same(old, row)) {
+        moved ||= LAYOUT.some((field) => old?.[field] !== row[field]);
         this.byId.set(row.id, row);
         touched.add(row.id);
       }
     }
     for (const id of ids) if (!below.has(id)) this.below.delete(id);
-    let moved = !same(before, ids);
     for (const [key, list] of below) {
       if (!same(this.below.get(key), list)) {
         this.below.set(key, list);
@@ -180,6 +185,8 @@ export class Rows {
     }
     this.byId.set(id, next);
     touched.add(id);
+    if (changed.some((field) => LAYOUT.includes(field)))
+      for (const [name, ids] of this.panels) if (ids.includes(id)) touched.add(`panel:${name}`);
     for (const part of partsOf(next)) {
       if (same(this.byId.get(part.id), part)) continue;
       this.byId.set(part.id, part);
