@@ -207,8 +207,11 @@ def a_lab(place: Place, *flags: str, **more: str) -> Generator[Lab]:
         def info() -> Any:
             assert process.poll() is None, place.log
             for path in runtime.glob("jpserver-*.json"):
-                with contextlib.suppress(ValueError):
-                    return json.loads(path.read_text("utf-8"))
+                # JupyterLab writes it before it listens.
+                with contextlib.suppress(ValueError, ConnectionRefusedError):
+                    found = json.loads(path.read_text("utf-8"))
+                    socket.create_connection(("127.0.0.1", found["port"])).close()
+                    return found
 
         found = wait_until(info)
         yield Lab(found["url"], found["token"], place, process)
