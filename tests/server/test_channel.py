@@ -414,7 +414,7 @@ def test_a_long_text_for_the_clipboard_comes_in_one_piece(
     session = viz.server.sessions()[0]
     text = "x" * 50_000 + "\nend"
     mark = client.mark()
-    window = viz.server._sessions._windows[session]
+    window = viz.server._sessions._places[None].window
     (panels,) = window._browsers.values()
     with session.lock:
         panels.give(channel_answer(text))

@@ -51,6 +51,16 @@ def internal_error(error: Exception) -> Problem:
     )
 
 
+def drawing_failed(error: Exception) -> Problem:
+    """A session could not draw what the mesh thread has read."""
+    return Problem(
+        "error",
+        "reload-failed",
+        f"internal error while drawing meshes: {type(error).__name__}: {error}",
+        "start the program again, and please report it",
+    )
+
+
 def unwatched(reason: str) -> Problem:
     """The system reports no changes of files."""
     return Problem(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import cast
 
@@ -22,6 +23,7 @@ from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server import reload_problems
 from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
@@ -32,6 +34,16 @@ from sambot_viz.session.worker import Worker
 _log = logging.getLogger(__name__)
 
 MakeConfig = Callable[[], RvizConfig]
+
+
+@dataclass(eq=False)
+class _Place:
+    """A thread, the session that lives in it, and its window, as they come."""
+
+    worker: Worker
+    session: Session | None = None
+    window: Window | None = None
+    left: bool = False
 
 
 class Sessions:
@@ -48,7 +60,6 @@ class Sessions:
         ask_page: makes a page of what is seen; None leaves that out.
 
     Attributes:
-        shared: the session of all browsers; None when each has its own.
         meshes: what was read of mesh files, for all of them.
         robot: what is shown in all of them.
         on_joined: called when a client has its rows, in any thread.
@@ -75,14 +86,17 @@ class Sessions:
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
         self.robot: Robot | None = None
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
-        self.shared: Session | None = None
-        self._private: dict[int, Session] = {}
-        self._workers: dict[int | None, Worker] = {}
-        self._windows: dict[Session, Window] = {}
+        # By client, and with None that of all; changed under the lock.
+        self._places: dict[int | None, _Place] = {}
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._closed = False
         self.on_joined: Callable[[], object] = lambda: None
+
+    @property
+    def shared(self) -> Session | None:
+        """The session of all browsers; None when each has its own."""
+        return self._places[None].session if None in self._places else None
 
     def open_shared(self) -> None:
         """Open the session of all browsers.
@@ -90,16 +104,18 @@ class Sessions:
         Raises:
             FrameError: static transforms that form a ring.
         """
-        self.shared = self._open(self._server, self._worker(None))
+        place = self._add_place(None)
+        place.session = self._open(self._server, place.worker)
 
     def close(self) -> None:
         """End all sessions and their threads."""
         with self._lock:
             self._closed = True
-        for session in self.all():
-            session.close()
-        for worker in list(self._workers.values()):
-            worker.close()
+            places = list(self._places.values())
+        for place in places:
+            if place.session is not None:
+                place.session.close()
+            place.worker.close()
         self._mesh_thread.close()
 
     def all(self, *, copies: bool = True) -> list[Session]:
@@ -108,11 +124,11 @@ class Sessions:
         Args:
             copies: also those that browsers have made of the shared one.
         """
+        if not copies and self.shared is not None:
+            return [self.shared]
         with self._lock:
-            private = list(self._private.values())
-        if self.shared is None:
-            return private
-        return [self.shared, *private] if copies else [self.shared]
+            places = list(self._places.values())
+        return [place.session for place in places if place.session is not None]
 
     def for_each(
         self, action: Callable[[Session], object], *, copies: bool = True
@@ -152,17 +168,15 @@ class Sessions:
         panels take it longer than the robot.
         """
         if self.shared is not None:
-            self._add_panels(self.shared)
+            self._add_panels(self._places[None], self.shared)
 
-    def _add_panels(self, session: Session) -> None:
+    def _add_panels(self, place: _Place, session: Session) -> None:
         # A model that is being read may change the displays while panels are made.
         with session.lock:
-            if self._options.panels and session not in self._windows:
+            if self._options.panels and place.window is None:
                 # Visitors with a session of their own do not use the server's disk.
                 files = self._files if session is self.shared else None
-                self._windows[session] = Window(
-                    session, self._options.gui, files, self._ask_page
-                )
+                place.window = Window(session, self._options.gui, files, self._ask_page)
         self.on_joined()
 
     def refresh(self) -> None:
@@ -179,12 +193,7 @@ class Sessions:
 
     def _drawing_failed(self, error: Exception) -> None:
         """Show that a session could not draw what the mesh thread has read."""
-        message = (
-            f"internal error while drawing meshes: {type(error).__name__}: {error}"
-        )
-        hint = "start the program again, and please report it"
-        problem = Problem("error", "reload-failed", message, hint)
-        self.set_reload_problems("fault", (problem,))
+        self.set_reload_problems("fault", (reload_problems.drawing_failed(error),))
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show in every session, present and to come, why a save is not shown."""
@@ -248,21 +257,17 @@ class Sessions:
             worker.post(session.checks.run)
         if copy is not None:
             session.take(copy)
-        for of, problems in self._reload_problems.items():
-            session.problems.set_saves(of, problems)
         return session
 
     def take_edit(self, client_id: int, edit: object) -> None:
         """Give an edit of a browser to the window of its session."""
-        session = self._session_of(client_id)
-        window = None if session is None else self._windows.get(session)
+        window = self._window_of(client_id)
         if window is not None:
             window.receive(client_id, edit)
 
     def rows_of(self, client_id: int) -> ClientRows | None:
         """Return the rows that a client sees; None when it has none yet."""
-        session = self._session_of(client_id)
-        window = None if session is None else self._windows.get(session)
+        window = self._window_of(client_id)
         return None if window is None else window.rows_of(client_id)
 
     def may_edit(self, client_id: int) -> bool:
@@ -271,17 +276,20 @@ class Sessions:
 
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
         """Run an action behind what a browser has caused in its session."""
-        worker = self._workers.get(client_id) or self._workers.get(None)
-        if worker is not None:
-            worker.post(action)
-        else:
-            action()
+        place = self._place_of(client_id)
+        action() if place is None else place.worker.post(action)
 
-    def _session_of(self, client_id: int) -> Session | None:
-        """What a browser sees; None while that is made."""
-        return (
-            self._private.get(client_id) if client_id in self._workers else self.shared
-        )
+    def _place_of(self, client_id: int) -> _Place | None:
+        return self._places.get(client_id) or self._places.get(None)
+
+    def _window_of(self, client_id: int) -> Window | None:
+        place = self._place_of(client_id)
+        return None if place is None else place.window
+
+    def _add_place(self, client_id: int | None) -> _Place:
+        place = _Place(Worker(self._server.get_event_loop()))
+        self._places[client_id] = place
+        return place
 
     def _context(self, client_id: int) -> ClientContext:
         try:
@@ -305,16 +313,15 @@ class Sessions:
         with self._lock:
             if self._closed:
                 return
-            worker = self._worker(client.client_id)
+            place = self._add_place(client.client_id)
+        open_private = partial(self._open_private, client, place)
         if shared is None:
-            worker.post(partial(self._open_private, client, worker))
+            place.worker.post(open_private)
         else:
-            shared.worker.post(partial(self._open_copy, shared, client, worker))
-
-    def _worker(self, client_id: int | None) -> Worker:
-        """The thread for one browser's session, or with None for that of all."""
-        worker = self._workers[client_id] = Worker(self._server.get_event_loop())
-        return worker
+            # Copied under the lock of all, and drawn in the thread of one.
+            shared.worker.post(
+                lambda: place.worker.post(partial(open_private, shared.copy()))
+            )
 
     def _give_view(
         self, session: Session, client: viser.ClientHandle, context: ClientContext
@@ -324,52 +331,43 @@ class Sessions:
             self._joined.notify_all()
         self.on_joined()
 
-    def _open_copy(
-        self, shared: Session, client: viser.ClientHandle, worker: Worker
-    ) -> None:
-        """Copy the shared session, which is locked, for one browser."""
-        worker.post(partial(self._open_private, client, worker, shared.copy()))
-
     def _open_private(
-        self,
-        client: viser.ClientHandle,
-        worker: Worker,
-        copy: SessionCopy | None = None,
+        self, client: viser.ClientHandle, place: _Place, copy: SessionCopy | None = None
     ) -> None:
         """Draw the session of one browser; its worker runs this and has its lock.
 
         A robot that is shown in all sessions meanwhile waits for that lock once this
         session is known, and so comes after what is shown here.
         """
-        if client.client_id not in self._workers:
-            # It has left already.
+        if place.left:
             return
-        session = self._open(client, worker, copy)
+        session = self._open(client, place.worker, copy)
         with self._lock:
-            self._private[client.client_id] = session
+            place.session = session
             robot, problems = self.robot, dict(self._reload_problems)
         if robot is not None and robot is not session.robot.model:
             session.show_robot(robot)
         for of, found in problems.items():
             session.problems.set_saves(of, found)
-        self._add_panels(session)
+        self._add_panels(place, session)
         self._give_view(session, client, ClientContext())
 
     async def leave(self, client: viser.ClientHandle) -> None:
         """A browser has closed the page: a session of its own ends."""
-        worker = self._workers.pop(client.client_id, None)
-        if worker is not None:
-            worker.post(partial(self._close_private, client.client_id, worker))
-        elif self.shared is not None:
-            leave = partial(self.shared.leave, client.client_id)
-            self.shared.worker.post(leave)
+        place = self._places.get(client.client_id)
+        if place is not None:
+            # A session that has not begun to open stays closed.
+            place.left = True
+            # Behind one that opens at the moment: this must not wait on the loop.
+            place.worker.post(partial(self._close_private, client.client_id, place))
+        elif (shared := self.shared) is not None:
+            shared.worker.post(partial(shared.leave, client.client_id))
 
-    def _close_private(self, client_id: int, worker: Worker) -> None:
+    def _close_private(self, client_id: int, place: _Place) -> None:
         with self._lock:
-            session = self._private.pop(client_id, None)
-        if session is not None:
-            window = self._windows.pop(session, None)
-            if window is not None:
-                window.close()
-            session.close()
-        worker.close()
+            del self._places[client_id]
+        if place.window is not None:
+            place.window.close()
+        if place.session is not None:
+            place.session.close()
+        place.worker.close()
