@@ -373,14 +373,24 @@ def test_who_has_no_token_gets_no_channel(pages: Pages, ticket: str) -> None:
         rows(pages.channel(viz, ticket, query=query))
 
 
-def test_a_viewer_with_the_ticket_of_the_presenter_gets_nothing(
-    pages: Pages, ticket: str, monkeypatch: pytest.MonkeyPatch
+def test_a_viewer_with_the_ticket_of_the_presenter_is_refused_at_once(
+    pages: Pages, ticket: str
 ) -> None:
-    monkeypatch.setattr(channel_module, "WAIT_FOR_CLIENT", 0.2)
     with Visualizer(port=0, presenter=PRESENTER) as viz:
         pages.viser(viz, ticket, query=f"&token={PRESENTER}")
+        with pytest.raises(InvalidStatus) as refused:
+            pages.channel(viz, ticket)
+        assert status_of(refused) == 409
+        rows(pages.channel(viz, ticket, query=f"&token={PRESENTER}"))
+
+
+def test_a_viewer_who_waits_with_the_ticket_of_the_presenter_is_closed_at_once(
+    pages: Pages, ticket: str
+) -> None:
+    with Visualizer(port=0, presenter=PRESENTER) as viz:
         viewer = pages.channel(viz, ticket)
         viewer.send(f'["{JOINT}",0.5]')
+        pages.viser(viz, ticket, query=f"&token={PRESENTER}")
         with pytest.raises(ConnectionClosed):
             viewer.recv(timeout=10.0)
         assert viz.joint_positions[JOINT[2:]] == 0.0

@@ -3,7 +3,8 @@
 It is on the same port and behind the same checks as viser's connection, with a
 subprotocol of its own. A page makes a ticket when it is loaded and names it in the
 addresses of both (``?ticket=``); so the two are known to be one client. A ticket that
-is in use is refused: two pages with one ticket do not mix.
+is in use is refused: two pages with one ticket do not mix, and a viewer gets nothing by
+that of the presenter.
 
 The server sends JSON objects: what the page lacks of the rows (`panels.row_store`), as
 text or, when long, compressed in a binary frame. The page sends JSON lists: an edit, or
@@ -74,6 +75,8 @@ class Channels:
         context = connection.context
         if not context.ticket:
             return _in_use() if context.channel else None
+        if context.channel and self._is_of_another(connection):
+            return _in_use()
         holder = self._holders(connection).get(context.ticket)
         if holder is not None:
             return self._take_over(connection, holder)
@@ -98,6 +101,14 @@ class Channels:
         holder.transport.abort()
         self._hold(connection)
         return None
+
+    def _is_of_another(self, channel: Connection) -> bool:
+        """Whether the client with the ticket of a channel has another role."""
+        context, client = channel.context, self._clients.get(channel.context.ticket)
+        return client is not None and (
+            (client.context.presenter, client.context.copy)
+            != (context.presenter, context.copy)
+        )
 
     def _holders(self, connection: Connection) -> dict[str, Connection]:
         return self._channels if connection.context.channel else self._clients
@@ -165,8 +176,13 @@ class Channels:
         """Wait for the client with the same ticket, and for its rows."""
         ticket, first = connection.context.ticket, True
         while True:
+            if self._is_of_another(connection):
+                # It was there before this client, too early to be refused.
+                raise TimeoutError
             client = self._clients.get(ticket)
-            rows = None if client is None else self._rows_of(client, connection)
+            rows = None
+            if client is not None and client.client_id is not None:
+                rows = self.handler.rows_of(client.client_id)
             if client is not None and rows is not None:
                 # A page that comes again has perhaps lost both connections.
                 if first and not await client.answers(ANSWER_TIME):
@@ -181,15 +197,6 @@ class Channels:
                 continue
             first = False
             await self._changed.wait()
-
-    def _rows_of(self, client: Connection, channel: Connection) -> ClientRows | None:
-        """Return the rows of a client for a channel; None when it gets none (yet)."""
-        own, other = channel.context, client.context
-        # A viewer with the ticket of a presenter gets nothing.
-        same = (other.presenter, other.copy) == (own.presenter, own.copy)
-        if client.client_id is None or not same:
-            return None
-        return self.handler.rows_of(client.client_id)
 
 
 class Channel:
