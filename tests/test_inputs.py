@@ -79,10 +79,10 @@ def test_giving_up_ends_the_wait_with_a_keyboard_interrupt(arm: Path) -> None:
 def test_named_poses_are_kept_beside_the_model(arm: Path) -> None:
     # The command line opens the files first and gives them to the visualizer.
     with Visualizer.of_inputs(Inputs(Options(arm))) as viz:
-        viz.server.sessions()[0].poses.save("half", {"j": 0.5})
+        viz.server.sessions.all()[0].poses.save("half", {"j": 0.5})
     assert "half" in (arm.parent / "arm.poses.yaml").read_text()
     with Visualizer(arm) as again:
-        assert again.server.sessions()[0].poses.names == ("half",)
+        assert again.server.sessions.all()[0].poses.names == ("half",)
 
 
 def test_poses_of_the_bundled_robot_are_kept_in_the_working_folder(

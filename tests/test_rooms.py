@@ -372,7 +372,6 @@ HOLDERS = {
     "panels/browser.py",
     "panels/window.py",
     "server/reload.py",
-    "server/server.py",
     "server/sessions.py",
     "session/__init__.py",
     "visualizer.py",

@@ -49,7 +49,7 @@ def show(protocol: Connect) -> Iterator[Callable[..., list[str]]]:
 
 
 def session_of(viz: Visualizer) -> Session:
-    return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+    return viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
 
 
 def reading(session: Session) -> bool:

@@ -143,11 +143,11 @@ class Visualizer:
         )
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
-                self._server.show_panels()
+                self._server.sessions.show_panels()
             refusal = inputs.refusal()
             if refusal is None:
                 self._show(inputs.robot())
-            self._server.show_panels()
+            self._server.sessions.show_panels()
             if options.watch:
                 self._follow(inputs, refusal)
         except BaseException:
@@ -156,12 +156,13 @@ class Visualizer:
 
     def _show(self, robot: Robot) -> None:
         """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
-        if self._server.robot is None and self._stand_in is self._configs.current:
+        sessions = self._server.sessions
+        if sessions.robot is None and self._stand_in is self._configs.current:
             self._fit_fixed_frame(self._configs.current, robot)
-            for session in self._server.sessions():
+            for session in sessions.all():
                 with session.change(session.document.options):
                     self._fit_fixed_frame(session.document.config, robot)
-        self._server.show_robot(robot)
+        sessions.show_robot(robot)
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
@@ -179,7 +180,7 @@ class Visualizer:
             self._configs,
             inputs.opened,
         )
-        reloader = Reloader(self._server, sources, inputs.options.on_reload)
+        reloader = Reloader(self._server.sessions, sources, inputs.options.on_reload)
         if refusal is not None:
             reloader.refuse_model(refusal)
         if inputs.broken_config is not None:
@@ -245,7 +246,7 @@ class Visualizer:
         Raises:
             JointError: an unknown joint, a mimic joint, or no finite number.
         """
-        for session in self._server.sessions(copies=False):
+        for session in self._server.sessions.all(copies=False):
             session.robot.set_positions(positions)
 
     def set_static_transform(
@@ -267,7 +268,7 @@ class Visualizer:
             FrameError: a ring, the same name twice, an empty name, or NaN.
         """
         transform = Transform.from_xyz_rpy(xyz, rpy)
-        for session in self._server.sessions(copies=False):
+        for session in self._server.sessions.all(copies=False):
             session.frames.add(parent, child, transform)
 
     def export(self, path: Path | str, *, sweep: bool = True) -> None:
@@ -317,7 +318,7 @@ class Visualizer:
         self.stop()
 
     def _first(self) -> Session:
-        sessions = self._server.sessions()
+        sessions = self._server.sessions.all()
         if not sessions:
             raise ServerError("no browser has opened a private session yet")
         return sessions[0]

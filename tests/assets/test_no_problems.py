@@ -37,8 +37,8 @@ def test_the_page_starts_without_a_problem_and_without_a_changed_setting(
     model = None if config is None else bundled.model_path(MODELS[config])
     path = None if config is None else bundled.config_path(config)
     with Visualizer(model, path) as viz:
-        viz.server.wait_for_meshes(20)
-        (session,) = viz.server.sessions()
+        viz.server.sessions.wait_for_meshes(20)
+        (session,) = viz.server.sessions.all()
         assert session.problems.shown.value.listed == ()
         assert session.problems.shown.value.note == ""
         assert {display.status.level for display in session.scene.displays} == {"Ok"}

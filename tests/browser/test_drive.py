@@ -18,7 +18,7 @@ pytestmark = pytest.mark.browser
 def test_the_sam_bot_drives_a_square_and_returns(
     viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:
-    session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+    session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
     drive = session.drive
     viewer = open_viewer(viz.url)
     viewer.wait_for_nodes(node_of(viz, "base_link"))

@@ -104,7 +104,7 @@ def test_a_private_copy_and_back(
     user.reads("Private copy")
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     user.enter(user.row("Joints", LEFT).one("textbox"), "-2")
-    user.until(lambda: len(viz.server.sessions()) == 2)
+    user.until(lambda: len(viz.server.sessions.all()) == 2)
     teacher.user.reads("You are in control, no viewers")
     people(user, "Back to the shared robot")
     user.reads("Presenter is in control, 1 viewer")

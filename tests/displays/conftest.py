@@ -85,10 +85,10 @@ def show(arm: Robot) -> Iterator[Show]:
         server = Server(options, lambda: document, models)
         servers.append(server)
         if robot is not None:
-            server.show_robot(robot)
-        server.wait_for_meshes(20)
-        assert server.shared is not None
-        return server.shared
+            server.sessions.show_robot(robot)
+        server.sessions.wait_for_meshes(20)
+        assert server.sessions.shared is not None
+        return server.sessions.shared
 
     yield open_session
     for server in servers:

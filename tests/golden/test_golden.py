@@ -135,8 +135,8 @@ def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image
     options = Options(port=0, gui=False, panels=False)
     server = Server(options, lambda: config)
     try:
-        server.show_robot(robot)
-        session = server.sessions()[0]
+        server.sessions.show_robot(robot)
+        session = server.sessions.all()[0]
         assert session.robot.joints is not None
         free = session.robot.joints.free
         positions = case["joint_positions"].items()

@@ -51,8 +51,8 @@ def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> Non
     options = Options(port=0, panels=False)
     server = Server(options, lambda: load_config(folder / "config.rviz"))
     try:
-        server.show_robot(load_robot(DATA / "view_robot.urdf"))
-        session = server.shared
+        server.sessions.show_robot(load_robot(DATA / "view_robot.urdf"))
+        session = server.sessions.shared
         assert session is not None
         picture = snapshot(
             server, chromium, width, height, session.document_view.camera

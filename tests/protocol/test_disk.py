@@ -153,7 +153,7 @@ def test_a_browser_reaches_nothing_outside_the_opened_folders(
         with disk:
             send_everything(client, outside)
             client.settle(viz.viser)
-            viz.server.wait_for_meshes(20.0)
+            viz.server.sessions.wait_for_meshes(20.0)
     assert opened / "second.urdf" in disk.read
     secret = {*outside.rglob("*"), outside, Path("/etc/passwd"), Path("/dev/zero")}
     secret |= {Path.cwd(), *Path.cwd().iterdir()}
@@ -192,10 +192,10 @@ def test_a_model_in_a_config_that_a_browser_has_saved_is_not_trusted(
             client.act(row_id, *values)
             client.settle(viz.viser)
         assert client.shown(*MODEL) == str(opened / "code.xacro")
-        viz.server.wait_for_meshes(20.0)
+        viz.server.sessions.wait_for_meshes(20.0)
         assert "second/RUN" not in session_of(viz).frames.tree.frames
     with Visualizer(opened / "robot.urdf", opened / "saved.rviz", port=0) as viz:
-        viz.server.wait_for_meshes(20.0)
+        viz.server.sessions.wait_for_meshes(20.0)
         assert "second/RUN" in session_of(viz).frames.tree.frames
 
 
@@ -205,11 +205,11 @@ def test_a_copy_trusts_no_model_that_a_browser_has_named(
     with Visualizer(opened / "robot.urdf", opened / "mine.rviz", port=0) as viz:
         choose_code(viz, protocol(viz.viser.get_port()), opened)
         copy = protocol(viz.viser.get_port(), path="/copy")
-        copy.wait_until(lambda: len(viz.server.sessions()) == 2)
+        copy.wait_until(lambda: len(viz.server.sessions.all()) == 2)
         copy.wait_until(lambda: "file/state" in copy.rows)
         assert copy.shown(*MODEL) == str(opened / "code.xacro")
-        viz.server.wait_for_meshes(20.0)
-        assert "second/RUN" not in viz.server.sessions()[1].frames.tree.frames
+        viz.server.sessions.wait_for_meshes(20.0)
+        assert "second/RUN" not in viz.server.sessions.all()[1].frames.tree.frames
 
 
 def test_the_config_of_the_program_opens_no_other_folder(

@@ -42,7 +42,7 @@ class Shown:
 
     @property
     def session(self) -> Session:
-        return self.viz.server.sessions()[0]
+        return self.viz.server.sessions.all()[0]
 
     def _hear(self) -> None:
         with self._changed:
@@ -213,7 +213,7 @@ def test_a_private_session_that_is_open_gets_the_robot_in_its_own_frame(
         client.wait_until(lambda: "no joint has it" in str(client.messages))
         model.write_text(GOOD)
         client.wait_until(lambda: client.types()["LabelMessage"] == 2)
-        assert viz.server.sessions()[0].scene.context.fixed_frame == "hull"
+        assert viz.server.sessions.all()[0].scene.context.fixed_frame == "hull"
 
 
 def test_a_broken_config_gives_the_default_displays_and_cannot_be_written_over(

@@ -421,10 +421,10 @@ def test_a_long_text_for_the_clipboard_comes_in_one_piece(
 ) -> None:
     client = protocol(viz.viser.get_port())
     assert client.rows
-    session = viz.server.sessions()[0]
+    session = viz.server.sessions.all()[0]
     text = "x" * 50_000 + "\nend"
     mark = client.mark()
-    window = viz.server._sessions._places[None].window
+    window = viz.server.sessions._places[None].window
     (panels,) = window._browsers.values()
     with session.lock:
         panels.give(channel_answer(text))

@@ -30,19 +30,19 @@ def copy(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
     viz.set_static_transform("base_link", "lidar", xyz=(0.1, 0.0, 0.2))
     session.display_edits.set_enabled(session.document.config.displays[0], False)
     client = protocol(viz.viser.get_port(), path="/copy")
-    client.wait_until(lambda: len(viz.server.sessions()) == 2)
+    client.wait_until(lambda: len(viz.server.sessions.all()) == 2)
     client.wait_until(lambda: "role/me" in client.rows)
     client.settle(viser_server(viz))
     return client
 
 
 def own(viz: Visualizer) -> Session:
-    _, private = viz.server.sessions()
+    _, private = viz.server.sessions.all()
     return private
 
 
 def test_a_copy_begins_as_the_class_is(viz: Visualizer, copy: ProtocolClient) -> None:
-    shared, private = viz.server.sessions()
+    shared, private = viz.server.sessions.all()
     assert copy.shown("joints", LEFT) == 1.0
     assert private.document.config.to_yaml() == shared.document.config.to_yaml()
     assert dict(private.frames.added) == dict(shared.frames.added)
@@ -78,7 +78,7 @@ def test_what_is_done_in_a_copy_stays_there(
     assert own(viz).robot.joints is not None
     assert own(viz).robot.joints.positions[LEFT] == -1.0
     assert viz.joint_positions[LEFT] == 1.0
-    shared, private = viz.server.sessions()
+    shared, private = viz.server.sessions.all()
     assert private.document.config.to_yaml() != shared.document.config.to_yaml()
     copy.act("edit/undo")
     copy.act("edit/undo")
@@ -109,7 +109,7 @@ def test_a_robot_that_was_edited_is_shown_in_copies_too(
         '<robot name="arm"><link name="a"/><link name="b"/><joint name="j" '
         'type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
     )
-    viz.server.show_robot(load_robot(arm))
+    viz.server.sessions.show_robot(load_robot(arm))
     copy.wait_until(lambda: "j/j" in copy.rows)
 
 
@@ -118,10 +118,10 @@ def test_a_copy_ends_with_its_browser(viz: Visualizer, copy: ProtocolClient) -> 
     copy.close()
     end = threading.Event()
     for _ in range(1000):
-        if len(viz.server.sessions()) == 1 and threading.active_count() < threads:
+        if len(viz.server.sessions.all()) == 1 and threading.active_count() < threads:
             break
         end.wait(0.01)
-    assert len(viz.server.sessions()) == 1
+    assert len(viz.server.sessions.all()) == 1
     assert threading.active_count() < threads
 
 
@@ -140,5 +140,5 @@ def test_the_class_goes_on_when_the_teacher_makes_a_copy(
 def test_private_sessions_have_no_copies(protocol: Protocol) -> None:
     with Visualizer(port=0, session="private") as viz:
         client = protocol(viz.viser.get_port(), path="/copy")
-        client.wait_until(lambda: len(viz.server.sessions()) == 1)
-        assert [s.options.session for s in viz.server.sessions()] == ["private"]
+        client.wait_until(lambda: len(viz.server.sessions.all()) == 1)
+        assert [s.options.session for s in viz.server.sessions.all()] == ["private"]

@@ -74,7 +74,7 @@ class Opened:
 
     @property
     def session(self) -> Session:
-        return self.viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        return self.viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
 
     @property
     def meshes(self) -> int:
@@ -87,7 +87,7 @@ class Opened:
         return {d.status.level for d in self.session.scene.displays}
 
     def wait(self) -> None:
-        self.viz._server.wait_for_meshes(20)  # pyright: ignore[reportPrivateUsage]
+        self.viz._server.sessions.wait_for_meshes(20)  # pyright: ignore[reportPrivateUsage]
         self.client.settle(self.viz.viser)
 
 

@@ -133,16 +133,16 @@ def test_a_private_page_that_opens_during_a_save_shows_what_was_saved(
         saved = threading.Event()
 
         def save() -> None:
-            server.show_robot(new)
-            server.set_reload_problems("model", [problem])
+            server.sessions.show_robot(new)
+            server.sessions.set_reload_problems("model", [problem])
             saved.set()
 
         monkeypatch.setattr(Session, "show_robot", show_during_a_save)
         client = protocol(viz.viser.get_port())
         client.wait_until(lambda: "it was saved with a mistake" in str(client.messages))
         saves[0].join(10.0)
-        until(lambda: len(server.sessions()) == 1)
-        (session,) = server.sessions()
+        until(lambda: len(server.sessions.all()) == 1)
+        (session,) = server.sessions.all()
         until(lambda: session.robot.model is new)
         assert session.problems.of_saves["model"] == (problem,)
 
@@ -161,7 +161,9 @@ def test_a_browser_may_leave_while_its_session_opens_and_meshes_load(
         last = protocol(viz.viser.get_port())
         last.wait_until(lambda: has_row(last, SLIDER))
         # The threads of those that left end; a late one is not another session.
-        until(lambda: workers() == before + 1 and len(server_of(viz).sessions()) == 1)
+        until(
+            lambda: workers() == before + 1 and len(server_of(viz).sessions.all()) == 1
+        )
         viz.set_joint_positions({SLIDER: 0.5})
         last.wait_until(lambda: last.shown("joints", SLIDER) == 0.5)
     assert [record.getMessage() for record in caplog.records] == []

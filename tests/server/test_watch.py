@@ -202,7 +202,7 @@ class Followed:
 
     @property
     def session(self) -> Session:
-        return self.viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        return self.viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
 
     def _hear(self) -> None:
         with self._told:
@@ -462,7 +462,7 @@ def test_a_session_that_fails_does_not_keep_the_others_from_a_save(
             # One after the other: the first session is that of the first client.
             clients.append(protocol(viz.viser.get_port()))
             clients[-1].wait_until(lambda: clients[-1].types()["BoxMessage"] > 0)
-        first = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        first = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         monkeypatch.setattr(first, "show_robot", fail)
         monkeypatch.setattr(first.scene, "refresh", fail)
         monkeypatch.setattr(first.problems, "set_saves", fail)

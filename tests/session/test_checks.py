@@ -50,7 +50,7 @@ def config(tmp_path: Path) -> Path:
 
 
 def session_of(viz: Visualizer) -> Session:
-    return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+    return viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
 
 
 def codes(viz: Visualizer) -> list[str]:
@@ -61,7 +61,7 @@ def test_problems_of_the_robot_that_is_shown_are_listed(model: Path) -> None:
     with Visualizer(model, port=0) as viz:
         assert codes(viz) == ["limit-in-degrees"]
         model.write_text(MODEL.replace("90", "1"))
-        viz.server.show_robot(load_robot(model))
+        viz.server.sessions.show_robot(load_robot(model))
         assert codes(viz) == []
 
 

@@ -323,5 +323,5 @@ def test_a_private_session_has_one_browser(protocol: Protocol) -> None:
         for count in (1, 2):
             client = protocol(urlsplit(viz.url).port or 0)
             client.settle(viser_server(viz))
-            sessions = viz.server.sessions()
+            sessions = viz.server.sessions.all()
             assert [len(s.clients.all) for s in sessions] == [1] * count

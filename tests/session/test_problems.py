@@ -18,7 +18,7 @@ def session(tmp_path: Path) -> Iterator[Session]:
     model = tmp_path / "r.urdf"
     model.write_text('<robot name="r"><link name="a b"/></robot>')
     with Visualizer(model) as viz:
-        session = viz.server.sessions()[0]
+        session = viz.server.sessions.all()[0]
         own = Problem("info", "own", "a remark", "", str(model), 1)
         other = Problem("info", "other", "of a launch file", "", "a.launch.py", 3)
         without = Problem("warning", "without", "of the frames")

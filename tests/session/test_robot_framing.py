@@ -34,7 +34,7 @@ def opened(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
 
 
 def session_of(viz: Visualizer) -> Session:
-    return viz.server.sessions()[0]
+    return viz.server.sessions.all()[0]
 
 
 def view_of(viz: Visualizer) -> ClientView:
@@ -223,7 +223,7 @@ def test_the_robot_is_shown_whole_once_its_meshes_are_read_unless_the_camera_was
                 report(client, (4.0, 1.0, 2.0))
                 client.settle(viz.viser)
             cache.gate.set()
-            viz.server.wait_for_meshes(20)
+            viz.server.sessions.wait_for_meshes(20)
             client.settle(viz.viser)
             if moved:
                 assert view_of(viz).camera.position == pytest.approx((4.0, 1.0, 2.0))

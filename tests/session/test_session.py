@@ -174,7 +174,7 @@ def test_private_sessions_are_independent(
         first, second = (protocol(viz.viser.get_port()) for _ in range(2))
         for client in (first, second):
             client.settle(viz.viser)
-        sessions = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
+        sessions = viz._server.sessions.all()  # pyright: ignore[reportPrivateUsage]
         first.edit(first.id_of("joints", LEFT), 0.5)
         first.settle(viz.viser)
         second.settle(viz.viser)
@@ -185,7 +185,7 @@ def test_private_sessions_are_independent(
         second.settle(viz.viser)
         second.edit(second.id_of("joints", LEFT), -0.5)
         second.settle(viz.viser)
-        (left,) = viz._server.sessions()  # pyright: ignore[reportPrivateUsage]
+        (left,) = viz._server.sessions.all()  # pyright: ignore[reportPrivateUsage]
         assert left.robot.joints is not None
         assert left.robot.joints.positions[LEFT] == -0.5
 
@@ -200,11 +200,11 @@ def test_a_private_page_that_opens_during_a_save_shows_the_new_robot(
         server = viz._server  # pyright: ignore[reportPrivateUsage]
         for robot in (new, old, new):
             browser = protocol(viz.viser.get_port())
-            server.show_robot(robot)
+            server.sessions.show_robot(robot)
             browser.settle(viz.viser)
             shown = {
                 s.robot.model.links.keys() >= {"claw"}
-                for s in server.sessions()
+                for s in server.sessions.all()
                 if s.robot.model
             }
             assert shown == {robot is new}

@@ -21,7 +21,7 @@ def test_zeros_recorded_and_single_positions_count_in_this_order(
         port=0, zeros={LEFT: 1.0}, joint_state=file, joint_positions={RIGHT: 0.5}
     ) as viz:
         assert viz.joint_positions == {LEFT: 0.1, RIGHT: 0.5}
-        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         session.robot.center()
         assert viz.joint_positions == {LEFT: 1.0, RIGHT: 0.0}
 
@@ -34,7 +34,7 @@ def test_a_joint_that_is_not_there_is_refused_with_the_nearest_name() -> None:
 def test_static_transforms_are_there_and_outlive_a_reload() -> None:
     text = "0.1 0 0.2 0 0 0 base_link base_laser"
     with Visualizer(port=0, static_transforms=[text]) as viz:
-        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         assert session.robot.model is not None
         session.show_robot(session.robot.model)
         T = viz.frames.lookup("base_link", "base_laser")
@@ -45,7 +45,7 @@ def test_static_transforms_are_there_and_outlive_a_reload() -> None:
 
 def test_a_frame_taken_from_a_joint_goes_back_to_it() -> None:
     with Visualizer(port=0) as viz:
-        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         before = viz.frames.lookup("base_link", "front_caster")
         viz.set_static_transform("map", "front_caster", (1.0, 0.0, 0.0))
         assert viz.frames.parent("front_caster") == "map"
@@ -70,7 +70,7 @@ def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
         "</robot>"
     )
     with Visualizer(model, port=0) as viz:
-        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         problem = next(
             p for p in session.problems.of_model if p.code == "floating-joint"
         )
@@ -80,6 +80,6 @@ def test_a_floating_joint_is_told_in_the_problems(tmp_path: Path) -> None:
 
 def test_wheels_that_do_not_exist_are_told_in_the_problems() -> None:
     with Visualizer(port=0, left_wheel="lft", right_wheel=RIGHT) as viz:
-        session = viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+        session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         problem = next(p for p in session.problems.of_model if p.code == "drive-wheels")
         assert "no continuous joint 'lft'" in problem.message

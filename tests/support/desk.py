@@ -102,7 +102,7 @@ class Desk:
     @property
     def session(self) -> Session:
         """What all pages share."""
-        (session,) = self.viz.server.sessions()
+        (session,) = self.viz.server.sessions.all()
         return session
 
     @property

@@ -19,7 +19,7 @@ def viser_server(viz: Visualizer) -> viser.ViserServer:
 
 def node_of(viz: Visualizer, frame: str) -> str:
     """The name of the scene node of a TF frame, in a shared session."""
-    session = viz._server.shared  # pyright: ignore[reportPrivateUsage]
+    session = viz._server.sessions.shared  # pyright: ignore[reportPrivateUsage]
     path = None if session is None else session.scene.context.nodes.path(frame)
     if path is None:
         raise AssertionError(f"no node for frame '{frame}'")
@@ -28,7 +28,7 @@ def node_of(viz: Visualizer, frame: str) -> str:
 
 def session_of(viz: Visualizer) -> Session:
     """The session of all browsers, or of the one that came first."""
-    return viz._server.sessions()[0]  # pyright: ignore[reportPrivateUsage]
+    return viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
 
 
 def is_signal(value: object) -> bool:

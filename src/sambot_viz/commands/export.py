@@ -20,7 +20,7 @@ def run(words: list[str]) -> int:
     from sambot_viz.visualizer import Visualizer
 
     with Visualizer.of_inputs(inputs) as viz:
-        write_problems(viz.server.sessions()[0].document.config.problems)
+        write_problems(viz.server.sessions.all()[0].document.config.problems)
         try:
             viz.export(output, sweep=given.motion == "sweep")
         except OSError as error:

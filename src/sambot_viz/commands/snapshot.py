@@ -41,14 +41,14 @@ def run(words: list[str]) -> int:
     from sambot_viz.visualizer import Visualizer
 
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
-        session = viz.server.sessions()[0]
+        session = viz.server.sessions.all()[0]
         write_problems(session.document.config.problems)
         _report_fixed_frame(session.scene)
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
             camera = session.document_view.camera
             if given.fit:
-                viz.server.wait_for_meshes(LONGEST_WAIT)
+                viz.server.sessions.wait_for_meshes(LONGEST_WAIT)
                 camera = session.document_view.camera_on_robot(width, height)
             picture = snapshot(viz.server, chromium, width, height, camera)
     _write(output, picture)

@@ -55,8 +55,8 @@ def snapshot(
     end = time.monotonic() + LONGEST_WAIT
     page = chromium.open(f"{server.url}/?fixedDpr=1", width=width, height=height)
     try:
-        client = server.wait_for_browser(LONGEST_WAIT)
-        server.wait_for_meshes(max(1.0, end - time.monotonic()))
+        client = server.sessions.wait_for_browser(LONGEST_WAIT)
+        server.sessions.wait_for_meshes(max(1.0, end - time.monotonic()))
         nodes = server.node_count()
         page.wait_for(
             _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())

@@ -20,7 +20,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.server.config_store import Sources
-from sambot_viz.server.server import Server
+from sambot_viz.server.sessions import Sessions
 from sambot_viz.server.watch import FileWatcher
 from sambot_viz.session import Session
 
@@ -31,10 +31,10 @@ MOST_FOLDERS = 200
 
 
 class Reloader:
-    """Reloads what a server shows when its files are saved.
+    """Reloads what sessions show when its files are saved.
 
     Args:
-        server: what shows it.
+        sessions: what shows them.
         sources: the files, and how they are read and shown.
         report: called with all problems of the model and the config whenever a save
             has changed them.
@@ -42,14 +42,14 @@ class Reloader:
 
     def __init__(
         self,
-        server: Server,
+        sessions: Sessions,
         sources: Sources,
         report: Callable[[Sequence[Problem]], None] | None = None,
     ) -> None:
-        self._server = server
+        self._sessions = sessions
         self._sources = sources
         self._report = report
-        robot = server.robot
+        robot = sessions.robot
         files = () if robot is None else robot.files
         self._model = sources.model or next(iter(files), None)
         self._documents = sources.configs
@@ -80,19 +80,19 @@ class Reloader:
     # What is watched
 
     def _model_files(self) -> set[Path]:
-        robot = self._server.robot
+        robot = self._sessions.robot
         return {*(() if robot is None else robot.files), *self._suspects}
 
     def _asset_files(self) -> set[Path]:
         others = (display.own_robot for display in self._displays())
-        robots = [r for r in (self._server.robot, *others) if r is not None]
-        files = self._server.meshes.files
+        robots = [r for r in (self._sessions.robot, *others) if r is not None]
+        files = self._sessions.meshes.files
         return {
             f for robot in robots for asset in assets_of(robot) for f in files(asset)
         }
 
     def _displays(self) -> Iterator[RobotDisplay]:
-        for session in self._server.sessions():
+        for session in self._sessions.all():
             yield from robot_displays(session.scene.displays)
 
     def _files(self) -> set[Path]:
@@ -113,7 +113,7 @@ class Reloader:
     @property
     def _waiting_for_files(self) -> bool:
         """Whether a file that does not exist yet could fix a problem."""
-        robot = self._server.robot
+        robot = self._sessions.robot
         return bool(self._suspects) or (robot is not None and something_missing(robot))
 
     # What is done
@@ -124,7 +124,7 @@ class Reloader:
         except Exception as error:
             _log.exception("internal error while reloading")
             problem = reload_problems.internal_error(error)
-            self._server.set_reload_problems("fault", (problem,))
+            self._sessions.set_reload_problems("fault", (problem,))
 
     def _show_changed(
         self, changed: frozenset[Path], appeared: frozenset[Path]
@@ -133,24 +133,24 @@ class Reloader:
         config = self._documents.file
         if config is not None and config in changed:
             self._reload_config(config)
-        self._server.for_each_session(lambda s: s.scene.files_saved(changed))
+        self._sessions.for_each(lambda s: s.scene.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return
         if changed & model or gone or (appeared and self._waiting_for_files):
             self._reload_model(self._model)
         elif changed & assets:
-            self._server.refresh()
+            self._sessions.refresh()
 
     def _reload_model(self, path: Path) -> None:
         try:
             if reload_problems.is_pipe(path):
                 raise RobotError([reload_problems.unreadable("model-unreadable", path)])
             robot = self._sources.load(path)
-            is_first = self._server.robot is None
+            is_first = self._sessions.robot is None
             if is_first:
                 # What the command line says of joints could not be checked before.
-                self._server.options.start_pose.state(robot)
+                self._sessions.options.start_pose.state(robot)
         except RobotError as error:
             self.refuse_model(error)
         except JointError as error:
@@ -159,9 +159,9 @@ class Reloader:
             if self._watcher is None or self._watcher.closed:
                 return
             self._suspects = ()
-            self._server.set_reload_problems("model", ())
+            self._sessions.set_reload_problems("model", ())
             self._sources.show(robot)
-            self._server.set_reload_problems("fault", ())
+            self._sessions.set_reload_problems("fault", ())
             self._of_model = robot.problems
         self._report_changed()
 
@@ -172,12 +172,12 @@ class Reloader:
         suspects = (*model, *error.files, *named)
         self._suspects = tuple(dict.fromkeys(map(Path.absolute, suspects)))
         self._of_model = error.problems
-        self._server.set_reload_problems("model", error.problems)
+        self._sessions.set_reload_problems("model", error.problems)
 
     def refuse_config(self, error: ConfigError) -> None:
         """Show why the config is not shown."""
         self._of_config = error.problems
-        self._server.set_reload_problems("config", error.problems)
+        self._sessions.set_reload_problems("config", error.problems)
 
     def _report_changed(self) -> None:
         """Report the problems if they are not those reported last."""
@@ -189,7 +189,7 @@ class Reloader:
     def _opened(self) -> None:
         """Another config was opened in the page."""
         self._of_config = self._documents.current.problems
-        self._server.set_reload_problems("config", ())
+        self._sessions.set_reload_problems("config", ())
 
     def _reload_config(self, path: Path) -> None:
         try:
@@ -211,9 +211,9 @@ class Reloader:
             if not self._take(session, path, text, before):
                 kept.append(session)
 
-        self._server.for_each_session(take, copies=False)
+        self._sessions.for_each(take, copies=False)
         problems = (reload_problems.kept(str(path)),) if kept else ()
-        self._server.set_reload_problems("config", problems)
+        self._sessions.set_reload_problems("config", problems)
         self._of_config = problems or document.problems
 
     def _take(self, session: Session, path: Path, text: str, before: Plain) -> bool:
@@ -240,7 +240,9 @@ class Reloader:
             return True
 
     def _cannot_watch(self, reason: str) -> None:
-        self._server.set_reload_problems("watch", (reload_problems.unwatched(reason),))
+        self._sessions.set_reload_problems(
+            "watch", (reload_problems.unwatched(reason),)
+        )
         if self._report is not None:
             self._report((reload_problems.unwatched(reason),))
 

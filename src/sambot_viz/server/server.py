@@ -5,25 +5,20 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
-from collections.abc import Callable, Sequence
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
 
 import viser
 
 from sambot_viz import viser_private
-from sambot_viz.errors import Problem
 from sambot_viz.joints.presets import Presets
-from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.pictures import AskPage
-from sambot_viz.robot.model import Robot
 from sambot_viz.server import outbox
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.sessions import MakeConfig, Sessions
-from sambot_viz.session import Reloaded, Session
 
 _log = logging.getLogger(__name__)
 
@@ -43,6 +38,9 @@ class Server:
         files: opens and follows .rviz files for the shared session; None leaves Open
             and Save out.
         ask_page: makes a page of what is seen; None leaves that out.
+
+    Attributes:
+        sessions: what the browsers see.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -64,10 +62,9 @@ class Server:
         self._stopped = threading.Event()
         self._listener = listening or listen(options)
         self._viser = self._listener.viser
-        sessions = Sessions(
+        sessions = self.sessions = Sessions(
             self._viser, options, make_config, models, poses, files, ask_page
         )
-        self._sessions = sessions
         sessions.on_joined = self._listener.tell_joined
         self._listener.give(sessions)
         prepare_page(self._viser)
@@ -94,58 +91,9 @@ class Server:
         return self._listener.url(presenter=True)
 
     @property
-    def robot(self) -> Robot | None:
-        """The robot that is shown."""
-        return self._sessions.robot
-
-    @property
-    def shared(self) -> Session | None:
-        """The session of all browsers; None when each has its own."""
-        return self._sessions.shared
-
-    @property
-    def meshes(self) -> MeshCache:
-        """What was read of mesh files."""
-        return self._sessions.meshes
-
-    @property
     def viser(self) -> viser.ViserServer:
         """The viser server, to add your own nodes and widgets."""
         return self._viser
-
-    def sessions(self, *, copies: bool = True) -> list[Session]:
-        """As `Sessions.all`."""
-        return self._sessions.all(copies=copies)
-
-    def for_each_session(
-        self, action: Callable[[Session], object], *, copies: bool = True
-    ) -> None:
-        """As `Sessions.for_each`."""
-        self._sessions.for_each(action, copies=copies)
-
-    def show_robot(self, robot: Robot) -> None:
-        """As `Sessions.show_robot`."""
-        self._sessions.show_robot(robot)
-
-    def show_panels(self) -> None:
-        """As `Sessions.show_panels`."""
-        self._sessions.show_panels()
-
-    def refresh(self) -> None:
-        """As `Sessions.refresh`."""
-        self._sessions.refresh()
-
-    def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
-        """As `Sessions.set_reload_problems`."""
-        self._sessions.set_reload_problems(of, problems)
-
-    def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
-        """As `Sessions.wait_for_browser`."""
-        return self._sessions.wait_for_browser(timeout)
-
-    def wait_for_meshes(self, timeout: float) -> None:
-        """As `Sessions.wait_for_meshes`."""
-        self._sessions.wait_for_meshes(timeout)
 
     def node_count(self) -> int:
         """How many nodes the shared scene has."""
@@ -160,7 +108,7 @@ class Server:
         if not self._open.acquire(blocking=False):
             return
         self._stopped.set()
-        self._sessions.close()
+        self.sessions.close()
         _run_what_waits(self._viser.get_event_loop())
         self._listener.close()
 

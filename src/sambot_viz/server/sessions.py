@@ -60,6 +60,7 @@ class Sessions:
         ask_page: makes a page of what is seen; None leaves that out.
 
     Attributes:
+        options: what every session begins with.
         meshes: what was read of mesh files, for all of them.
         robot: what is shown in all of them.
         on_joined: called when a client has its rows, in any thread.
@@ -76,7 +77,7 @@ class Sessions:
         ask_page: AskPage | None,
     ) -> None:
         self._server = server
-        self._options = options
+        self.options = options
         self._make_config = make_config
         self._models = models
         self._poses = poses or Presets()
@@ -173,10 +174,10 @@ class Sessions:
     def _add_panels(self, place: _Place, session: Session) -> None:
         # A model that is being read may change the displays while panels are made.
         with session.lock:
-            if self._options.panels and place.window is None:
+            if self.options.panels and place.window is None:
                 # Visitors with a session of their own do not use the server's disk.
                 files = self._files if session is self.shared else None
-                place.window = Window(session, self._options.gui, files, self._ask_page)
+                place.window = Window(session, self.options.gui, files, self._ask_page)
         self.on_joined()
 
     def refresh(self) -> None:
@@ -246,7 +247,7 @@ class Sessions:
             self.meshes,
             self._models,
             self._mesh_thread,
-            self._options,
+            self.options,
             poses,
         )
         if copy is not None:

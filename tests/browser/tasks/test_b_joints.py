@@ -51,7 +51,7 @@ def shows(desk: Desk, joint: str, value: float) -> None:
 
 def test_task_07_turn_a_wheel_to_exactly_1_5_by_typing(s: Desk) -> None:
     passed: list[float] = []
-    session = s.viz.server.sessions()[0]
+    session = s.viz.server.sessions.all()[0]
     disconnect = connect(
         [session.robot.positions], lambda: passed.append(s.viz.joint_positions[LEFT])
     )

@@ -29,7 +29,7 @@ def tick(desk: Desk, *names: str) -> None:
 
 
 def displays(desk: Desk) -> list[DisplayConfig]:
-    (session,) = desk.viz.server.sessions()
+    (session,) = desk.viz.server.sessions.all()
     return list(session.document.config.displays)
 
 
@@ -47,7 +47,7 @@ def listed(desk: Desk) -> list[str]:
 
 
 def option(desk: Desk, name: str) -> Any:
-    (session,) = desk.viz.server.sessions()
+    (session,) = desk.viz.server.sessions.all()
     return session.document.config.global_options.get(name)
 
 

@@ -247,7 +247,7 @@ def test_task_58_the_keyboard_alone(s: Desk) -> None:
     user.keys("Control+a")
     user.type("0.5")
     user.keys("Enter")
-    session = s.viz.server.sessions()[0]
+    session = s.viz.server.sessions.all()[0]
     user.until(lambda: session.document.config.displays[1].get("Alpha") == 0.5)
     user.keys("Escape")
     tab_to("slider", LEFT)

@@ -107,10 +107,10 @@ def open_case(package: Path, loader: Loader) -> Iterator[Callable[..., Case]]:
         models = ModelThread(loader)
         server = Server(Options(port=0, panels=False), lambda: document, models)
         servers.append(server)
-        server.show_robot(load_robot(package / "urdf" / "first.urdf"))
-        server.wait_for_meshes(20)
-        assert server.shared is not None
-        return Case(server.shared, models)
+        server.sessions.show_robot(load_robot(package / "urdf" / "first.urdf"))
+        server.sessions.wait_for_meshes(20)
+        assert server.sessions.shared is not None
+        return Case(server.sessions.shared, models)
 
     yield opened
     for server in servers:
@@ -271,14 +271,14 @@ def test_a_second_robot_follows_its_file(package: Path) -> None:
     second, config = package / "urdf" / "second.urdf", package / "a.rviz"
     config.write_text(CONFIG.format(body=FROM_FILE.format(second)))
     with Visualizer(package / "urdf" / "first.urdf", config, watch=True) as viz:
-        session = viz._server.sessions()[0]
+        session = viz._server.sessions.all()[0]
         drawn = threading.Event()
 
         def look() -> None:
             if "b/changed" in session.frames.tree.frames:
                 drawn.set()
 
-        viz._server.wait_for_meshes(20)
+        viz._server.sessions.wait_for_meshes(20)
         assert "b/own" in session.frames.tree.frames
         connect([session.scene.frames], look)
         second.write_text("<robot")

@@ -19,8 +19,8 @@ def test_a_box_with_a_broken_texture_is_drawn_without_it_and_that_is_said(
     )
     with Visualizer(model) as viz:
         server = viz._server  # pyright: ignore[reportPrivateUsage]
-        server.wait_for_meshes(20)
-        session = server.sessions()[0]
+        server.sessions.wait_for_meshes(20)
+        session = server.sessions.all()[0]
         robot = next(d for d in session.scene.displays if d.config.name == "RobotModel")
         assert [p.code for p in robot.problems] == ["texture-unreadable"]
         assert robot.status.level == "Error"
