@@ -19,8 +19,8 @@ from sambot_viz.server.access import (
     content_policy,
     is_welcome,
     only_this_machine,
-    without_base,
 )
+from sambot_viz.server.handshake import without_base
 from sambot_viz.server.listener import listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")

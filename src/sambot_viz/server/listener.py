@@ -19,7 +19,7 @@ from websockets.asyncio.server import ServerConnection
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
-from sambot_viz.server import access, outbox
+from sambot_viz.server import handshake, outbox
 from sambot_viz.server.channel import Channels
 from sambot_viz.server.connection import Connection
 from sambot_viz.server.inbound_filter import (
@@ -158,7 +158,7 @@ def listen(options: Options) -> Listener:
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
     channels = Channels()
-    checked = access.checked(options, listening, LARGEST_MESSAGE, channels)
+    checked = handshake.checked(options, listening, LARGEST_MESSAGE, channels)
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
     listener = Listener(server, options, channels)

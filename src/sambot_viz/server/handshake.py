@@ -1,0 +1,184 @@
+"""The handshake of each connection: checked, answered with a file, or given a context.
+
+viser's server passes every request through here before it looks at it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import http
+import re
+import socket
+from collections.abc import Awaitable, Callable, Generator, Sequence
+from functools import partial
+from typing import Any, cast
+from urllib.parse import parse_qs
+
+import viser
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
+from websockets.protocol import State
+
+from sambot_viz.options import Options
+from sambot_viz.server import access, page_files
+from sambot_viz.server.channel import SUBPROTOCOL, Channels
+from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.connection_limit import ConnectionLimiter
+from sambot_viz.server.token_check import TokenCheck
+
+_PROTOCOL = f"viser-v{viser.__version__}"
+_VERSION_MISMATCH = 1002
+COPY = "/copy"
+"""Below this path, a page shows a private copy of the shared robot."""
+_TICKET = re.compile(r"[A-Za-z0-9_-]{16,64}")
+
+
+def without_base(path: str, base: str) -> str:
+    """The path of a request below the base path.
+
+    Some proxies take the base path away, and some do not.
+
+    Args:
+        path: with its query: "/robot/?dark".
+        base: "/robot", or "/".
+    """
+    rest = path.removeprefix(base)
+    if base == "/" or rest == path or rest[:1] not in ("", "/", "?"):
+        return path
+    return rest if rest.startswith("/") else f"/{rest}"
+
+
+def without_copy(path: str) -> tuple[str, bool]:
+    """Return the path of a request without `COPY`, and whether that was in it."""
+    where, mark, query = path.partition("?")
+    if where != COPY and not where.startswith(f"{COPY}/"):
+        return path, False
+    return f"{where[len(COPY) :] or '/'}{mark}{query}", True
+
+
+@contextlib.contextmanager
+def checked(
+    options: Options,
+    listening: socket.socket | None,
+    largest_message: int,
+    channels: Channels,
+) -> Generator[asyncio.Event]:
+    """Check every request to a server that is started in here before viser does.
+
+    viser gives no way to look at a request, so the function with which it starts its
+    server is replaced for the moment of the start. The port listens before that start
+    is over: what clients send meanwhile is not read.
+
+    Args:
+        options: where the server listens, and for whom.
+        listening: a socket of the file system that listens in place of a port, or None.
+        largest_message: a connection that sends a longer one is closed [bytes].
+        channels: serves the channels of the pages.
+
+    Yields:
+        The event after which clients are given to viser, to be set on the event loop
+        of the server when the inbound filter is there.
+    """
+    ready = asyncio.Event()
+    module = websockets.asyncio.server
+    original: Callable[..., Any] = module.serve
+    check_token = TokenCheck(options.token, options.presenter, options.base_path)
+    page_files.prepare(options.panels)
+    limiter = ConnectionLimiter()
+
+    def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
+        answer = settings.get("process_request")
+
+        def check(
+            connection: Connection, request: Request
+        ) -> Response | Awaitable[Response | None] | None:
+            refused = access.refusal(request, options) or check_token.refusal(request)
+            if refused:
+                return refused
+            if folder := _folder(request, options.base_path):
+                return access.plain(http.HTTPStatus.SEE_OTHER, "See there.", folder)
+            request.path = without_base(request.path, options.base_path)
+            request.path, copy = without_copy(request.path)
+            presenter = check_token.is_presenter(request)
+            connection.context = _context(request, presenter, copy)
+            is_page = page_files.is_page(request) and not connection.context.channel
+            if is_page and not presenter and limiter.is_full(_pages(connection)):
+                return limiter.refusal()
+            try:
+                response = page_files.answer(request, options.panels)
+                if response is None and answer:
+                    response = answer(connection, request)
+            except (OSError, ValueError):
+                # The file name is too long for the system, or contains a NUL.
+                return access.plain(http.HTTPStatus.NOT_FOUND, "No such page.")
+            if page_files.is_websocket(request):
+                return response or channels.claim(connection)
+            if response is not None:
+                response.headers["Content-Security-Policy"] = access.content_policy(
+                    request.headers["Host"], options.host, options.allowed_origins
+                )
+                response.headers["Referrer-Policy"] = "no-referrer"
+            return response
+
+        async def handle(connection: ServerConnection) -> None:
+            if connection.subprotocol == SUBPROTOCOL:
+                await channels.serve(cast(Connection, connection))
+            elif connection.subprotocol == _PROTOCOL:
+                await ready.wait()
+                # One that has left meanwhile has nothing that could be prepared.
+                if connection.state is State.OPEN:
+                    await handler(connection)
+            else:
+                # viser would write a line on the terminal for every attempt.
+                await connection.close(_VERSION_MISMATCH, "Version mismatch.")
+
+        select_viser = settings["select_subprotocol"]
+
+        def select(connection: Connection, offered: Sequence[str]) -> Any:
+            own = SUBPROTOCOL in offered
+            return SUBPROTOCOL if own else select_viser(connection, offered)
+
+        settings["select_subprotocol"] = select
+        settings["process_request"] = check
+        settings["create_connection"] = partial(Connection, limiter)
+        # Also for what is sent before the filter reads it.
+        settings["max_size"] = largest_message
+        if listening is not None:
+            return original(handle, unix=True, sock=listening, **settings)
+        return original(handle, *arguments, **settings)
+
+    module.serve = serve  # type: ignore[assignment, misc]
+    try:
+        yield ready
+    finally:
+        module.serve = original  # type: ignore[assignment, misc]
+
+
+def _context(request: Request, presenter: bool, copy: bool) -> ClientContext:
+    """Return what a request says of its client."""
+    query = parse_qs(request.path.partition("?")[2])
+    ticket = query.get("ticket", [""])[-1]
+    offered = ",".join(request.headers.get_all("Sec-WebSocket-Protocol"))
+    channel = SUBPROTOCOL in map(str.strip, offered.split(","))
+    known = ticket if _TICKET.fullmatch(ticket) else ""
+    return ClientContext(presenter, copy, known, channel)
+
+
+def _pages(connection: Connection) -> int:
+    """Return how many pages are open: their channels are not counted."""
+    open_now = cast("set[Connection]", connection.server.connections)
+    return sum(not one.context.channel for one in open_now)
+
+
+def _folder(request: Request, base: str) -> str:
+    """Where a page is that is asked for without the "/" at its end; "" for others.
+
+    The page names its files relative to the folder it is in.
+    """
+    path, mark, query = request.path.partition("?")
+    lacks_slash = path == base != "/" or without_base(path, base) == COPY
+    if page_files.is_websocket(request) or not lacks_slash:
+        return ""
+    return f"./{path.rpartition('/')[2]}/{mark}{query}"
