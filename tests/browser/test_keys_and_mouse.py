@@ -117,11 +117,11 @@ def test_the_mouse_is_reported_at_most_twenty_times_a_second_while_measure_wants
     user.keys("n")
     pressed(user, "Measure")
     viewer.page.evaluate(
-        "(() => { const send = __viserMutable.sendMessage; window.hovers = [];"
-        " __viserMutable.sendMessage = message => {"
-        " if (message.updates?.value?.[0] === 'tools/hover')"
+        "(() => { const send = WebSocket.prototype.send; window.hovers = [];"
+        " WebSocket.prototype.send = function (data) {"
+        " if (typeof data === 'string' && data.includes('tools/hover'))"
         " hovers.push(performance.now());"
-        " send(message); }; })()"
+        " return send.call(this, data); }; })()"
     )
     x, y = middle(viewer)
     for step in range(10):

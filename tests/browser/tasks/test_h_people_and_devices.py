@@ -106,8 +106,12 @@ def test_task_56_a_joint_on_a_phone(
 
 def view(viewer: ViewerPage) -> tuple[float, float, float, float]:
     """Left, top, width and height of the 3D view on the page."""
-    # viser has the whole page until the window is there.
-    viewer.wait_for("document.getElementById('root').style.position === 'fixed'")
+    # viser has the whole page until the window is there, and its canvas follows later.
+    viewer.wait_for(
+        "(root => root.style.position === 'fixed' && Math.abs(root.clientWidth"
+        " - __viserMutable.canvas.getBoundingClientRect().width) < 2)"
+        "(document.getElementById('root'))"
+    )
     found = viewer.page.evaluate(
         "(r => [r.x, r.y, r.width, r.height])"
         "(__viserMutable.canvas.getBoundingClientRect())"
