@@ -298,6 +298,8 @@ def test_task_59_one_panel_folded_one_widened(
         """The part of the window's width that is view."""
         return view(viewer)[2] / page.evaluate("innerWidth")
 
+    # The panels on the right are there as soon as they have rows.
+    user.row("Joints", LEFT)
     before = view(viewer)
     user.click("button", "Hide the left panels")
     user.until(lambda: view(viewer)[2] > before[2] + 0.9 * before[0])
