@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from inside import node_of, session_of
+from inside import has_answered, node_of, session_of
 from recorded_page import open_page
 from viewer_page import ViewerPage
 
@@ -126,13 +126,9 @@ def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
         viewer = open_viewer(viz.url)
         viewer.wait_for_nodes(wheel)
         viewer.page.take_downloads(tmp_path)
-        # Until the page has answered the first camera, no other is taken from it.
-        (client,) = viz.viser.get_clients().values()
-        viewer.user.until(
-            lambda: np.allclose(
-                client.camera.position, viewer.page.evaluate(CAMERA), atol=1e-4
-            )
-        )
+        viewer.wait_until_drawn()
+        # Until the page has answered a camera, no other is taken from it.
+        viewer.user.until(lambda: has_answered(session_of(viz)))
         viewer.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
         viz.set_joint_positions({"drivewhl_l_joint": 1.0})
         viewer.wait_until_drawn()

@@ -71,8 +71,11 @@ class ClientCamera:
             ortho_fov: the field of view that an orthographic camera is drawn with
                 [rad]; None draws it from 500 m above (`Camera.as_perspective`).
         """
+        same = not camera.orthographic and same_picture(camera, self.camera)
         self.camera = camera
-        self._answered_by = time.monotonic() + ECHO_TIME
+        if not same or self._answered_by is not None:
+            # A page that shows that picture already reports nothing.
+            self._answered_by = time.monotonic() + ECHO_TIME
         drawn = camera.as_perspective(self._height, ortho_fov)
         position, up = drawn.position, drawn.up
         if camera.orthographic:
