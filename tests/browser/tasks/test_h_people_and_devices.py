@@ -135,6 +135,8 @@ def test_task_57_a_tablet_by_touch_alone(
 ) -> None:
     tablet = open_more(1024, 768, touch=True)
     user, touch = tablet.user, tablet.page.touch
+    # The panels take their place as soon as they have rows.
+    tablet.wait_until_drawn()
     left, top, width, height = view(tablet)
     assert width * height > 0.5 * 1024 * 768
     for strip, part in (("toolbar", "button"), ("tablist", "tab")):
