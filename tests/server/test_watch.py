@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import queue
 import shutil
@@ -81,6 +82,33 @@ def test_a_save_is_reported_once_whichever_way_the_editor_saves(
     save(path, "new")
     assert changes.get(timeout=10) == {path}
     assert path.read_text("utf-8") == "new"
+
+
+@pytest.mark.parametrize("moment", range(1, 6))
+def test_a_file_that_is_emptied_in_the_middle_of_a_look_is_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, moment: int
+) -> None:
+    monkeypatch.setattr(watch, "SETTLE", patience(5.0))
+    path = tmp_path / "model.urdf"
+    path.write_text("old", "utf-8")
+    contents: queue.Queue[str] = queue.Queue()
+    asked = itertools.count()
+
+    def files() -> list[Path]:
+        if next(asked) == moment:
+            in_two_steps(path, "new")
+        return [path]
+
+    def changed(files: frozenset[Path], reported: frozenset[Path]) -> None:
+        del files, reported
+        contents.put(path.read_text("utf-8"))
+
+    watcher = FileWatcher(files, tuple, changed, lambda _: None)
+    watcher.start()
+    try:
+        assert contents.get(timeout=10) == "new"
+    finally:
+        watcher.close()
 
 
 def test_folders_with_blanks_and_korean_letters_are_watched(

@@ -132,8 +132,7 @@ class FileWatcher:
 
     def _look(self, appeared: frozenset[Path]) -> None:
         """Compare the files with what they were, and call back if they differ."""
-        self._wait_for_empty_files()
-        before, self._known = self._known, self._stamps()
+        before, self._known = self._known, self._settled_stamps()
         since, self._looked = self._looked, time.time_ns() - _CLOCK_STEP
         changed = frozenset(
             path
@@ -143,14 +142,17 @@ class FileWatcher:
         if (changed or appeared) and not self._stop.is_set():
             self._on_change(changed, appeared)
 
-    def _wait_for_empty_files(self) -> None:
-        """Give files that have just become empty or vanished time to come back."""
+    def _settled_stamps(self) -> dict[Path, Stamp | None]:
+        """Look at the files, and again while one has just become empty or vanished."""
         end = time.monotonic() + SETTLE
-        full = [path for path, before in self._known.items() if not _is_empty(before)]
-        while time.monotonic() < end:
-            full = [path for path in full if _is_empty(stamp(path))]
-            if not full or self._stop.wait(_RETRY):
-                return
+        full = [path for path, was in self._known.items() if not _is_empty(was)]
+        # What is reported is what was looked at: a file may be emptied at any moment.
+        found = self._stamps()
+        while any(path in found and _is_empty(found[path]) for path in full):
+            if time.monotonic() >= end or self._stop.wait(_RETRY):
+                break
+            found = self._stamps()
+        return found
 
     def _stamps(self) -> dict[Path, Stamp | None]:
         return {path: stamp(path) for path in self._files()}
