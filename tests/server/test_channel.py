@@ -14,6 +14,7 @@ from typing import Any
 import msgspec.msgpack
 import pytest
 import viser
+from inside import all_have_rows
 from page_rows import decode
 from patience import until
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
@@ -181,6 +182,7 @@ def test_a_client_that_leaves_as_the_channel_comes_is_not_taken_for_the_next(
 
     gone = pages.viser(viz, ticket)
     wait_for_clients(viz, 1)
+    until(lambda: all_have_rows(viz))
     monkeypatch.setattr(Connection, "answers", answers)
     channel = pages.channel(viz, ticket)
     closed_with(gone)

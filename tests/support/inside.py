@@ -41,6 +41,12 @@ def signals_of(session: Session) -> list[Signal[Any]]:
     return [one for part in parts for one in vars(part).values() if is_signal(one)]
 
 
+def all_have_rows(viz: Visualizer) -> bool:
+    """Whether the panels of each client are there, which is after viser has it."""
+    rows_of = viz._server.sessions.rows_of  # pyright: ignore[reportPrivateUsage]
+    return all(map(rows_of, viz.viser.get_clients()))
+
+
 def files_of(viz: Visualizer) -> Files:
     """The disk, as the shared session's browsers use it."""
     return viz._configs  # pyright: ignore[reportPrivateUsage]
