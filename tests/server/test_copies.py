@@ -41,6 +41,16 @@ def own(viz: Visualizer) -> Session:
     return private
 
 
+def one_joint(folder: Path, name: str) -> Path:
+    """A model with one joint of this name."""
+    model = folder / f"{name}.urdf"
+    model.write_text(
+        f'<robot name="r"><link name="a"/><link name="b"/><joint name="{name}" '
+        'type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
+    )
+    return model
+
+
 def test_a_copy_begins_as_the_class_is(viz: Visualizer, copy: ProtocolClient) -> None:
     shared, private = viz.server.sessions.all()
     assert copy.shown("joints", LEFT) == 1.0
@@ -104,13 +114,23 @@ def test_a_program_moves_the_robot_of_the_class_only(
 def test_a_robot_that_was_edited_is_shown_in_copies_too(
     viz: Visualizer, copy: ProtocolClient, tmp_path: Path
 ) -> None:
-    arm = tmp_path / "arm.urdf"
-    arm.write_text(
-        '<robot name="arm"><link name="a"/><link name="b"/><joint name="j" '
-        'type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
-    )
-    viz.server.sessions.show_robot(load_robot(arm))
+    viz.server.sessions.show_robot(load_robot(one_joint(tmp_path, "j")))
     copy.wait_until(lambda: "j/j" in copy.rows)
+
+
+def test_a_session_keeps_a_model_of_its_own_and_gives_it_to_its_copies(
+    viz: Visualizer, copy: ProtocolClient, protocol: Protocol, tmp_path: Path
+) -> None:
+    arm, leg = (load_robot(one_joint(tmp_path, name)) for name in ("arm", "leg"))
+    own(viz).show_robot(arm, own=True)
+    viz.server.sessions.show_robot(leg)
+    copy.settle(viser_server(viz))
+    joints = [session.robot.joints for session in viz.server.sessions.all()]
+    assert [list(j.positions) for j in joints if j] == [["leg"], ["arm"]]
+    session_of(viz).show_robot(arm, own=True)
+    viz.server.sessions.show_robot(leg)
+    late = protocol(viz.viser.get_port(), path="/copy/")
+    late.wait_until(lambda: "j/arm" in late.rows)
 
 
 def test_a_copy_ends_with_its_browser(viz: Visualizer, copy: ProtocolClient) -> None:

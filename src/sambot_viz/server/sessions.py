@@ -62,7 +62,7 @@ class Sessions:
     Attributes:
         options: what every session begins with.
         meshes: what was read of mesh files, for all of them.
-        robot: what is shown in all of them.
+        robot: what is shown in all of them that have no model of their own.
         on_joined: called when a client has its rows, in any thread.
     """
 
@@ -153,7 +153,7 @@ class Sessions:
             raise errors[0]
 
     def show_robot(self, robot: Robot) -> None:
-        """Show a robot in every session, present and to come."""
+        """Show a robot in every session, present and to come, without its own model."""
         with self._lock:
             self.robot = robot
         try:
@@ -253,8 +253,10 @@ class Sessions:
         if copy is not None:
             session.trust(copy)
         session.document.show()
-        if self.robot is not None:
-            session.show_robot(self.robot)
+        own = copy is not None and copy.own_model
+        robot = copy.robot if copy is not None and own else self.robot
+        if robot is not None:
+            session.show_robot(robot, own=own)
             worker.post(session.checks.run)
         if copy is not None:
             session.take(copy)

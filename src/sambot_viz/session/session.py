@@ -65,6 +65,7 @@ class Session:
         lock: the worker's; held while the state changes.
         change: changes the state, sends that, and tells it.
         private: whether only one client sees it.
+        own_model: whether its robot is its own: that of the server is not shown in it.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -88,6 +89,7 @@ class Session:
         change = self.change = Change(worker, audience)
         clock = clock or WallClock()
         private = self.private = isinstance(audience, viser.ClientHandle)
+        self.own_model = False
         self.roles = Roles(change, options.presenter is not None and not private)
         history = self.history = History(change)
 
@@ -135,10 +137,18 @@ class Session:
             self.clients.leave(client_id)
             self.roles.leave(client_id)
 
-    def show_robot(self, robot: Robot) -> None:
-        """Show a robot, or the same after an edit: joints keep their values."""
+    def show_robot(self, robot: Robot, *, own: bool = False) -> None:
+        """Show a robot, or the same after an edit: joints keep their values.
+
+        Args:
+            robot: the server's, or one of this session.
+            own: whether it is of this session; from then on the server's is ignored.
+        """
         with self.change():
+            if self.own_model and not own:
+                return
             refused = self.robot.take(robot, self.options.start_pose)
+            self.own_model = own
             self.drive.take(robot)
             self.scene.take_options(self.document.config.global_options)
             wheels = self.drive.problems
@@ -162,6 +172,7 @@ class Session:
                 config_file=context.config_file,
                 trusted_files=context.trusted_files,
                 robot=self.robot.model,
+                own_model=self.own_model,
                 trail=self.drive.trail,
                 models=context.models,
                 meshes=context.assets.cache,

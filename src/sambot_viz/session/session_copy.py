@@ -28,6 +28,7 @@ class SessionCopy:
         config_file: the .rviz file that the command line opened, or None.
         trusted_files: the models that it named before a client could change it.
         robot: the robot, if there is one.
+        own_model: whether it is the session's own, and not the server's.
         trail: where the robot was driven, x, y [m] in odom.
         models: reads further models.
         meshes: mesh files that are read already.
@@ -40,6 +41,7 @@ class SessionCopy:
     config_file: Path | None
     trusted_files: frozenset[str]
     robot: Robot | None
+    own_model: bool
     trail: tuple[tuple[float, float], ...]
     models: ModelReader | None
     meshes: MeshCache
