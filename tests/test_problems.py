@@ -17,7 +17,7 @@ from sambot_viz.problems import (
     problem_lines,
     write_problems,
 )
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 
 
 def missing(number: int, package: str = "arm") -> Problem:

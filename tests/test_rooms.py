@@ -158,11 +158,6 @@ EXCEPTIONS: Mapping[str, str] = {
 }
 """Single files that may use more of `CONCURRENCY` than their room."""
 
-RINGS = [
-    {"robot.kinematics", "robot.model"},  # a Robot offers its own kinematics
-]
-"""Modules or folders beside each other that import each other, as known today."""
-
 
 @dataclass(frozen=True)
 class Import:
@@ -357,14 +352,31 @@ def test_the_pure_rooms_load_no_viewer_and_start_no_thread(repository: Path) -> 
     assert done.returncode == 0, done.stderr
 
 
-def test_no_two_rooms_import_each_other(repository: Path) -> None:
-    """Also in a ring of several, at every level of folders, beside `RINGS`."""
+def test_no_two_folders_import_each_other(repository: Path) -> None:
+    """Also in a ring of several, at every level; types do not count."""
     root = source(repository)
     for folder in {path.parent for path in root.rglob("*.py")}:
         above = ".".join(folder.relative_to(root.parent).parts)
-        for ring in rings(neighbours(folder, above)):
-            names = {f"{above}.{name}".removeprefix("sambot_viz.") for name in ring}
-            assert names in RINGS, f"these import each other: {sorted(names)}"
+        assert list(rings(neighbours(folder, above))) == [], folder
+
+
+def test_no_two_modules_import_each_other(repository: Path) -> None:
+    """Also in a ring of several, and for type checkers only: there is one way."""
+    root = source(repository)
+    paths = {
+        ".".join(path.relative_to(root.parent).with_suffix("").parts): path
+        for path in root.rglob("*.py")
+    }
+    paths = {name.removesuffix(".__init__"): path for name, path in paths.items()}
+    graph = {
+        name: {
+            each.name if each.name in paths else each.name.rpartition(".")[0]
+            for each in imports(path)
+        }
+        for name, path in paths.items()
+    }
+    graph = {name: met & (paths.keys() - {name}) for name, met in graph.items()}
+    assert list(rings(graph)) == []
 
 
 HOLDERS = {
@@ -382,36 +394,14 @@ panels; all others get the parts that they use."""
 
 def test_only_few_modules_take_a_whole_session(repository: Path) -> None:
     """Also for type checkers only; a module that no longer does leaves the list."""
-    root = source(repository)
+    root, session = source(repository), "sambot_viz.session"
     found = {
         path.relative_to(root).as_posix()
         for path in root.rglob("*.py")
         for each in imports(path)
-        if each.name in ("sambot_viz.session.Session", f"{_SESSION}.session.Session")
+        if each.name in (f"{session}.Session", f"{session}.session.Session")
     }
     assert found == HOLDERS
-
-
-def test_no_two_modules_of_a_session_import_each_other(repository: Path) -> None:
-    """Also in a ring of several, and for type checkers only: parts have one way."""
-    root = source(repository)
-    paths = {
-        ".".join(path.relative_to(root.parent).with_suffix("").parts): path
-        for path in (root / "session").rglob("*.py")
-    }
-    graph = {
-        name: {
-            module
-            for each in imports(path)
-            for module in (each.name, each.name.rpartition(".")[0])
-            if module in paths and module != name
-        }
-        for name, path in paths.items()
-    }
-    assert list(rings(graph)) == []
-
-
-_SESSION = "sambot_viz.session"
 
 
 def neighbours(folder: Path, above: str) -> dict[str, set[str]]:

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from sambot_viz.errors import UsageError as UsageError
     from sambot_viz.frames import Transform as Transform
     from sambot_viz.inputs import load_config as load_config
-    from sambot_viz.robot import load_robot as load_robot
-    from sambot_viz.robot.joint import Joint as Joint
-    from sambot_viz.robot.model import Link as Link
     from sambot_viz.robot.model import Robot as Robot
+    from sambot_viz.robot.model import load_robot as load_robot
+    from sambot_viz.robot.parts import Joint as Joint
+    from sambot_viz.robot.parts import Link as Link
     from sambot_viz.rviz import RvizConfig as RvizConfig
     from sambot_viz.visualizer import Visualizer as Visualizer
 
@@ -37,9 +37,8 @@ _MODULES = {
     "ServerError UsageError",
     "frames": "Transform",
     "inputs": "load_config",
-    "robot": "load_robot",
-    "robot.joint": "Joint",
-    "robot.model": "Link Robot",
+    "robot.model": "Robot load_robot",
+    "robot.parts": "Joint Link",
     "rviz": "RvizConfig",
     "visualizer": "Visualizer",
 }

@@ -195,7 +195,7 @@ class Inputs:
         Raises:
             RobotError: the model cannot be shown.
         """
-        from sambot_viz.robot import load_robot
+        from sambot_viz.robot.model import load_robot
 
         return load_robot(
             model,

@@ -8,7 +8,7 @@ from sambot_viz import Visualizer, bundled
 from sambot_viz.checks import check
 from sambot_viz.checks.config_against_robot import check_config
 from sambot_viz.inputs import load_config
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 
 MODELS = {"mbot.rviz": "mbot.urdf.xacro", "urdf_config.rviz": "sam_bot.urdf.xacro"}
 

@@ -23,7 +23,7 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.meshes.mesh import MeshError
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.model import MeshFile
+from sambot_viz.robot.parts import MeshFile
 
 pytestmark = pytest.mark.benchmark
 

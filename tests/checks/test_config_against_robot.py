@@ -12,8 +12,7 @@ from sambot_viz.checks.launch_files import (
     check_setup_py,
 )
 from sambot_viz.errors import Problem
-from sambot_viz.robot import load_robot
-from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model import Robot, load_robot
 from sambot_viz.rviz import Declarations, RvizConfig
 
 Checked = Callable[[str], list[Problem]]

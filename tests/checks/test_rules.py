@@ -9,7 +9,7 @@ import pytest
 from sambot_viz.checks import check, check_robot
 from sambot_viz.checks.mesh_files import MeshFiles
 from sambot_viz.errors import Problem
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 
 Checked = Callable[..., list[Problem]]
 

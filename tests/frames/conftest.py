@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link, Robot
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Link, Origin
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from sambot_viz.robot.joint import Joint, Limit, Mimic
-from sambot_viz.robot.model import Link, Robot
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Limit, Link, Mimic
 
 MakeRobot = Callable[..., Robot]
 

@@ -8,8 +8,8 @@ import pytest
 
 from sambot_viz.errors import JointError
 from sambot_viz.joints.start import StartPose
-from sambot_viz.robot.joint import Joint, Mimic
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Mimic
 
 MakeRobot = Callable[..., Robot]
 

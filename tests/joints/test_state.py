@@ -9,8 +9,8 @@ import pytest
 
 from sambot_viz.errors import JointError
 from sambot_viz.joints import JointState
-from sambot_viz.robot.joint import Joint, Limit, Mimic, SoftLimit
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Limit, Mimic, SoftLimit
 
 MakeRobot = Callable[..., Robot]
 

@@ -10,8 +10,8 @@ import pytest
 
 from sambot_viz.joints import JointState
 from sambot_viz.joints.animation import LONGEST, sweep
-from sambot_viz.robot.joint import Joint, Limit
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Limit
 
 MakeRobot = Callable[..., Robot]
 

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from sambot_viz.errors import RobotError
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 
 ARGUMENTS = {
     "vehicle_model": "sample_vehicle",

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sambot_viz.errors import JointError
-from sambot_viz.robot import load_robot
 from sambot_viz.robot.kinematics import Kinematics
+from sambot_viz.robot.model import load_robot
 
 RECORDED = (
     "a1", "all_joints", "chain40", "floating_planar", "kinova", "mimic_chain",

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.robot import load_robot
-from sambot_viz.robot.model import MeshFile, Robot
+from sambot_viz.robot.model import Robot, load_robot
+from sambot_viz.robot.parts import MeshFile
 
 
 def errors(model: Path | str) -> list[Problem]:

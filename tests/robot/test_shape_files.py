@@ -8,7 +8,7 @@ import pytest
 
 from sambot_viz import load_robot
 from sambot_viz.meshes.asset import Asset
-from sambot_viz.robot.shape_files import assets_of, something_missing
+from sambot_viz.robot.model import assets_of, something_missing
 
 STL = (
     "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"

@@ -81,7 +81,7 @@ def check(
         Errors first, then warnings, then notes; each in document order. Empty when
         all is well. It never raises for a model that is broken or does not exist.
     """
-    from sambot_viz.robot import load_robot
+    from sambot_viz.robot.model import load_robot
 
     try:
         robot = load_robot(
@@ -143,7 +143,7 @@ def check_folder(
         those of the launch files and setup.py.
     """
     from sambot_viz.checks.launch_files import check_package
-    from sambot_viz.robot import load_robot
+    from sambot_viz.robot.model import load_robot
 
     robot: Robot | None = None
     try:

@@ -9,8 +9,7 @@ import numpy as np
 from sambot_viz.checks.rule import Subject, listed
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Cylinder, Link, Sphere
+from sambot_viz.robot.parts import Cylinder, Joint, Link, Sphere
 
 _SMALLEST_GAP = 0.01
 _SHARE_OF_RADIUS = 0.1

@@ -8,7 +8,7 @@ import numpy as np
 
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Inertial
+from sambot_viz.robot.parts import Inertial
 
 
 def inertia_on_root(subject: Subject) -> Iterator[Problem]:

@@ -12,7 +12,7 @@ import numpy as np
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Place, Problem, Severity
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.model import Link, MeshFile, Shape
+from sambot_viz.robot.parts import Link, MeshFile, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh

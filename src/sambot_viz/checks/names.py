@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link
 from sambot_viz.robot.model_source import read_source
+from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element
 from sambot_viz.robot.xml.parse import parse_xml

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Link, Robot, Shape
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Link, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh

@@ -7,8 +7,15 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.model import Box, Capsule, Cylinder, Geometry, MeshFile, Sphere
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import (
+    Box,
+    Capsule,
+    Cylinder,
+    Geometry,
+    MeshFile,
+    Origin,
+    Sphere,
+)
 
 _FULL_TURN = 2 * math.pi + 1e-3
 _SMALLEST_LIMIT = 15.0

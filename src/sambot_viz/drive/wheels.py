@@ -12,8 +12,8 @@ import numpy.typing as npt
 from sambot_viz.drive.differential import PlanarPose, WheelPair
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Cylinder, Robot, Shape, Sphere
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Cylinder, Joint, Shape, Sphere
 
 _Vector = npt.NDArray[np.float64]
 

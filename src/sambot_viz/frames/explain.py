@@ -10,8 +10,8 @@ from sambot_viz.frames.frame_tree import FrameTree, Hop
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint
 
 
 @dataclass(frozen=True, slots=True)

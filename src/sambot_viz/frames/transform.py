@@ -23,7 +23,7 @@ from sambot_viz.geometry import (
     xyzw_from_rpy,
     xyzw_product,
 )
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Origin
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -11,8 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, did_you_mean
-from sambot_viz.robot.joint import Joint, Mimic
-from sambot_viz.robot.mimic import mimic_chain
+from sambot_viz.robot.parts import Joint, Mimic, mimic_chain
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,9 +13,9 @@ from types import MappingProxyType
 from sambot_viz.errors import JointError, Problem, did_you_mean
 from sambot_viz.geometry import Matrix, finite
 from sambot_viz.joints.mimic import Follower, find_followers
-from sambot_viz.robot.joint import Joint
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint
 
 AGREES = 1e-3
 """Positions that differ less are the same: messages are rounded [rad or m]."""

@@ -12,8 +12,7 @@ from sambot_viz.frames.explain import distance_between
 from sambot_viz.panels.frames.frame_answer import shown_numbers
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Box, Geometry, Link, MeshFile, Sphere
+from sambot_viz.robot.parts import Box, Geometry, Joint, Link, MeshFile, Sphere
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.robot.robot_state import RobotState

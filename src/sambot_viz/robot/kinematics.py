@@ -12,8 +12,7 @@ import numpy.typing as npt
 
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.geometry import Matrix, finite, rotation_from_axis, rotations_from_axes
-from sambot_viz.robot.joint import Joint, Mimic
-from sambot_viz.robot.mimic import mimic_chain
+from sambot_viz.robot.parts import Joint, Mimic, mimic_chain
 
 _Ints = npt.NDArray[np.int64]
 _Floats = npt.NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""From a model to a `Robot`: the only way in."""
+"""From a model to what a `Robot` is made of: the only way in."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
@@ -18,6 +18,7 @@ from sambot_viz.robot.model_source import (
     open_model,
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
+from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.xacro.child_result import (
@@ -38,35 +39,28 @@ from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 from sambot_viz.robot.xml.element import Element
 
 
-def load_robot(
+class LoadedModel(NamedTuple):
+    """The attributes of a `Robot`, in their order."""
+
+    name: str
+    root: str
+    links: Mapping[str, Link]
+    joints: Mapping[str, Joint]
+    problems: tuple[Problem, ...]
+    urdf: str
+    files: tuple[Path, ...]
+    file_roots: tuple[Path, ...] | None
+
+
+def load_model(
     model: PathLike | OpenedModel,
-    *,
-    xacro_args: Mapping[str, str] | None = None,
-    package_path: Sequence[Path | str] = (),
-    trusted: bool = True,
-) -> Robot:
-    """Load a robot from a URDF or xacro file, or from text.
-
-    The content decides whether xacro expands it, not the ending of the file name.
-
-    Args:
-        model: the file, the XML text itself, or the result of `open_model`.
-        xacro_args: values for ``xacro:arg``.
-        package_path: where packages are: package folders, folders that hold
-            packages, or ``name=folder``.
-        trusted: False for a model of unknown origin: xacro then evaluates without
-            attribute access, nested code and files outside the model's folder.
-
-    Returns:
-        The robot as ROS would show it, lengths in metres, angles in radians;
-        `Robot.problems` has the warnings, and an error for each part left out.
-
-    Raises:
-        RobotError: the file cannot be read, or ROS would refuse the model;
-            `.problems` lists everything found, each with file, line and fix.
-    """
+    xacro_args: Mapping[str, str],
+    package_path: Sequence[Path | str],
+    trusted: bool,
+) -> LoadedModel:
+    """Load a model; arguments and errors are those of `load_robot`."""
     opened = model if isinstance(model, OpenedModel) else open_model(model)
-    return _Loader(opened, xacro_args or {}, package_path, trusted).load()
+    return _Loader(opened, xacro_args, package_path, trusted).load()
 
 
 def expand(
@@ -98,7 +92,7 @@ class _Loader:
     package_path: Sequence[Path | str]
     trusted: bool
 
-    def load(self) -> Robot:
+    def load(self) -> LoadedModel:
         problems = list(self.opened.source.problems)
         undeclared = undeclared_prefix(self.opened.document, self.opened.source.path)
         if undeclared is not None:
@@ -143,7 +137,7 @@ class _Loader:
 
     def _robot(
         self, root: Element, expanded: ExpandedModel | None, problems: list[Problem]
-    ) -> Robot:
+    ) -> LoadedModel:
         source, findings = self.opened.source, UrdfFindings()
         files = FileFinder(source.folder, self.package_path, findings, self.trusted)
         urdf = read_urdf(
@@ -156,11 +150,8 @@ class _Loader:
                 explain_without_links(problems, self.opened.document, source.path), read
             )
         own = (Path(os.path.abspath(source.path)),) if source.path is not None else ()
-        return Robot(
-            urdf.name,
-            urdf.root,
-            urdf.links,
-            urdf.joints,
+        return LoadedModel(
+            *urdf,
             tuple(problems),
             expanded.text if expanded is not None else declared_as_utf8(source.text),
             tuple(dict.fromkeys((*own, *read))),

@@ -1,140 +1,26 @@
-"""The robot as data: what a URDF says, in urdfdom's reading.
+"""A robot, and the ways to one: a file, a text, or yourdfpy.
 
-Lengths in metres, angles in radians, masses in kilograms. `T_parent_child` maps
-child coordinates to parent coordinates: ``p_parent = T_parent_child @ p_child``.
-Places (file, line) are carried along but do not take part in comparison: the same
-robot written in two files is equal.
+Loading is imported when it is first used: the page has to be there before it.
 """
 
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sambot_viz.errors import Place, Problem
-from sambot_viz.geometry import Matrix, Rgba, Vector3
-from sambot_viz.robot.joint import Joint
+from sambot_viz.errors import Problem
+from sambot_viz.geometry import Matrix
+from sambot_viz.meshes.asset import Asset
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Joint, Link, MeshFile, Shape
 
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
-
-@dataclass(frozen=True, slots=True)
-class Box:
-    """A box centred on its origin; full edge lengths [m]."""
-
-    size: Vector3
-
-
-@dataclass(frozen=True, slots=True)
-class Cylinder:
-    """A cylinder along its z axis, centred on its origin [m]."""
-
-    radius: float
-    length: float
-
-
-@dataclass(frozen=True, slots=True)
-class Sphere:
-    """A sphere around its origin [m]."""
-
-    radius: float
-
-
-@dataclass(frozen=True, slots=True)
-class Capsule:
-    """A capsule along its z axis; `length` is the cylinder between the caps [m]."""
-
-    radius: float
-    length: float
-
-
-@dataclass(frozen=True, slots=True)
-class MeshFile:
-    """A mesh file: the name as written, and the file it was found to be.
-
-    Attributes:
-        filename: as the model says ("package://…", relative, …).
-        scale: factors along x, y, z; may be negative (mirrored).
-        path: the file on this machine, or None when it was not found.
-    """
-
-    filename: str
-    scale: Vector3 = (1.0, 1.0, 1.0)
-    path: Path | None = field(default=None, compare=False)
-
-
-Geometry = Box | Cylinder | Sphere | Capsule | MeshFile
-
-
-@dataclass(frozen=True, slots=True)
-class Material:
-    """A resolved material: what urdfdom would hand to RViz.
-
-    Attributes:
-        name: as written; may be empty.
-        rgba: colour, each 0 to 1; None when only a texture is given.
-        texture: texture file name as written, or None.
-        texture_path: the file on this machine, or None when it was not found.
-    """
-
-    name: str
-    rgba: Rgba | None
-    texture: str | None = None
-    texture_path: Path | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True, slots=True)
-class Shape:
-    """One <visual> or <collision>.
-
-    Attributes:
-        geometry: what is drawn.
-        origin: pose of the shape in its link (T_link_shape).
-        material: None means RViz's default red. For a collision it is the visual
-            material, which RViz uses for it.
-        name: the optional name attribute.
-        place: where the element is.
-        geometry_place: where its <box>, <mesh>, … is.
-    """
-
-    geometry: Geometry
-    origin: Origin = field(default_factory=Origin)
-    material: Material | None = None
-    name: str = ""
-    place: Place | None = field(default=None, compare=False)
-    geometry_place: Place | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True, slots=True)
-class Inertial:
-    """Mass [kg], pose of the centre of mass (T_link_inertia), inertia [kg m²]."""
-
-    mass: float
-    origin: Origin
-    ixx: float
-    ixy: float
-    ixz: float
-    iyy: float
-    iyz: float
-    izz: float
-    place: Place | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True, slots=True)
-class Link:
-    """A link: its shapes in document order, and its inertia if it has one."""
-
-    name: str
-    visuals: tuple[Shape, ...] = ()
-    collisions: tuple[Shape, ...] = ()
-    inertial: Inertial | None = None
-    place: Place | None = field(default=None, compare=False)
+    from sambot_viz.robot.model_source import OpenedModel, PathLike
 
 
 @dataclass(frozen=True)
@@ -198,7 +84,79 @@ class Robot:
         Raises:
             RobotError: ROS would refuse the model.
         """
-        from sambot_viz.robot import load_robot
-
         untyped: Any = urdf
         return load_robot(untyped.write_xml_string().decode())
+
+
+def load_robot(
+    model: PathLike | OpenedModel,
+    *,
+    xacro_args: Mapping[str, str] | None = None,
+    package_path: Sequence[Path | str] = (),
+    trusted: bool = True,
+) -> Robot:
+    """Load a robot from a URDF or xacro file, or from text.
+
+    The content decides whether xacro expands it, not the ending of the file name.
+
+    Args:
+        model: the file, the XML text itself, or the result of `open_model`.
+        xacro_args: values for ``xacro:arg``.
+        package_path: where packages are: package folders, folders that hold
+            packages, or ``name=folder``.
+        trusted: False for a model of unknown origin: xacro then evaluates without
+            attribute access, nested code and files outside the model's folder.
+
+    Returns:
+        The robot as ROS would show it, lengths in metres, angles in radians;
+        `Robot.problems` has the warnings, and an error for each part left out.
+
+    Raises:
+        RobotError: the file cannot be read, or ROS would refuse the model;
+            `.problems` lists everything found, each with file, line and fix.
+    """
+    from sambot_viz.robot.load import load_model
+
+    return Robot(*load_model(model, xacro_args or {}, package_path, trusted))
+
+
+def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset | None:
+    """Return the file of a shape, None when it needs none or it is not here.
+
+    Args:
+        shape: a visual or a collision.
+        file_roots: those of its robot.
+    """
+    if isinstance(shape.geometry, MeshFile):
+        path = shape.geometry.path
+        return None if path is None else Asset("mesh", path, file_roots)
+    material = shape.material
+    if material is None or material.texture_path is None:
+        return None
+    return Asset("texture", material.texture_path, file_roots)
+
+
+def shapes_of(robot: Robot) -> Iterator[Shape]:
+    """Yield all shapes of all links."""
+    for link in robot.links.values():
+        yield from link.visuals
+        yield from link.collisions
+
+
+def assets_of(robot: Robot) -> Iterator[Asset]:
+    """Yield the files of all shapes; one that is used twice comes twice."""
+    for shape in shapes_of(robot):
+        asset = asset_of(shape, robot.file_roots)
+        if asset is not None:
+            yield asset
+
+
+def something_missing(robot: Robot) -> bool:
+    """Tell whether a mesh or a texture was not found on this machine."""
+    for shape in shapes_of(robot):
+        geometry, material = shape.geometry, shape.material
+        if isinstance(geometry, MeshFile) and geometry.path is None:
+            return True
+        if material is not None and material.texture and material.texture_path is None:
+            return True
+    return False

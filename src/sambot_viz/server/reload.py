@@ -15,7 +15,7 @@ from pathlib import Path
 from sambot_viz.displays.display import robot_displays
 from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
-from sambot_viz.robot.shape_files import assets_of, something_missing
+from sambot_viz.robot.model import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
-from sambot_viz.robot.model import Inertial
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Inertial, Origin
 
 
 def inertial(mass: float, *moments: float, origin: Origin | None = None) -> Inertial:

@@ -14,8 +14,7 @@ from sambot_viz.displays.robot_model.robot_source import OUTSIDE
 from sambot_viz.errors import RobotError, UsageError
 from sambot_viz.inputs import declarations
 from sambot_viz.options import Options
-from sambot_viz.robot.load import load_robot
-from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model import Robot, load_robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.server import Server

@@ -9,7 +9,7 @@ import pytest
 
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.geometry import inverse_matrix, wxyz_from_matrix, wxyz_from_z
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Origin
 
 
 def rotation(wxyz: tuple[float, float, float, float]) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 
 CUBE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from sambot_viz.errors import RobotError
-from sambot_viz.robot import load_robot
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.model import Box
+from sambot_viz.robot.model import load_robot
+from sambot_viz.robot.parts import Box
 from sambot_viz.robot.urdf.attributes import LARGEST
 
 LIMIT = '<limit lower="{0}" upper="{1}" effort="1" velocity="1"/>'

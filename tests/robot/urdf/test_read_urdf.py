@@ -3,8 +3,8 @@
 import pytest
 
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.robot import load_robot
-from sambot_viz.robot.model import Box, Capsule, Material, Robot
+from sambot_viz.robot.model import Robot, load_robot
+from sambot_viz.robot.parts import Box, Capsule, Material
 
 LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
 BOX = '<geometry><box size="1 2 3"/></geometry>'

@@ -36,7 +36,7 @@ class Telling(subprocess.Popen):
         print(self.pid, flush=True)
 
 subprocess.Popen = Telling
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 load_robot(sys.argv[1])
 """
 

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.errors import Place, Problem, RobotError
-from sambot_viz.robot import expand, load_robot
+from sambot_viz.robot.load import expand
+from sambot_viz.robot.model import load_robot
 from sambot_viz.robot.xacro.child_result import ExpansionError
 from sambot_viz.robot.xacro.expand import Limits, expand_model
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 from sambot_viz.robot.packages.package_index import Lookup
 from sambot_viz.robot.xacro.child_result import Definition, XacroCall, XacroFailure
 from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro

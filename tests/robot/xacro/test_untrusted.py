@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.errors import RobotError
-from sambot_viz.robot import load_robot
+from sambot_viz.robot.model import load_robot
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 

@@ -13,7 +13,7 @@ from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.picking.rays import Array, RayGrid, TriangleMesh
 from sambot_viz.displays.triangle_display import PlacedMesh, TriangleGeometry
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Origin
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
 from sambot_viz.tools.picking.picture import Picture
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.geometry import Matrix, Vector3, Wxyz, wxyz_from_matrix
-from sambot_viz.robot.model import Inertial
+from sambot_viz.robot.parts import Inertial
 
 LEAD_DENSITY = 11340.0
 """[kg/m³]"""

@@ -31,8 +31,8 @@ from sambot_viz.displays.scene.solids import (
 from sambot_viz.displays.triangle_display import DrawnTriangles, Triangles
 from sambot_viz.geometry import Matrix, Vector3, rotation_from_xyzw, wxyz_from_matrix
 from sambot_viz.meshes.primitives import unit_box
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Inertial, Link, Robot
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Inertial, Joint, Link
 
 AXES_LENGTH, AXES_DIAMETER = 0.1, 0.01
 SHAFT, HEAD = (0.15, 0.05), (0.05, 0.08)

@@ -10,8 +10,8 @@ from sambot_viz.displays.robot_model.link_overlays import WITH_AXIS
 from sambot_viz.displays.robot_model.robot_entries import RobotEntries
 from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link, Robot
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Link
 
 FrameOf = Callable[[str], str]
 _MOST_NAMES = 12

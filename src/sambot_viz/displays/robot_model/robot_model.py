@@ -29,8 +29,8 @@ from sambot_viz.displays.robot_model.shape_solids import ShapeLook
 from sambot_viz.displays.status import Status
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Link, Robot, Shape
-from sambot_viz.robot.shape_files import asset_of
+from sambot_viz.robot.model import Robot, asset_of
+from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig
 
 Kind = Literal["visual", "collision"]

@@ -31,14 +31,7 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import shared_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
-from sambot_viz.robot.model import (
-    Box,
-    Capsule,
-    Cylinder,
-    MeshFile,
-    Shape,
-    Sphere,
-)
+from sambot_viz.robot.parts import Box, Capsule, Cylinder, MeshFile, Shape, Sphere
 
 STAND_IN_COLOR: Rgb = (255, 140, 0)
 

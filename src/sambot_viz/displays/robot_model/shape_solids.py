@@ -15,7 +15,7 @@ from sambot_viz.geometry import Matrix, Rgba, Vector3
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
-from sambot_viz.robot.model import (
+from sambot_viz.robot.parts import (
     Box,
     Capsule,
     Cylinder,

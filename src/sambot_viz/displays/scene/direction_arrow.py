@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.parts import Joint
 
 COLOR = (255, 170, 0)
 LENGTH = 0.25

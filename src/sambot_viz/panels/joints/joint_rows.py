@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from sambot_viz.joints import JointState
 from sambot_viz.panels.row import Row
-from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.parts import Joint
 
 STEP_ANGLE, STEP_LENGTH = 0.01, 0.001
 """Added by an arrow key [rad] and [m]."""

@@ -21,7 +21,7 @@ from sambot_viz.panels.joints.joint_rows import ID_PREFIX, joint_id, joint_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Row
 from sambot_viz.panels.validation import validate
-from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.parts import Joint
 from sambot_viz.session.limits import MOST_POSES, require_room
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState

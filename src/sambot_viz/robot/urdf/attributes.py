@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Origin
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.numbers import (
     BadNumber,

@@ -8,9 +8,7 @@ from typing import get_args
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.joint import Joint, JointType, Mimic
-from sambot_viz.robot.mimic import mimic_chain
-from sambot_viz.robot.origin import Origin
+from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.limits import LimitReader

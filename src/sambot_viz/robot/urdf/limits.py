@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.robot.joint import JointType, Limit, SoftLimit
+from sambot_viz.robot.parts import JointType, Limit, SoftLimit
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element

@@ -10,8 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from sambot_viz.errors import did_you_mean
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link
+from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.robot_parts import RobotParts
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.model import (
+from sambot_viz.robot.parts import (
     Box,
     Capsule,
     Cylinder,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Rgba
-from sambot_viz.robot.model import Material
+from sambot_viz.robot.parts import Material
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.numbers import BadNumber, read_numbers
 from sambot_viz.robot.xml.element import Element

@@ -7,10 +7,9 @@ the end, so that all errors are reported together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link
+from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.findings import UrdfFindings, tag_text
 from sambot_viz.robot.urdf.joints import check_mimics
 from sambot_viz.robot.urdf.link_tree import build_tree
@@ -31,8 +30,7 @@ _OTHER_ROOTS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class UrdfRobot:
+class UrdfRobot(NamedTuple):
     """The content of a URDF document: name, root link, links and joints of its tree."""
 
     name: str

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from sambot_viz.robot.joint import Joint
-from sambot_viz.robot.model import Link
+from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.joints import read_joint
 from sambot_viz.robot.urdf.links import LinkReader

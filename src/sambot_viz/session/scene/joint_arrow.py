@@ -8,7 +8,7 @@ import viser
 
 from sambot_viz.displays.scene.direction_arrow import add_direction_arrow
 from sambot_viz.displays.scene.node_cache import any_gone, remove_all
-from sambot_viz.robot.joint import Joint
+from sambot_viz.robot.parts import Joint
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker
 
