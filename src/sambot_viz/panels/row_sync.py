@@ -9,8 +9,7 @@ from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.row import Json, safe
 from sambot_viz.panels.row_store import RowStore, Scope
 from sambot_viz.session.signals import connect
-from sambot_viz.session.throttle import Throttle
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Throttle, Worker
 
 PERIOD = 0.04
 """Shortest time between two changes of rows [s]; 50 ms later would be noticed."""

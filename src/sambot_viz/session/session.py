@@ -25,7 +25,6 @@ from sambot_viz.session.checks import Checks
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.clock import Clock, WallClock
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
@@ -43,7 +42,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Clock, WallClock, Worker
 
 
 class Session:

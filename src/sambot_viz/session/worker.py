@@ -1,9 +1,12 @@
-"""The thread of a session: it runs what browsers, timers and files cause, in order.
+"""The thread of a session, the pace of its streams, and its clock.
 
 viser calls back on its event loop, which serves every browser and must never wait. So
 a callback only posts an action here. The worker runs the actions one after the other
 and holds the session's lock while it does, so that a program's own threads, which take
 the same lock, never see a session that is half changed.
+
+A throttle runs an action at once for a single event, and at a steady rate for a
+stream. The clock is the computer's; that of a recording or of ROS may take its place.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
-from typing import Any
+from typing import Any, Protocol
 
 Action = Callable[[], object]
 
@@ -146,6 +149,73 @@ class Worker(threading.Thread):
         if self.ident is None:
             self.start()
         self._changed.notify()
+
+
+class Throttle:
+    """Runs an action at most once per period, and never later than one period.
+
+    The first request after a pause runs at once, in the caller's thread. Requests
+    that come sooner are folded into one run at the end of the period, in the session's
+    worker; nothing runs when nothing was requested.
+
+    Args:
+        worker: where late runs happen.
+        period: shortest time between two runs [s].
+        action: what to run; it takes its own lock.
+    """
+
+    def __init__(
+        self, worker: Worker, period: float, action: Callable[[], object]
+    ) -> None:
+        self.period = period
+        self._worker = worker
+        self._action = action
+        self._lock = threading.Lock()
+        self._last = float("-inf")
+        self._waiting = False
+        self._closed = False
+
+    def request(self) -> None:
+        """Run the action now or at the end of the present period."""
+        with self._lock:
+            if self._waiting or self._closed:
+                return
+            left = self._last + self.period - time.monotonic()
+            if left > 0:
+                self._waiting = True
+                self._worker.post_later(left, self._late)
+                return
+            self._last = time.monotonic()
+        self._action()
+
+    def close(self) -> None:
+        """Run nothing any more."""
+        with self._lock:
+            self._closed = True
+
+    def _late(self) -> None:
+        with self._lock:
+            self._waiting = False
+            if self._closed:
+                return
+            self._last = time.monotonic()
+        self._action()
+
+
+class Clock(Protocol):
+    """Gives the time to all parts of a session that ask for it."""
+
+    def now(self) -> float:
+        """Return the time [s]; differences count, the start may be anything."""
+        ...
+
+
+class WallClock:
+    """The time of the computer, which never goes back."""
+
+    def now(self) -> float:
+        """Return the time since some start [s]."""
+        return time.monotonic()
 
 
 def log_error(error: Exception) -> None:

@@ -29,9 +29,8 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal, connect
-from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.undo import History
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Camera, Vector
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS

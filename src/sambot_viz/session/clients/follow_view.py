@@ -13,9 +13,8 @@ from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import connect
-from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.undo import History
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Vector, vector
 
 ROOM = 0.9

@@ -7,8 +7,7 @@ from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, connect
-from sambot_viz.session.throttle import Throttle
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Throttle, Worker
 
 PERIOD = 0.2
 """The trail is drawn at most this often [s]."""

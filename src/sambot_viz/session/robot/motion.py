@@ -10,11 +10,10 @@ import math
 from dataclasses import dataclass
 
 from sambot_viz.joints.animation import turn
-from sambot_viz.session.clock import Clock
 from sambot_viz.session.robot.drive import Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal, connect
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Clock, Worker
 
 HOLD = 0.3
 """A held button counts as released this long after its last message [s]; viser sends

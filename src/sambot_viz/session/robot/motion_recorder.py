@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.geometry import Matrix
-from sambot_viz.session.clock import Clock
+from sambot_viz.session.worker import Clock
 
 LONGEST = 60.0
 """So much is kept [s]."""

@@ -13,14 +13,12 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.start import StartPose
 from sambot_viz.robot.model import Robot
-from sambot_viz.session.clock import Clock
 from sambot_viz.session.robot.motion_recorder import MotionRecorder
 from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal
-from sambot_viz.session.throttle import Throttle
 from sambot_viz.session.undo import History
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Clock, Throttle, Worker
 
 
 class RobotState:

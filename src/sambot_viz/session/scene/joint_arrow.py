@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import time
 
+import numpy as np
+import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.direction_arrow import add_direction_arrow
 from sambot_viz.displays.scene.node_cache import any_gone, remove_all
 from sambot_viz.robot.parts import Joint
 from sambot_viz.session.scene.scene import Scene
@@ -14,6 +16,13 @@ from sambot_viz.session.worker import Worker
 
 SHOWN_FOR = 1.5
 """It is shown this long after the last move [s]."""
+COLOR = (255, 170, 0)
+LENGTH = 0.25
+"""Of the arrow along the axis [m]."""
+ARC, ARC_PIECES = 1.5 * math.pi, 4
+"""Angle of the arc about the axis [rad], and of how many arrows it is made."""
+
+Points = npt.NDArray[np.float32]
 
 
 class JointArrow:
@@ -66,4 +75,31 @@ class JointArrow:
         path = self._context.nodes.path(joint.child.lstrip("/"))
         if path is None or not any(joint.axis):
             return
-        self._nodes = [add_direction_arrow(self._context.scene, path, joint)]
+        arrows = self._context.scene.add_arrows(
+            f"{path}/~positive",
+            _arrows(joint),
+            COLOR,
+            shaft_radius=0.006,
+            head_radius=0.02,
+            head_length=0.04,
+        )
+        self._nodes = [arrows]
+
+
+def _arrows(joint: Joint) -> Points:
+    """Return (N, 2, 3) starts and ends in the child frame [m].
+
+    One along the axis; for a joint that turns also an arc about it (right-hand rule).
+    """
+    axis = np.array(joint.axis, dtype=np.float64)
+    straight = np.array([[np.zeros(3), axis * LENGTH]])
+    if joint.type == "prismatic":
+        return straight.astype(np.float32)
+    across = np.cross(axis, (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0))
+    across /= np.linalg.norm(across)
+    third = np.cross(axis, across)
+    angle = np.linspace(0.0, ARC, ARC_PIECES + 1)[:, None]
+    ring = 0.6 * LENGTH * (np.cos(angle) * across + np.sin(angle) * third)
+    ring += 0.5 * LENGTH * axis
+    turn = np.stack([ring[:-1], ring[1:]], axis=1)
+    return np.concatenate([straight, turn]).astype(np.float32)
