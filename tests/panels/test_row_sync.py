@@ -45,8 +45,11 @@ class Numbers(Panel):
 
     def __init__(self, worker: Worker, count: int) -> None:
         self.moved = Signal(Change(worker, cast(Any, Audience())), None)
-        self.moved_by = (self.moved,)
         self.numbers = [0] * count
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        return (self.moved,)
 
     def rows(self) -> Sequence[Row]:
         return [Row(f"n{i}", "", "float", value=n) for i, n in enumerate(self.numbers)]

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import functools
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import pytest
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
+from sambot_viz.rviz import FIXED_FRAME
+from sambot_viz.session.clients import client_view
 from sambot_viz.session.config_file import ConfigFile
+from sambot_viz.session.scene.picker import Picker
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.views.view import WORLD, Target, View
 
 JOINT = "drivewhl_l_joint"
 STEPS = 5
@@ -26,23 +32,34 @@ def all_panels(kind: type[Panel] = Panel) -> list[type[Panel]]:
     ]
 
 
-@pytest.fixture
-def made(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
-    """How often each panel has made its rows."""
+def count_calls(monkeypatch: pytest.MonkeyPatch, method: str) -> Counter[str]:
+    """How often a method of each panel has been called."""
     counts: Counter[str] = Counter()
 
-    def counting(make: Callable[[Panel], Sequence[Row]]):
+    def counting(make: Callable[[Panel], Any]):
         @functools.wraps(make)
-        def rows(panel: Panel) -> Sequence[Row]:
+        def counted(panel: Panel) -> Any:
             counts[panel.name] += 1
             return make(panel)
 
-        return rows
+        return counted
 
     for kind in all_panels():
-        if "rows" in vars(kind):
-            monkeypatch.setattr(kind, "rows", counting(vars(kind)["rows"]))
+        if method in vars(kind):
+            monkeypatch.setattr(kind, method, counting(vars(kind)[method]))
     return counts
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """How often each panel has made its rows."""
+    return count_calls(monkeypatch, "rows")
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """How often each panel has been asked for the values that a motion changes."""
+    return count_calls(monkeypatch, "values")
 
 
 def drag(client: ProtocolClient, viz: Visualizer) -> None:
@@ -67,6 +84,70 @@ def test_a_step_makes_rows_again_only_of_undo(
     assert set(made) <= {"edit"}
     # The undo list of the client that dragged, and of the others.
     assert made["edit"] <= len(clients) * (STEPS + 1)
+
+
+def test_a_step_asks_only_panels_that_show_what_moves(
+    asked: Counter[str], protocol: Callable[..., ProtocolClient]
+):
+    with Visualizer(port=0) as viz:
+        clients = [protocol(viz.viser.get_port()) for _ in range(3)]
+        for client in clients:
+            client.settle(viz.viser)
+        drag(clients[0], viz)
+        asked.clear()
+        drag(clients[0], viz)
+        assert set(asked) == {"joints"}
+        # One browser selects a link, another one looks at a frame.
+        clients[1].act("permalink/open", ["select", "v"], ["link:base_link", "1"])
+        clients[2].act("frames/show", True)
+        clients[2].settle(viz.viser)
+        asked.clear()
+        drag(clients[0], viz)
+        assert set(asked) == {"joints", "selection", "frames"}
+        clients[1].act("permalink/open", ["select", "v"], ["", "1"])
+        clients[2].act("frames/show", False)
+        clients[2].settle(viz.viser)
+        drag(clients[0], viz)
+        asked.clear()
+        drag(clients[0], viz)
+        assert set(asked) == {"joints"}
+
+
+def test_boxes_and_cameras_follow_only_what_they_show(
+    monkeypatch: pytest.MonkeyPatch, protocol: Callable[..., ProtocolClient]
+):
+    followed: Counter[str] = Counter()
+    boxes, target = Picker.boxes_of, client_view.target_of
+
+    def boxes_of(picker: Picker, items: Iterable[Selectable]):
+        followed["boxes"] += 1
+        return boxes(picker, items)
+
+    def target_of(scene: Scene, view: View, last: Target = WORLD) -> Target:
+        followed["target"] += 1
+        return target(scene, view, last)
+
+    monkeypatch.setattr(Picker, "boxes_of", boxes_of)
+    monkeypatch.setattr(client_view, "target_of", target_of)
+    with Visualizer(port=0) as viz:
+        client = protocol(viz.viser.get_port())
+        client.settle(viz.viser)
+        session = viz.server.sessions.all()[0]
+        (page,) = session.clients.all.values()
+        drag(client, viz)
+        followed.clear()
+        drag(client, viz)
+        assert followed == {}
+        page.tools.select({Selectable("link", "base_link")}, None)
+        page.view.set("Target Frame", "drivewhl_l_link")
+        followed.clear()
+        drag(client, viz)
+        assert set(followed) == {"boxes", "target"}
+        page.tools.select(set(), None)
+        page.view.set("Target Frame", FIXED_FRAME)
+        followed.clear()
+        drag(client, viz)
+        assert followed == {}
 
 
 def test_a_step_does_not_ask_the_disk(

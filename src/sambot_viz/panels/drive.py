@@ -20,6 +20,7 @@ from sambot_viz.session.clients.follow_view import FollowView
 from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.motion import HOLD
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.signals import Signal
 
 MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
 """Limits of the speeds [m/s] and [rad/s]."""
@@ -43,10 +44,14 @@ class DrivePanel(Panel):
         self, drive: Drive, robot: RobotState, follow_view: FollowView
     ) -> None:
         self.remade_by = (robot.changed,)
-        self.moved_by = (drive.velocity, drive.pose_changed)
         self._drive = drive
         self._robot = robot
         self._follow_view = follow_view
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The speeds and the pose."""
+        return (self._drive.velocity, self._drive.pose_changed)
 
     def rows(self) -> Sequence[Row]:
         """Return the speeds, where the robot is, and its wheels."""

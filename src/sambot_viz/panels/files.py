@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.panels.command import FLAG, LIST, TEXT, command
@@ -17,6 +17,7 @@ from sambot_viz.session.config_file import UNNAMED, ConfigFile
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Signal
 from sambot_viz.session.undo import History
 
 _OF_DISK = ("file/save", "file/save-as", "file/list", "file/open")
@@ -66,7 +67,6 @@ class FilesPanel(Panel):
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (document.file, robot.changed)
-        self.moved_by = (history.modified,)
         self._client = client
         self._document = document
         self._robot = robot
@@ -84,6 +84,11 @@ class FilesPanel(Panel):
         self._names: Sequence[str] = ()
         self._answer: Json = None
         self._answers = 0
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """Whether the document is saved."""
+        return (self._history.modified,)
 
     def data(self) -> Sequence[Data]:
         """Return where the document is, the files there are, and the last answer."""

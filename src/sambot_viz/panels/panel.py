@@ -21,18 +21,21 @@ class Panel:
     Attributes:
         name: the panel of the page that shows the rows.
         remade_by: the rows are made again after these have changed.
-        moved_by: only `values` is asked after these.
         period: shortest time between two times that `values` is asked [s].
     """
 
     name: ClassVar[str]
     remade_by: Sequence[Signal[Any]] = ()
-    moved_by: Sequence[Signal[Any]] = ()
     period: ClassVar[float] = 0.0
     _declared: ClassVar[tuple[Command, ...]] = ()
 
     def __init_subclass__(cls) -> None:
         cls._declared = tuple(declared_commands(cls))
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """After these only `values` is asked; it is read when rows have been made."""
+        return ()
 
     def items(self) -> list[Item]:
         """Return all that the page gets now."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from itertools import chain
 
 from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.row import Json, safe
 from sambot_viz.panels.row_store import RowStore, Scope
-from sambot_viz.session.signals import connect
+from sambot_viz.session.signals import Listening, connect
 from sambot_viz.session.worker import Throttle, Worker
 
 PERIOD = 0.04
@@ -42,16 +43,19 @@ class RowSync:
             for panel in panels
             if panel.period > PERIOD
         }
-        for panel in self._panels:
-            self._make(panel)
         self._disconnect = [
             ending for panel in self._panels for ending in self._connect(panel)
         ]
+        self._listening = {panel: [*self._listeners(panel)] for panel in panels}
+        for panel in self._panels:
+            self._make(panel)
 
     def close(self) -> None:
         """Follow no changes from now on."""
         for disconnect in self._disconnect:
             disconnect()
+        for listening in chain.from_iterable(self._listening.values()):
+            listening.to()
         self._throttle.close()
         for throttle in self._slow.values():
             throttle.close()
@@ -67,14 +71,16 @@ class RowSync:
 
     def _connect(self, panel: Panel) -> Iterator[Callable[[], None]]:
         """Show a change of what a panel shows, all panels together."""
-        request = self._throttle.request
         yield connect(panel.remade_by, partial(self._remake.add, panel))
-        yield connect(panel.remade_by, request, sends=True)
+        yield connect(panel.remade_by, self._throttle.request, sends=True)
+
+    def _listeners(self, panel: Panel) -> Iterator[Listening]:
+        """Yield what follows a motion; it listens once rows have been made."""
         if panel in self._slow:
-            yield connect(panel.moved_by, self._slow[panel].request)
+            yield Listening(self._slow[panel].request)
         else:
-            yield connect(panel.moved_by, partial(self._move.add, panel))
-            yield connect(panel.moved_by, request, sends=True)
+            yield Listening(partial(self._move.add, panel))
+            yield Listening(self._throttle.request, sends=True)
 
     def _moved(self, panel: Panel) -> None:
         with self._worker.lock:
@@ -102,6 +108,8 @@ class RowSync:
     def _make(self, panel: Panel) -> bool:
         """Make the rows of a panel; returns whether the page has to show others."""
         made = {item.id: item for item in panel.items()}
+        for listening in self._listening[panel]:
+            listening.to(*panel.moved_by)
         before, self._items[panel.name] = self._items[panel.name], made
         new = {item_id: item.json() for item_id, item in made.items()}
         if before is None or list(before) != list(new):

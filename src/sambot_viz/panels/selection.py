@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
 
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import Place
@@ -17,6 +18,7 @@ from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Signal
 
 SHOWN = 30
 """At most this many selected items are listed."""
@@ -49,12 +51,16 @@ class SelectionPanel(Panel):
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (scene.frames, robot.changed, client.tools.changed)
-        self.moved_by = (robot.positions,)
         self._client = client
         self._context = scene.context
         self._robot = robot
         self._remake = remake
         self._frame: str = FIXED_FRAME
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The poses of what is selected."""
+        return (self._robot.positions,) if self._client.tools.selection else ()
 
     def rows(self) -> Sequence[Row]:
         """Return the frame of the poses, then a row per item with its facts."""

@@ -159,5 +159,27 @@ def connect(
     return disconnect
 
 
+class Listening:
+    """Listens to the signals of what is shown at present, and to no others.
+
+    Args:
+        listener: called after a change of any of them.
+        sends: as for `connect`.
+    """
+
+    def __init__(self, listener: Listener, *, sends: bool = False) -> None:
+        self._listener = listener
+        self._sends = sends
+        self._signals: tuple[Signal[Any], ...] = ()
+        self._disconnect: Callable[[], None] = _nothing
+
+    def to(self, *signals: Signal[Any]) -> None:
+        """Listen to these instead of those before."""
+        if signals != self._signals:
+            self._disconnect()
+            self._signals = signals
+            self._disconnect = connect(signals, self._listener, sends=self._sends)
+
+
 def _nothing() -> None:
     pass

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.entries import EntryList
@@ -24,7 +25,7 @@ from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.problems import Problems
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import connect
+from sambot_viz.session.signals import Signal, connect
 
 OPTIONS = "options"
 
@@ -60,7 +61,6 @@ class DisplaysPanel(Panel):
             problems.shown,
         )
         self.remade_by = (*whole, document.values)
-        self.moved_by = (robot.positions,)
         self._document = document
         self._display_edits = display_edits
         self._scene = scene
@@ -74,6 +74,11 @@ class DisplaysPanel(Panel):
         self._made: dict[DisplayConfig, tuple[int, list[Row]]] = {}
         self._facts: dict[DisplayConfig, list[tuple[str, EntryList, str]]] = {}
         self._disconnect = connect(whole, self._forget)
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The poses of links and frames that are unfolded."""
+        return (self._robot.positions,) if any(self._facts.values()) else ()
 
     def close(self) -> None:
         """Follow the session no longer."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from typing import Any
 
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.frames import Transform
@@ -20,6 +21,7 @@ from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.robot.user_frames import UserFrame
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Signal
 
 Say = Callable[[str, Level], None]
 """Shows a sentence to the browser."""
@@ -50,7 +52,6 @@ class FramesPanel(Panel):
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (scene.frames, robot.changed)
-        self.moved_by = (robot.positions,)
         self._frames = frames
         self._robot = robot
         self._context = scene.context
@@ -58,6 +59,11 @@ class FramesPanel(Panel):
         self._remake = remake
         self._from = self._to = ""
         self._shown = False
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The poses of the answer, while the panel is on the screen."""
+        return (self._robot.positions,) if self._shown else ()
 
     def rows(self) -> Sequence[Row]:
         """Return the two frames, the answer, and the static transforms."""

@@ -26,6 +26,7 @@ from sambot_viz.session.limits import MOST_POSES, require_room
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
+from sambot_viz.session.signals import Signal
 from sambot_viz.session.undo import History
 
 FASTEST = 100.0
@@ -66,13 +67,17 @@ class JointsPanel(Panel):
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (robot.changed,)
-        self.moved_by = (robot.positions, motion.turning)
         self._robot = robot
         self._motion = motion
         self._history = history
         self._arrow = arrow
         self._remake = remake
         self._rate = 1.0
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The positions, and which wheels turn."""
+        return (self._robot.positions, self._motion.turning)
 
     def rows(self) -> Sequence[Row]:
         """Return the joints, in groups if they are many, and the turn rate."""

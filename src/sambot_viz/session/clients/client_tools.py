@@ -22,7 +22,7 @@ from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.picture import ScreenPoint
@@ -86,16 +86,15 @@ class ClientTools:
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
         shapes = [scene.frames, scene.statuses, document.values]
-        drawn = [robot.positions, robot.changed, *shapes]
-        self._disconnect = (
-            connect([document.replaced, document.tools], self._take_document),
-            connect(drawn, self._follow_selection),
-        )
+        self._drawn = (robot.positions, robot.changed, *shapes)
+        self._moving = Listening(self._move_boxes)
+        facts = [document.replaced, document.tools]
+        self._disconnect = connect(facts, self._take_document)
 
     def close(self) -> None:
         """Follow the session no longer: the page was closed."""
-        for disconnect in self._disconnect:
-            disconnect()
+        self._disconnect()
+        self._moving.to()
 
     # The tools
 
@@ -214,6 +213,8 @@ class ClientTools:
                 kept = dict.fromkeys(sorted(items, key=lambda i: (i.kind, i.name)))
             self.selection = kept
             self._draw_boxes()
+            # A step of a joint costs nothing while nothing is selected.
+            self._moving.to(*(self._drawn if kept else ()))
 
     def look_at(self, point: Array) -> None:
         """Turn the camera to a point of the fixed frame, (3,) [m]."""
@@ -335,10 +336,9 @@ class ClientTools:
             self._take_config()
             self._take_settings()
 
-    def _follow_selection(self) -> None:
-        if self.selection:
-            with self._change():
-                self._draw_boxes()
+    def _move_boxes(self) -> None:
+        with self._change():
+            self._draw_boxes()
 
     def _draw_boxes(self) -> None:
         self._boxes.draw(self._picker.boxes_of(self.selection))

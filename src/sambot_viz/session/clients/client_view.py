@@ -23,12 +23,12 @@ from sambot_viz.rviz.class_name import short_name
 from sambot_viz.session.clients.camera import ClientCamera, same_picture
 from sambot_viz.session.clients.robot_framing import RobotFraming, window_of
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.document.document_view import target_of, view_of
+from sambot_viz.session.document.document_view import has_target, target_of, view_of
 from sambot_viz.session.document.saved_views import SavedViews
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Camera, Vector
@@ -107,17 +107,20 @@ class ClientView:
             worker.post(self._moved, latest_of=self)
 
         client.camera.on_update(moved)
+        self._positions = robot.positions
+        self._moving = Listening(self._follow_target)
         self._disconnect = (
-            connect(
-                [robot.positions, robot.changed, scene.frames], self._follow_target
-            ),
+            connect([robot.changed, scene.frames], self._follow_target),
+            connect([scene.frames, self.changed], self._listen),
             connect([robot.changed, scene.statuses], self._frame_robot),
         )
+        self._listen()
 
     def close(self) -> None:
         """Follow the session no longer: the page was closed."""
         for disconnect in self._disconnect:
             disconnect()
+        self._moving.to()
         self._reader.close()
 
     # Asking
@@ -333,6 +336,11 @@ class ClientView:
             self._apply(presenter.values)
             self._target = presenter._target
             self._camera.point(presenter.camera)
+
+    def _listen(self) -> None:
+        """Follow motions only while the camera has a frame to follow."""
+        follows = has_target(self._scene, self.view)
+        self._moving.to(*([self._positions] if follows else []))
 
     def _follow_target(self) -> None:
         """Move the camera with the target frame."""

@@ -67,6 +67,12 @@ def view_of(config: ViewConfig) -> View:
     return OrbitView(ViewConfig(copy, OrbitView.properties, ConfigFindings(None)))
 
 
+def has_target(scene: Scene, view: View) -> bool:
+    """Tell whether a view follows another frame than the fixed one."""
+    name = view.config.get("Target Frame")
+    return name not in (FIXED_FRAME, scene.context.fixed_frame)
+
+
 def target_of(scene: Scene, view: View, last: Target = WORLD) -> Target:
     """Return the target frame of a view in the fixed frame.
 
@@ -75,13 +81,13 @@ def target_of(scene: Scene, view: View, last: Target = WORLD) -> Target:
         view: whose target frame it is.
         last: the answer for a frame that cannot be placed.
     """
-    context, name = scene.context, view.config.get("Target Frame")
-    fixed, tree = context.fixed_frame, context.tree
-    if name in (FIXED_FRAME, fixed):
+    if not has_target(scene, view):
         return WORLD
-    if not tree.can_lookup(fixed, str(name)):
+    fixed, tree = scene.context.fixed_frame, scene.context.tree
+    name = str(view.config.get("Target Frame"))
+    if not tree.can_lookup(fixed, name):
         return last
-    T = tree.lookup(fixed, str(name)).matrix
+    T = tree.lookup(fixed, name).matrix
     return Target(T[:3, 3], math.atan2(T[1, 0], T[0, 0]))
 
 

@@ -19,7 +19,7 @@ from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
-from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.signals import Change, Listening, Signal
 
 ODOM = "odom"
 """The frame that the robot moves in; its origin is on the floor below the start."""
@@ -56,8 +56,7 @@ class Drive:
         self._left = 0.0
         self._drive: DifferentialDrive | None = None
         self._height = 0.0
-        self._moved = False
-        connect([robot.positions], self._tell_pose)
+        self._drawing = Listening(self._tell_pose)
 
     @property
     def v(self) -> float:
@@ -157,7 +156,7 @@ class Drive:
             joints = self._robot.joints
             if self._drive is not None and joints is not None:
                 self._drive.reset()
-                self._moved = True
+                self._drawing.to(self._robot.positions)
                 wheels = self._drive.wheels.left, self._drive.wheels.right
                 start = {name: joints.start(name) for name in wheels}
                 placed = self.root in self._frames.added
@@ -176,7 +175,7 @@ class Drive:
             # The frame odom was removed.
             self.stop()
             return {}, {}
-        self._moved = True
+        self._drawing.to(self._robot.positions)
         step = self._drive.step(self.v, self.w, min(dt, self._left))
         self._left -= dt
         if self._left <= 0:
@@ -204,9 +203,8 @@ class Drive:
             self._frames.add(ODOM, self.root, T, static=False)
 
     def _tell_pose(self) -> None:
-        if self._moved:
-            self._moved = False
-            self.pose_changed.touch()
+        self._drawing.to()
+        self.pose_changed.touch()
 
     def _find(self, robot: Robot) -> WheelPair:
         options = self._options
