@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
     from sambot_viz.frames.static_transform import StaticTransform
-    from sambot_viz.joints.start import StartPose
+    from sambot_viz.joints.presets import StartPose
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
 
@@ -286,7 +286,7 @@ class Options:
     @property
     def start_pose(self) -> StartPose:
         """The pose that `zeros`, `joint_state` and `joint_positions` ask for."""
-        from sambot_viz.joints.start import StartPose
+        from sambot_viz.joints.presets import StartPose
 
         return StartPose(self.zeros, self.recorded, self.joint_positions)
 

@@ -16,9 +16,9 @@ import pytest
 from browser_input import Keyboard, Mouse
 from patience import patience
 
+from sambot_viz.export.browser_process import find_browser
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import BrowserError, Fields
-from sambot_viz.export.find_browser import find_browser
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="uses a shell script")
 

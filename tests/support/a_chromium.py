@@ -7,8 +7,8 @@ from contextlib import contextmanager
 
 import pytest
 
+from sambot_viz.export.browser_process import find_browser, how_to_get_a_browser
 from sambot_viz.export.chromium import Chromium
-from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
 QUICK = (
     # Only the 3D view needs OpenGL; without a graphics card the rest is quicker so.

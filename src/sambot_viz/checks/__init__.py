@@ -7,30 +7,28 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz.checks.ground import wheels_off_the_ground
-from sambot_viz.checks.inertia import (
-    impossible_inertia,
-    inertia_on_root,
-    missing_inertia,
-    zero_mass,
-)
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.mesh_files import (
     MeshFiles,
     meshes_of_wrong_size,
     unusable_meshes,
 )
-from sambot_viz.checks.names import (
-    names_that_differ_in_case,
-    names_with_spaces,
-    unused_macros,
+from sambot_viz.checks.physics import (
+    impossible_inertia,
+    inertia_on_root,
+    missing_inertia,
+    wheels_off_the_ground,
+    zero_mass,
 )
 from sambot_viz.checks.rule import Rule, Subject
-from sambot_viz.checks.values import (
+from sambot_viz.checks.slips import (
     invisible_materials,
     limits_in_degrees,
+    names_that_differ_in_case,
+    names_with_spaces,
     rpy_in_degrees,
     sizes_not_positive,
+    unused_macros,
 )
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.robot.model import Robot

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.commands.command_line import Parser, output_path, parse
-from sambot_viz.commands.posed_frames import start_state
+from sambot_viz.commands.command_line import Parser, output_path, parse, start_state
 from sambot_viz.errors import UsageError
 from sambot_viz.inputs import Inputs
 from sambot_viz.problems import write_problems

@@ -6,8 +6,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.commands.command_line import Parser, parse
-from sambot_viz.commands.posed_frames import posed_frames
+from sambot_viz.commands.command_line import Parser, parse, posed_frames
 from sambot_viz.errors import UsageError
 from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg

@@ -140,7 +140,7 @@ def _refuse_early(inputs: Inputs) -> None:
 
 def _report_start(inputs: Inputs) -> None:
     """Write what is wrong with the model, the config and the start pose."""
-    from sambot_viz.commands.posed_frames import start_state
+    from sambot_viz.commands.command_line import start_state
 
     options = inputs.options
     write_problems(inputs.problems(), model=options.model)

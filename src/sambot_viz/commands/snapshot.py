@@ -12,8 +12,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz.commands.command_line import Parser, output_path, parse, warn
-from sambot_viz.commands.posed_frames import start_state
+from sambot_viz.commands.command_line import (
+    Parser,
+    output_path,
+    parse,
+    start_state,
+    warn,
+)
 from sambot_viz.errors import UsageError
 from sambot_viz.files import write_atomically
 from sambot_viz.inputs import Inputs

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.scene.node_cache import NodeCache
+from sambot_viz.displays.scene.nodes import NodeCache
 from sambot_viz.displays.scene.solids import add_axes, axes_triangles
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.rviz import (

@@ -3,32 +3,113 @@
 A display lists its properties once (`properties`); reading, saving, the rows of the
 panel, clamping and live change all come from that list. Its values live
 in the `DisplayConfig` of the document, so what is on the screen is what a save writes.
+A robot has hundreds of links, joints and frames with properties of their own, so the
+panel offers a list to choose from (`EntryList`) and shows the chosen one's rows only.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import viser
 
-from sambot_viz.displays.entries import EntryList
 from sambot_viz.displays.picking.pick_geometry import (
     Corners,
     PickGeometry,
     Selectable,
 )
 from sambot_viz.displays.robot_display import ModelReader, RobotDisplay
-from sambot_viz.displays.scene.frame_nodes import FrameNodes
+from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
-from sambot_viz.displays.status import StatusList
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
-from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, Property
+from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, EntryItem, Property
+
+Level = Literal["Ok", "Warn", "Error"]
+_ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """One row of a status: a level and a sentence."""
+
+    level: Level
+    text: str
+
+
+class StatusList:
+    """The rows of one display in order of first use.
+
+    `version` grows with every change, so that a panel knows when to write again.
+    """
+
+    def __init__(self) -> None:
+        self._rows: dict[str, Status] = {}
+        self.version = 0
+
+    @property
+    def rows(self) -> dict[str, Status]:
+        """Key → status; a copy."""
+        return dict(self._rows)
+
+    @property
+    def level(self) -> Level:
+        """The worst level of all rows; Ok without rows."""
+        worst: Level = "Ok"
+        for row in self._rows.values():
+            if _ORDER[row.level] > _ORDER[worst]:
+                worst = row.level
+        return worst
+
+    def set(self, key: str, level: Level, text: str) -> None:
+        """Set one row."""
+        status = Status(level, text)
+        if self._rows.get(key) != status:
+            self._rows[key] = status
+            self.version += 1
+
+    def replace(self, rows: dict[str, Status]) -> None:
+        """Set all rows at once."""
+        if self._rows != rows:
+            self._rows = dict(rows)
+            self.version += 1
+
+    def clear(self) -> None:
+        """Remove all rows, as RViz's reset does."""
+        self.replace({})
+
+
+@dataclass(frozen=True, slots=True)
+class EntryList:
+    """One kind of things, such as the links of a RobotModel.
+
+    Attributes:
+        title: RViz's name for all of them: "Links", "Joints", "Frames".
+        singular: what one of them is called.
+        names: those there are.
+        item: name → its item of the document, with its properties.
+        set: (name, property, value) → the value it has now; others may follow.
+        facts: name → what is only shown, such as "Position" → "1; 2; 3".
+        rows: name → the properties that have a row, when not all of them do.
+    """
+
+    title: str
+    singular: str
+    names: Sequence[str]
+    item: Callable[[str], EntryItem]
+    set: Callable[[str, str, Any], Any]
+    facts: Callable[[str], Mapping[str, str]]
+    rows: Callable[[str], Sequence[str]] | None = None
+
+
+def numbers(values: Sequence[float]) -> str:
+    """Return several numbers as RViz shows a vector: five digits each."""
+    return "; ".join(f"{float(value) + 0.0:.5g}" for value in values)
 
 
 @dataclass

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.display import Display, DisplayContext
+from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
-from sambot_viz.displays.scene.node_cache import Handle, NodeCache
+from sambot_viz.displays.scene.nodes import Handle, NodeCache
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.displays.status import Status
 from sambot_viz.geometry import Matrix, Vector3, Wxyz
 from sambot_viz.rviz import (
     FIXED_FRAME,

@@ -1,13 +1,68 @@
-"""All displays this program knows: a new one is a new file and a line here."""
+"""All displays this program knows: a new one is a new file and a line here.
+
+Those of RViz that it does not show draw what a running robot sends.
+"""
 
 from __future__ import annotations
 
 from sambot_viz.displays.axes import AxesDisplay
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.grid import GridDisplay
-from sambot_viz.displays.group import GroupDisplay
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.displays.tf.tf import TfDisplay
+
+
+class GroupDisplay(Display):
+    """Displays that are switched on and off together."""
+
+    kind = "rviz_common/Group"
+    help = "A group of displays."
+    properties = ()
+
+    def draw(self) -> None:
+        """A group has no picture of its own."""
+
+    def clear(self) -> None:
+        """A group has no picture of its own."""
+
+
+REASON = "needs the data of a running robot, which this version does not receive"
+
+NOT_SHOWN: dict[str, str] = {
+    f"rviz_default_plugins/{name}": sentence
+    for name, sentence in {
+        "AccelStamped": "An acceleration as arrows.",
+        "Camera": "The picture of a camera with the scene over it.",
+        "CameraInfo": "What a camera sees, as a pyramid.",
+        "DepthCloud": "The points of a depth image.",
+        "Effort": "The efforts of the joints as arrows about their axes.",
+        "FluidPressure": "Pressures as coloured points.",
+        "GridCells": "Cells of a grid, such as obstacles.",
+        "Illuminance": "Brightnesses as coloured points.",
+        "Image": "The picture of a camera in a window.",
+        "InteractiveMarkers": "Markers that can be clicked and dragged.",
+        "LaserScan": "The points that a laser scanner meets.",
+        "Map": "An occupancy grid, such as a map or a costmap.",
+        "Marker": "Shapes and texts that a program draws.",
+        "MarkerArray": "Many shapes and texts that a program draws.",
+        "Odometry": "Where a robot was and is, as arrows or axes.",
+        "Path": "The line along which a robot is to drive.",
+        "PointCloud": "Points, in the older kind of message.",
+        "PointCloud2": "Points, such as those of a 3D scanner.",
+        "PointStamped": "A single point.",
+        "Polygon": "The outline of a polygon, such as a footprint.",
+        "Pose": "A pose as an arrow or as axes.",
+        "PoseArray": "Many poses, such as the guesses of a localisation.",
+        "PoseWithCovariance": "A pose with how uncertain it is.",
+        "Range": "What an ultrasonic or infrared sensor measures, as a cone.",
+        "RelativeHumidity": "Humidities as coloured points.",
+        "Temperature": "Temperatures as coloured points.",
+        "TwistStamped": "A velocity as arrows.",
+        "Wrench": "A force and a torque as arrows.",
+    }.items()
+}
+"""ROS 2 class id → what RViz shows with it."""
+
 
 DISPLAYS: dict[str, type[Display]] = {
     display.kind: display

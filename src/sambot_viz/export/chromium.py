@@ -16,13 +16,13 @@ from pathlib import Path
 from types import TracebackType
 
 from sambot_viz.export.browser_page import BrowserPage
-from sambot_viz.export.browser_process import BrowserProcess
-from sambot_viz.export.devtools import BrowserError, DevTools
-from sambot_viz.export.find_browser import (
+from sambot_viz.export.browser_process import (
     ENVIRONMENT_VARIABLE,
+    BrowserProcess,
     find_browser,
     how_to_get_a_browser,
 )
+from sambot_viz.export.devtools import BrowserError, DevTools
 
 _FLAGS = (
     "--headless=new",

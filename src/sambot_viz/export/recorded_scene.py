@@ -13,7 +13,7 @@ from sambot_viz.displays.robot_display import (
     ModelRequest,
     ModelResult,
 )
-from sambot_viz.displays.scene.ribbons import PathLine
+from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.export.tracks import Tracks
 from sambot_viz.joints import JointState
 from sambot_viz.server.server import prepare_scene

@@ -1,9 +1,13 @@
-"""Named poses of a robot, kept in one small yaml file beside it."""
+"""Poses of a robot: the one it begins with, and named ones in a yaml file beside it.
+
+It begins with start values, a recorded joint state and single joints.
+"""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import cast
 
@@ -12,7 +16,9 @@ import yaml
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.files import write_atomically
 from sambot_viz.geometry import finite
+from sambot_viz.joints.state import JointState
 from sambot_viz.joints.values import first_document
+from sambot_viz.robot.model import Robot
 
 LARGEST = 1_000_000
 """A larger file of poses is not read [bytes]."""
@@ -119,3 +125,42 @@ def _write(path: Path, poses: dict[str, Pose]) -> None:
         write_atomically(path, text.encode("utf-8"))
     except OSError as error:
         raise JointError(f"cannot save the poses in {path}: {error}") from error
+
+
+@dataclass(frozen=True, slots=True)
+class StartPose:
+    """The pose that ``--zeros``, ``--joint-state`` and ``--joint`` give, in this order.
+
+    Attributes:
+        zeros: joint → start value [rad or m], which Center goes back to.
+        recorded: joint → position of a recorded message. As joint_state_publisher
+            does, joints that are not there are passed over.
+        positions: joint → position; every one must be there and able to move.
+
+    Real messages contain the joints that mimic others too. These follow what they
+    mimic; a position that disagrees with that is a warning.
+    """
+
+    zeros: Mapping[str, float] = field(default_factory=dict[str, float])
+    recorded: Mapping[str, float] = field(default_factory=dict[str, float])
+    positions: Mapping[str, float] = field(default_factory=dict[str, float])
+
+    def state(self, robot: Robot) -> JointState:
+        """Make the joint state of a robot in this pose.
+
+        Raises:
+            JointError: `zeros` or `positions` name a joint that is not there or
+                cannot be set.
+        """
+        state = JointState(robot, zeros=self.zeros)
+        state.set_all({n: v for n, v in self.recorded.items() if n in state.free})
+        following = {n: v for n, v in self.positions.items() if n in state.followers}
+        state.set_all({n: v for n, v in self.positions.items() if n not in following})
+        recorded = {n: v for n, v in self.recorded.items() if n in state.followers}
+        state.compare_followers(recorded | following)
+        return state
+
+    def passed_over(self, state: JointState) -> tuple[str, ...]:
+        """Return the names of the recorded message that the robot does not know."""
+        known = {*state.joints, *state.skipped}
+        return tuple(name for name in self.recorded if name not in known)

@@ -14,7 +14,7 @@ from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Data, Json, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
-from sambot_viz.rviz.class_name import row_text
+from sambot_viz.rviz.declarations import row_text
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument

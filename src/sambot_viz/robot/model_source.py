@@ -10,8 +10,7 @@ from pathlib import Path
 
 from sambot_viz.errors import Problem, RobotError, did_you_mean
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
-from sambot_viz.robot.xml.element import Element
-from sambot_viz.robot.xml.parse import parse_xml
+from sambot_viz.robot.xml.element import Element, parse_xml
 
 PathLike = str | os.PathLike[str]
 

@@ -19,10 +19,13 @@ from sambot_viz.rviz.class_items import (
     ToolConfig,
     ViewConfig,
 )
-from sambot_viz.rviz.declarations import GLOBAL_OPTIONS, Declarations
-from sambot_viz.rviz.declared import Declared, UnknownPropertyError
-from sambot_viz.rviz.entry_item import EntryItem
-from sambot_viz.rviz.item import ConfigItem
+from sambot_viz.rviz.declarations import (
+    GLOBAL_OPTIONS,
+    Declarations,
+    Declared,
+    UnknownPropertyError,
+)
+from sambot_viz.rviz.item import ConfigItem, EntryItem
 from sambot_viz.rviz.properties.kinds import (
     FILTER_SIZE,
     FIXED_FRAME,

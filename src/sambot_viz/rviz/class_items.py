@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from sambot_viz.rviz.class_name import NO_CLASS, is_ros1, kind_of
-from sambot_viz.rviz.entry_item import EntryItem
-from sambot_viz.rviz.item import ConfigItem
+from sambot_viz.rviz.declarations import NO_CLASS, is_ros1, kind_of
+from sambot_viz.rviz.item import ConfigItem, EntryItem
 from sambot_viz.rviz.properties.kinds import checked_text, read_bool
 from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.yaml.document import ConfigFindings

@@ -7,8 +7,7 @@ from collections.abc import Iterable
 
 from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import GlobalOptions, ToolConfig
-from sambot_viz.rviz.class_name import kind_of, short_name
-from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.declarations import Declarations, kind_of, short_name
 from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.view_list import ViewList

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_items import ViewConfig, new_map
-from sambot_viz.rviz.class_name import (
+from sambot_viz.rviz.declarations import (
     is_ros1,
     kind_of,
     row_text,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.rviz.class_name import is_ros1
-from sambot_viz.rviz.declarations import Declarations
+from sambot_viz.rviz.declarations import Declarations, is_ros1
 from sambot_viz.rviz.yaml.document import ConfigFindings, Document
 from sambot_viz.rviz.yaml.nodes import Map, items_of
 

@@ -11,8 +11,7 @@ import pytest
 
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.frames.export.drawing import tree_dot, tree_json, tree_json_text
-from sambot_viz.frames.export.svg import tree_svg
-from sambot_viz.frames.export.tree_layout import tidy_tree
+from sambot_viz.frames.export.svg import tidy_tree, tree_svg
 from sambot_viz.frames.robot_frames import robot_frames
 from sambot_viz.robot.model import Robot
 

@@ -7,7 +7,7 @@ import pytest
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.decode import XmlFault, decode
 from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
-from sambot_viz.robot.xml.parse import parse_xml
+from sambot_viz.robot.xml.element import parse_xml
 
 
 def explained(text: str | bytes) -> list[Problem]:

@@ -2,7 +2,7 @@ import pytest
 
 from sambot_viz.errors import Place
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
-from sambot_viz.robot.xml.parse import parse_xml
+from sambot_viz.robot.xml.element import parse_xml
 
 
 def test_every_element_has_its_line_and_column():

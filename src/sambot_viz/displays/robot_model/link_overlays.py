@@ -17,9 +17,8 @@ import viser
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
-from sambot_viz.displays.scene.node_cache import Handle, any_gone, remove_all
-from sambot_viz.displays.scene.poses import position_of
-from sambot_viz.displays.scene.ribbons import Ribbon
+from sambot_viz.displays.scene.lines import Ribbon
+from sambot_viz.displays.scene.nodes import Handle, any_gone, position_of, remove_all
 from sambot_viz.displays.scene.solids import (
     Arrow,
     add_arrows,

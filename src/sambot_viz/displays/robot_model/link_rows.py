@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.entries import EntryList, numbers
+from sambot_viz.displays.display import DisplayContext, EntryList, numbers
 from sambot_viz.displays.robot_model.link_overlays import WITH_AXIS
 from sambot_viz.displays.robot_model.robot_entries import RobotEntries
-from sambot_viz.displays.scene.poses import position_of
+from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link

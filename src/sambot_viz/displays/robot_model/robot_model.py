@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Literal
 
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
@@ -26,7 +25,6 @@ from sambot_viz.displays.robot_model.robot_source import (
 )
 from sambot_viz.displays.robot_model.shape_nodes import ShapeNode
 from sambot_viz.displays.robot_model.shape_solids import ShapeLook
-from sambot_viz.displays.status import Status
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot, asset_of

@@ -11,14 +11,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
-from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.display import DisplayContext, Status
 from sambot_viz.displays.robot_display import ModelRequest, ModelResult
 from sambot_viz.displays.robot_model.description_file import (
     find_below,
     find_description,
     opened_folders,
 )
-from sambot_viz.displays.status import Status
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import FrameTree, Transform
 from sambot_viz.robot.kinematics import Kinematics

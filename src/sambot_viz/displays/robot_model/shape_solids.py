@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.node_cache import Handle
+from sambot_viz.displays.scene.nodes import Handle
 from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
 from sambot_viz.displays.triangle_display import Triangles
 from sambot_viz.geometry import Matrix, Rgba, Vector3

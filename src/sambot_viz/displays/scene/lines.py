@@ -1,15 +1,15 @@
-"""Hairlines with an alpha, which viser's own lines do not have.
-
-A GLB with the primitive mode LINES becomes GL lines in the page: 1 pixel wide,
-unlit, blended, without depth writes, as RViz draws its grid.
-"""
+"""Lines in the scene: segments, and lines with a width that grow at their ends."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
+import viser
 
-from sambot_viz.displays.scene.solids import OPAQUE_FROM, linear
+from sambot_viz.displays.scene.nodes import any_gone, remove_all
+from sambot_viz.displays.scene.solids import OPAQUE_FROM, Rgb, linear
 from sambot_viz.meshes.glb import glb_file
 
 _FLOAT, _LINES = 5126, 1
@@ -90,3 +90,111 @@ def lines_glb(
         ],
     }
     return glb_file(document, points.tobytes())
+
+
+COLOR = (255, 170, 0)
+WIDTH = 0.012
+HEIGHT = 0.004
+"""Height above the floor, so that the grid does not hide the line [m]."""
+PIECE = 200
+"""Points of one node: only the newest node is sent again."""
+
+
+class Ribbon:
+    """One line through points.
+
+    Args:
+        scene: where to draw.
+        name: of its node.
+        color: 0 to 255.
+        width: [m].
+    """
+
+    def __init__(
+        self, scene: viser.SceneApi, name: str, color: Rgb, width: float
+    ) -> None:
+        self._scene = scene
+        self._name = name
+        self._color, self._width = color, width
+        self._node: viser.LineSegmentsHandle | None = None
+        self._visible = True
+
+    @property
+    def gone(self) -> bool:
+        """Return whether its node went with the frame that it hung below."""
+        return self._node is not None and any_gone([self._node])
+
+    def draw(self, points: npt.NDArray[np.float32]) -> None:
+        """Send the line through some points, (N, 3) with N ≥ 2 [m]."""
+        segments = np.stack([points[:-1], points[1:]], axis=1)
+        if self._node is not None:
+            self._node.points = segments
+            return
+        self._node = self._scene.add_line_segments(
+            self._name, segments, colors=self._color, thickness=self._width
+        )
+        self._node.visible = self._visible
+
+    def show(self, visible: bool) -> None:
+        """Show or hide it."""
+        self._visible = visible
+        if self._node is not None:
+            self._node.visible = visible
+
+    def remove(self) -> None:
+        """Take it out of the scene."""
+        if self._node is not None:
+            remove_all([self._node])
+            self._node = None
+
+
+class PathLine:
+    """Draws a growing list of points on the floor.
+
+    Args:
+        scene: where to draw.
+    """
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        self._scene = scene
+        self._pieces: list[Ribbon] = []
+        self._drawn = 1
+
+    def draw(self, above: str | None, points: Sequence[tuple[float, float]]) -> bool:
+        """Draw what is new; a list that became shorter is drawn from the start.
+
+        Args:
+            above: the node of the frame that the points are in; None draws nothing.
+            points: x, y [m].
+
+        Returns:
+            Whether something was sent.
+        """
+        forgotten = False
+        if any(piece.gone for piece in self._pieces) or len(points) < self._drawn:
+            self.remove()
+            forgotten = True
+        if above is None or len(points) == self._drawn:
+            return forgotten
+        first = (self._drawn - 1) // PIECE
+        for number in range(first, (len(points) - 2) // PIECE + 1):
+            start = number * PIECE
+            piece = np.array(points[start : start + PIECE + 1], np.float32)
+            self._draw_piece(f"{above}/~drive{number}", number, piece)
+        self._drawn = len(points)
+        return True
+
+    def remove(self) -> None:
+        """Remove the line from the scene."""
+        for piece in self._pieces:
+            piece.remove()
+        self._pieces.clear()
+        self._drawn = 1
+
+    def _draw_piece(
+        self, name: str, number: int, piece: npt.NDArray[np.float32]
+    ) -> None:
+        if number == len(self._pieces):
+            self._pieces.append(Ribbon(self._scene, name, COLOR, WIDTH))
+        height = np.full(len(piece), HEIGHT, np.float32)
+        self._pieces[number].draw(np.column_stack([piece, height]))

@@ -9,16 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.displays.scene.node_cache import (
+from sambot_viz.displays.scene.nodes import (
     Handle,
     NodeCache,
     any_gone,
+    position_of,
     remove_all,
 )
-from sambot_viz.displays.scene.poses import position_of
 from sambot_viz.displays.scene.solids import (
     Arrow,
     add_arrows,
@@ -26,9 +25,12 @@ from sambot_viz.displays.scene.solids import (
     arrow_triangles,
     axes_triangles,
 )
-from sambot_viz.displays.status import Status
-from sambot_viz.displays.tf.frame_rows import FrameEntries, frame_list
-from sambot_viz.displays.tf.properties import ALL_ENABLED, TF_PROPERTIES
+from sambot_viz.displays.tf.frame_rows import (
+    ALL_ENABLED,
+    TF_PROPERTIES,
+    FrameEntries,
+    frame_list,
+)
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.geometry import Vector3
 from sambot_viz.rviz import (

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
-from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.registry import DISPLAYS, NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json
 from sambot_viz.rviz import DisplayConfig
-from sambot_viz.rviz.class_name import row_text
+from sambot_viz.rviz.declarations import row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
 
 TYPES: list[Json] = [

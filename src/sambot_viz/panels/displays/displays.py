@@ -7,9 +7,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from sambot_viz.displays.display import Display
-from sambot_viz.displays.entries import EntryList
-from sambot_viz.displays.not_shown import NOT_SHOWN, REASON
+from sambot_viz.displays.display import Display, EntryList
+from sambot_viz.displays.registry import NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.ids import Ids
@@ -19,7 +18,7 @@ from sambot_viz.panels.row import Json, Row
 from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_rows
 from sambot_viz.panels.unfolded import LazyRows, keep_expanded, mark_expanded
 from sambot_viz.rviz import DisplayConfig
-from sambot_viz.rviz.class_name import GROUP, row_text
+from sambot_viz.rviz.declarations import GROUP, row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.problems import Problems

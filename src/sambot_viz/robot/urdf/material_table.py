@@ -9,8 +9,8 @@ from pathlib import Path
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Rgba
 from sambot_viz.robot.parts import Material
+from sambot_viz.robot.urdf.attributes import BadNumber, read_numbers
 from sambot_viz.robot.urdf.findings import UrdfFindings
-from sambot_viz.robot.urdf.numbers import BadNumber, read_numbers
 from sambot_viz.robot.xml.element import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)

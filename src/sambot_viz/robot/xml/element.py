@@ -1,11 +1,163 @@
-"""An element of an XML document, with the place where the user wrote it."""
+"""An XML document as elements, each with the place where the user wrote it.
+
+The reader is expat with places. Names keep their prefix as text (``xacro:macro``),
+because neither xacro nor urdfdom looks at namespaces.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from xml.parsers import expat
 
 from sambot_viz.errors import Place
+from sambot_viz.robot.xml.decode import XmlFault
+
+_ATTRIBUTE = re.compile(rb"""\s([^\s=<>"'/]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+_EXTERNAL = "external entities and external document types are not read"
+_AMPLIFIED = "limit on input amplification by entities"
+_DEEPEST = 10_000
+_MOST_ELEMENTS = 2_000_000
+"""About 1 GB of memory; 200,000 links with joints are 1.2 million elements."""
+_MOST_CHARACTERS = 64_000_000
+"""Limit for values and texts of a document that defines entities of its own."""
+
+
+def parse_xml(text: str, file: str, *, most_elements: int = _MOST_ELEMENTS) -> Element:
+    """Read a document strictly.
+
+    Args:
+        text: the document; an encoding that it declares is ignored.
+        file: the name for places, as the user wrote it.
+        most_elements: a document with more is refused.
+
+    Raises:
+        XmlFault: it is not well-formed, it refers to something outside itself, or it
+            is far larger or deeper than any robot.
+    """
+    return _TreeBuilder(text, file, most_elements).build()
+
+
+class _TreeBuilder:
+    def __init__(self, text: str, file: str, most_elements: int) -> None:
+        self._text = text
+        self._data = text.encode("utf-8", "surrogatepass")
+        self._file = file
+        self._stack: list[Element] = []
+        self._pieces: list[list[str]] = []
+        self._root: Element | None = None
+        self._elements_left = most_elements
+        self._has_entities = False
+        self._characters_left = _MOST_CHARACTERS
+        parser = expat.ParserCreate("utf-8")
+        parser.buffer_text = True
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._characters
+        parser.StartDoctypeDeclHandler = self._doctype
+        parser.EntityDeclHandler = self._entity
+        self._parser = parser
+
+    def build(self) -> Element:
+        try:
+            self._parser.Parse(self._data, True)
+        except expat.ExpatError as error:
+            raise XmlFault(
+                expat.ErrorString(error.code) or str(error),
+                error.lineno,
+                error.offset + 1,
+                self._text,
+                error.code,
+            ) from None
+        if self._root is None:
+            raise self._fault("no element found")
+        return self._root
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        line = self._parser.CurrentLineNumber
+        place = Place(self._file, line, self._parser.CurrentColumnNumber + 1)
+        element = Element(tag, attributes, place)
+        self._look_inside_tag(element, line)
+        self._check_limits(attributes)
+        if self._stack:
+            element.parent = self._stack[-1]
+            self._stack[-1].children.append(element)
+        else:
+            self._root = element
+        self._stack.append(element)
+        self._pieces.append([])
+
+    def _look_inside_tag(self, element: Element, line: int) -> None:
+        start = self._parser.CurrentByteIndex
+        end = self._data.find(b">", start)
+        tag = self._data[start:end]
+        if b"\n" not in tag and b"\t" not in tag:
+            return
+        lines: dict[str, int] = {}
+        odd: set[str] = set()
+        counted = 0
+        for match in _ATTRIBUTE.finditer(tag):
+            name = match[1].decode("utf-8", "replace")
+            line += tag.count(b"\n", counted, match.start(1))
+            counted = match.start(1)
+            lines[name] = line
+            value = match[2] if match[2] is not None else match[3]
+            if any(blank in value for blank in (b"\n", b"\t", b"\r")):
+                odd.add(name)
+        element.attribute_lines = lines
+        element.odd_blanks = frozenset(odd)
+
+    def _check_limits(self, attributes: dict[str, str]) -> None:
+        self._elements_left -= 1
+        if self._elements_left < 0:
+            raise self._fault("too many elements")
+        if len(self._stack) > _DEEPEST:
+            raise self._fault("nested too deeply")
+        if self._has_entities:
+            self._spend(sum(len(value) for value in attributes.values()))
+
+    def _spend(self, characters: int) -> None:
+        self._characters_left -= characters
+        if self._characters_left < 0:
+            raise self._fault(_AMPLIFIED)
+
+    def _end(self, _tag: str) -> None:
+        element = self._stack.pop()
+        element.text = "".join(self._pieces.pop())
+
+    def _characters(self, data: str) -> None:
+        self._pieces[-1].append(data)
+        if self._has_entities:
+            self._spend(len(data))
+
+    def _doctype(
+        self, _name: str, system: str | None, public: str | None, _internal: bool
+    ) -> None:
+        if system is not None or public is not None:
+            raise self._fault(_EXTERNAL)
+
+    def _entity(
+        self,
+        _name: str,
+        _is_parameter: bool,
+        value: str | None,
+        _base: str | None,
+        _system: str | None,
+        _public: str | None,
+        _notation: str | None,
+    ) -> None:
+        if value is None:
+            raise self._fault(_EXTERNAL)
+        self._has_entities = True
+
+    def _fault(self, message: str) -> XmlFault:
+        return XmlFault(
+            message,
+            self._parser.CurrentLineNumber,
+            self._parser.CurrentColumnNumber + 1,
+            self._text,
+        )
 
 
 @dataclass(slots=True, eq=False)

@@ -19,7 +19,7 @@ import viser
 from sambot_viz.displays.picking.pick_geometry import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
-from sambot_viz.rviz.class_name import short_name
+from sambot_viz.rviz.declarations import short_name
 from sambot_viz.session.clients.camera import ClientCamera, same_picture
 from sambot_viz.session.clients.robot_framing import RobotFraming, window_of
 from sambot_viz.session.document.document import ShownDocument

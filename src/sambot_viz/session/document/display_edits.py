@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
-from sambot_viz.displays.display import Display
-from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.display import Display, EntryList
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import (
     ColorProperty,
@@ -23,7 +22,7 @@ from sambot_viz.rviz import (
     TopicProperty,
     VectorProperty,
 )
-from sambot_viz.rviz.class_name import short_name
+from sambot_viz.rviz.declarations import short_name
 from sambot_viz.rviz.display_list import Removed
 from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.session.document.document import ShownDocument

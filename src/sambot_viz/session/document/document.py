@@ -8,7 +8,7 @@ from typing import Any
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import FileProperty, RvizConfig
-from sambot_viz.rviz.class_name import short_name
+from sambot_viz.rviz.declarations import short_name
 from sambot_viz.session.scene.scene import Scene, walk
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.undo import History

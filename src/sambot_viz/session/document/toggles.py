@@ -12,8 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from sambot_viz.displays.display import Display
-from sambot_viz.displays.entries import EntryList
+from sambot_viz.displays.display import Display, EntryList
 from sambot_viz.rviz import BoolProperty, DisplayConfig
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument

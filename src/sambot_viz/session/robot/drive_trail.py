@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.displays.scene.ribbons import PathLine
+from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene

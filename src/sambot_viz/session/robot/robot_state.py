@@ -11,7 +11,7 @@ from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
-from sambot_viz.joints.start import StartPose
+from sambot_viz.joints.presets import StartPose
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.robot.motion_recorder import MotionRecorder
 from sambot_viz.session.robot.user_frames import UserFrames

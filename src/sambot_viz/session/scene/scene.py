@@ -7,12 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from sambot_viz.displays.display import Display, DisplayContext, robot_displays
+from sambot_viz.displays.display import Display, DisplayContext, Status, robot_displays
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_display import ModelReader
-from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
+from sambot_viz.displays.scene.nodes import FrameNodes, short_id
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
-from sambot_viz.displays.status import Status
 from sambot_viz.frames import FrameTree
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from sambot_viz.errors import JointError
-from sambot_viz.joints.start import StartPose
+from sambot_viz.joints.presets import StartPose
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Mimic
 

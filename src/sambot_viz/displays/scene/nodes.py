@@ -1,19 +1,19 @@
-"""Frames are the scene tree: one viser frame node per TF frame, under its parent's.
+"""Nodes of viser: one for each TF frame, below its parent's, and others below these.
 
-Everything drawn at a frame is a child of its node, so a joint that moves is
-one message, whatever the size of the robot. The node of a root frame carries the fixed
-frame: its pose is T_fixed_root.
+Frames are the scene tree: everything drawn at a frame is a child of its node, so a
+joint that moves is one message, whatever the size of the robot. The node of a root
+frame carries the fixed frame: its pose is T_fixed_root.
 """
 
 from __future__ import annotations
 
 import string
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import viser
 
-from sambot_viz.displays.scene.poses import position_of
+from sambot_viz import viser_private
 from sambot_viz.frames import FrameTree
 from sambot_viz.geometry import (
     Matrix,
@@ -121,3 +121,71 @@ class FrameNodes:
             children = list(tree.children(frame))
             pending.extend((c, paths[frame], root) for c in reversed(children))
         return paths
+
+
+FARTHEST = 1e30
+"""Browsers compute with 32 bits: what is farther away [m] would be infinite there."""
+
+
+def position_of(T: Matrix) -> Vector3:
+    """Return the translation of a (4, 4) matrix [m], always finite.
+
+    viser keeps what it is given for every browser that comes later, so this is the
+    last place where an absurd number can be stopped.
+    """
+    return (_shown(T[0, 3]), _shown(T[1, 3]), _shown(T[2, 3]))
+
+
+def _shown(metres: float) -> float:
+    """Return a finite coordinate; NaN (of two infinities) becomes 0."""
+    # A comparison with NaN is never true.
+    return (
+        float(metres)
+        if -FARTHEST < metres < FARTHEST
+        else FARTHEST
+        if metres > 0
+        else -FARTHEST
+        if metres < 0
+        else 0.0
+    )
+
+
+Handle = viser.SceneNodeHandle
+
+
+class NodeCache:
+    """A few nodes, and what they were made from."""
+
+    def __init__(self) -> None:
+        self._state: object = None
+        self.handles: tuple[Handle, ...] = ()
+
+    def show(self, state: object, make: Callable[[], Iterable[Handle]]) -> None:
+        """Make the nodes, unless they were made from the same state and still exist.
+
+        Args:
+            state: everything that `make` depends on, the nodes' names included.
+            make: adds the nodes to the scene.
+        """
+        if state == self._state and not any_gone(self.handles):
+            return
+        self.remove()
+        self.handles = tuple(make())
+        self._state = state
+
+    def remove(self) -> None:
+        """Take the nodes out of the scene."""
+        remove_all(self.handles)
+        self._state, self.handles = None, ()
+
+
+def remove_all(handles: Iterable[Handle]) -> None:
+    """Take nodes out of the scene, also when their parent is already gone."""
+    for handle in handles:
+        if not viser_private.is_removed(handle):
+            handle.remove()
+
+
+def any_gone(handles: Iterable[Handle]) -> bool:
+    """Return whether some of the nodes were removed together with a node above them."""
+    return any(viser_private.is_removed(handle) for handle in handles)

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from sambot_viz.commands.echo import echo_json, format_echo
 from sambot_viz.frames import FrameTree, Transform
-from sambot_viz.frames.export.echo_text import echo_json, format_echo
 
 LASER = """\
 At time 0.0

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.errors import ServerError
+from sambot_viz.export.browser_process import find_browser, how_to_get_a_browser
 from sambot_viz.export.devtools import BrowserError
-from sambot_viz.export.find_browser import find_browser, how_to_get_a_browser
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="uses a shell script")
 
