@@ -13,70 +13,35 @@ typed values by path; the classes of `properties` declare what values there are:
 
 from __future__ import annotations
 
-from sambot_viz.rviz.class_items import (
-    DisplayConfig,
-    GlobalOptions,
-    ToolConfig,
-    ViewConfig,
+from sambot_viz.rviz.class_items import DisplayConfig as DisplayConfig
+from sambot_viz.rviz.class_items import GlobalOptions as GlobalOptions
+from sambot_viz.rviz.class_items import ToolConfig as ToolConfig
+from sambot_viz.rviz.class_items import ViewConfig as ViewConfig
+from sambot_viz.rviz.declarations import GLOBAL_OPTIONS as GLOBAL_OPTIONS
+from sambot_viz.rviz.declarations import Declarations as Declarations
+from sambot_viz.rviz.declarations import Declared as Declared
+from sambot_viz.rviz.declarations import UnknownPropertyError as UnknownPropertyError
+from sambot_viz.rviz.item import ConfigItem as ConfigItem
+from sambot_viz.rviz.item import EntryItem as EntryItem
+from sambot_viz.rviz.properties.color import ColorProperty as ColorProperty
+from sambot_viz.rviz.properties.numbers import BoolProperty as BoolProperty
+from sambot_viz.rviz.properties.numbers import FloatProperty as FloatProperty
+from sambot_viz.rviz.properties.numbers import IntProperty as IntProperty
+from sambot_viz.rviz.properties.property import GroupProperty as GroupProperty
+from sambot_viz.rviz.properties.property import KeptProperty as KeptProperty
+from sambot_viz.rviz.properties.property import Property as Property
+from sambot_viz.rviz.properties.property import PropertyError as PropertyError
+from sambot_viz.rviz.properties.texts import FILTER_SIZE as FILTER_SIZE
+from sambot_viz.rviz.properties.texts import FIXED_FRAME as FIXED_FRAME
+from sambot_viz.rviz.properties.texts import QOS_PROPERTIES as QOS_PROPERTIES
+from sambot_viz.rviz.properties.texts import (
+    EditableEnumProperty as EditableEnumProperty,
 )
-from sambot_viz.rviz.declarations import (
-    GLOBAL_OPTIONS,
-    Declarations,
-    Declared,
-    UnknownPropertyError,
-)
-from sambot_viz.rviz.item import ConfigItem, EntryItem
-from sambot_viz.rviz.properties.kinds import (
-    FILTER_SIZE,
-    FIXED_FRAME,
-    QOS_PROPERTIES,
-    BoolProperty,
-    ColorProperty,
-    EditableEnumProperty,
-    EnumProperty,
-    FileProperty,
-    FloatProperty,
-    GroupProperty,
-    IntProperty,
-    KeptProperty,
-    RegexProperty,
-    StringProperty,
-    TfFrameProperty,
-    TopicProperty,
-    VectorProperty,
-)
-from sambot_viz.rviz.properties.property import Property, PropertyError
-from sambot_viz.rviz.rviz_config import RvizConfig
-
-__all__ = [
-    "FILTER_SIZE",
-    "FIXED_FRAME",
-    "GLOBAL_OPTIONS",
-    "QOS_PROPERTIES",
-    "BoolProperty",
-    "ColorProperty",
-    "ConfigItem",
-    "Declarations",
-    "Declared",
-    "DisplayConfig",
-    "EditableEnumProperty",
-    "EntryItem",
-    "EnumProperty",
-    "FileProperty",
-    "FloatProperty",
-    "GlobalOptions",
-    "GroupProperty",
-    "IntProperty",
-    "KeptProperty",
-    "Property",
-    "PropertyError",
-    "RegexProperty",
-    "RvizConfig",
-    "StringProperty",
-    "TfFrameProperty",
-    "ToolConfig",
-    "TopicProperty",
-    "UnknownPropertyError",
-    "VectorProperty",
-    "ViewConfig",
-]
+from sambot_viz.rviz.properties.texts import EnumProperty as EnumProperty
+from sambot_viz.rviz.properties.texts import FileProperty as FileProperty
+from sambot_viz.rviz.properties.texts import RegexProperty as RegexProperty
+from sambot_viz.rviz.properties.texts import StringProperty as StringProperty
+from sambot_viz.rviz.properties.texts import TfFrameProperty as TfFrameProperty
+from sambot_viz.rviz.properties.texts import TopicProperty as TopicProperty
+from sambot_viz.rviz.properties.vectors import VectorProperty as VectorProperty
+from sambot_viz.rviz.rviz_config import RvizConfig as RvizConfig

@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 
 from sambot_viz.rviz.declarations import NO_CLASS, is_ros1, kind_of
 from sambot_viz.rviz.item import ConfigItem, EntryItem
-from sambot_viz.rviz.properties.kinds import checked_text, read_bool
+from sambot_viz.rviz.properties.numbers import read_bool
 from sambot_viz.rviz.properties.property import Property
+from sambot_viz.rviz.properties.texts import checked_text
 from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import Entry, Map, Scalar
 

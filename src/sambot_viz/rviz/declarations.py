@@ -11,14 +11,11 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from sambot_viz.errors import UsageError, did_you_mean
-from sambot_viz.rviz.properties.kinds import (
-    BoolProperty,
-    ColorProperty,
-    IntProperty,
-    TfFrameProperty,
-    VectorProperty,
-)
+from sambot_viz.rviz.properties.color import ColorProperty
+from sambot_viz.rviz.properties.numbers import BoolProperty, IntProperty
 from sambot_viz.rviz.properties.property import Property
+from sambot_viz.rviz.properties.texts import TfFrameProperty
+from sambot_viz.rviz.properties.vectors import VectorProperty
 from sambot_viz.rviz.yaml.nodes import Map
 
 GROUP = "rviz_common/Group"

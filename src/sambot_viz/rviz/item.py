@@ -9,8 +9,8 @@ from typing import Any
 
 from sambot_viz.rviz.declarations import Declared, UnknownPropertyError
 from sambot_viz.rviz.item_map import ItemMap
-from sambot_viz.rviz.properties.kinds import EnumProperty, KeptProperty
-from sambot_viz.rviz.properties.property import Property
+from sambot_viz.rviz.properties.property import KeptProperty, Property
+from sambot_viz.rviz.properties.texts import EnumProperty
 from sambot_viz.rviz.undo_log import DocumentPlace, FinishChange, Leaves, Restore, note
 from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar

@@ -9,8 +9,7 @@ from typing import Any, Literal, TypeAlias
 from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import ClassItem, DisplayConfig
 from sambot_viz.rviz.item import ConfigItem
-from sambot_viz.rviz.properties.kinds import KeptProperty
-from sambot_viz.rviz.properties.property import Support
+from sambot_viz.rviz.properties.property import KeptProperty, Support
 from sambot_viz.rviz.rviz_config import RvizConfig
 from sambot_viz.text import text
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from pathlib import Path, PurePosixPath
 
 from sambot_viz.files import is_below
@@ -66,13 +67,17 @@ class FileFinder:
             findings: where problems go.
             trusted: False finds nothing outside the model's folder and packages.
         """
-        index = PackageIndex(folder, package_path)
-        self._resolver = FileResolver(index, folder)
+        self._index = PackageIndex(folder, package_path)
+        self._folder = folder
         self._findings = findings
         self._seen: set[str] = set()
         self.roots: tuple[Path, ...] | None = None
         if not trusted:
-            self.roots = tuple(root.resolve() for root in index.own_roots())
+            self.roots = tuple(root.resolve() for root in self._index.own_roots())
+
+    @cached_property
+    def _resolver(self) -> FileResolver:
+        return FileResolver(self._index, self._folder)
 
     def mesh(self, filename: str, element: Element) -> Path | None:
         """Find the file of a <mesh>."""

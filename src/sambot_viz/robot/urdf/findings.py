@@ -6,19 +6,12 @@ from sambot_viz.errors import Findings, Place, Severity
 from sambot_viz.robot.xml.element import Element
 
 
-class UrdfFindings(Findings):
-    """Problems at elements, and whether ROS would refuse the model.
+# The return type is left to the type checker: `Callable` knows no keywords.
+def _reporter(severity: Severity, rejects: bool = False):
+    """Return a method of `UrdfFindings` that reports a problem at an element."""
 
-    Attributes:
-        rejected: whether urdfdom refuses the whole model.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.rejected = False
-
-    def reject(
-        self,
+    def report(
+        self: UrdfFindings,
         code: str,
         message: str,
         hint: str,
@@ -27,46 +20,7 @@ class UrdfFindings(Findings):
         *,
         cause: str | None = None,
     ) -> None:
-        """Report an error for which ROS refuses the whole model."""
-        self.rejected = True
-        self._add("error", code, message, hint, at, attribute, cause)
-
-    def error(
-        self,
-        code: str,
-        message: str,
-        hint: str,
-        at: Element,
-        attribute: str | None = None,
-        *,
-        cause: str | None = None,
-    ) -> None:
-        """Report an error that ROS does not, or that affects only part of the robot."""
-        self._add("error", code, message, hint, at, attribute, cause)
-
-    def warn(
-        self,
-        code: str,
-        message: str,
-        hint: str,
-        at: Element,
-        attribute: str | None = None,
-        *,
-        cause: str | None = None,
-    ) -> None:
-        """Report a doubtful part of the model, which is drawn anyway."""
-        self._add("warning", code, message, hint, at, attribute, cause)
-
-    def _add(
-        self,
-        severity: Severity,
-        code: str,
-        message: str,
-        hint: str,
-        at: Element,
-        attribute: str | None,
-        cause: str | None,
-    ) -> None:
+        self.rejected |= rejects
         if at.call is not None:
             here = at.call.file == at.place.file
             where = f"line {at.call.line}" if here else f"{at.call.file}:{at.call.line}"
@@ -75,6 +29,27 @@ class UrdfFindings(Findings):
         column = at.place.column if line == at.place.line else None
         place = Place(at.place.file, line, column)
         self.add(severity, code, message, hint, place, cause=cause)
+
+    return report
+
+
+class UrdfFindings(Findings):
+    """Problems at elements, and whether ROS would refuse the model.
+
+    Attributes:
+        rejected: whether urdfdom refuses the whole model.
+        reject: reports an error for which ROS refuses the whole model.
+        error: reports one that ROS does not, or that affects only part of the robot.
+        warn: reports a doubtful part of the model, which is drawn anyway.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rejected = False
+
+    reject = _reporter("error", rejects=True)
+    error = _reporter("error")
+    warn = _reporter("warning")
 
 
 def tag_text(element: Element) -> str:

@@ -179,3 +179,35 @@ class Property:
     def _default_text(self) -> str:
         text = self.write(self.default)
         return f"the default {text}" if text else "the default"
+
+
+@dataclass(frozen=True)
+class KeptProperty(Property):
+    """A key that RViz writes, or wrote, and that has no effect here.
+
+    It is never set, and a new item does not get it; `note` says what RViz does with it.
+    """
+
+    read_only: bool = True
+    open_keys: bool = True
+    support: Support = "kept"
+
+    @property
+    def has_value(self) -> bool:
+        """Return whether its value is used: it is not."""
+        return False
+
+
+@dataclass(frozen=True)
+class GroupProperty(Property):
+    """A container: it has children and no value."""
+
+    @property
+    def has_value(self) -> bool:
+        """Return whether it has a value: a container has none."""
+        return False
+
+    def write(self, value: Any) -> str:
+        """Return the empty text: a container has no value."""
+        del value
+        return ""
