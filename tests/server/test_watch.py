@@ -7,6 +7,7 @@ import os
 import queue
 import shutil
 import threading
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -17,8 +18,9 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.errors import Problem
+from sambot_viz.files import Stamp
 from sambot_viz.server import watch
-from sambot_viz.server.watch import FileWatcher
+from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
 
@@ -40,7 +42,8 @@ def follow() -> Iterator[Callable[..., Changes]]:
                 changes.put(files)
 
         reasons = [] if troubles is None else troubles
-        watchers.append(FileWatcher(lambda: files, tuple, changed, reasons.append))
+        watched = Watched(frozenset(files))
+        watchers.append(FileWatcher(lambda: watched, changed, reasons.append))
         watchers[-1].start()
         return changes
 
@@ -92,18 +95,22 @@ def test_a_file_that_is_emptied_in_the_middle_of_a_look_is_waited_for(
     path = tmp_path / "model.urdf"
     path.write_text("old", "utf-8")
     contents: queue.Queue[str] = queue.Queue()
-    asked = itertools.count()
+    looked = itertools.count()
+    look = watch.stamp
 
-    def files() -> list[Path]:
-        if next(asked) == moment:
+    def stamp(file: Path) -> Stamp | None:
+        if file == path and next(looked) == moment:
             in_two_steps(path, "new")
-        return [path]
+        return look(file)
+
+    monkeypatch.setattr(watch, "stamp", stamp)
 
     def changed(files: frozenset[Path], reported: frozenset[Path]) -> None:
         del files, reported
         contents.put(path.read_text("utf-8"))
 
-    watcher = FileWatcher(files, tuple, changed, lambda _: None)
+    watched = Watched(frozenset([path]))
+    watcher = FileWatcher(lambda: watched, changed, lambda _: None)
     watcher.start()
     try:
         assert contents.get(timeout=10) == "new"
@@ -183,21 +190,23 @@ def test_an_error_while_looking_does_not_end_the_watching(
     path.write_text("old", "utf-8")
     changes: Changes = queue.Queue()
     failed = threading.Event()
+    watching: list[bool] = []
     errors = [PermissionError("no permission"), RuntimeError("a ring of links")]
 
-    def folders() -> list[Path]:
-        if errors:
+    def watched() -> Watched:
+        if watching and errors:
             raise errors.pop()
-        failed.set()
-        return []
+        failed.set() if watching else watching.append(True)
+        return Watched(frozenset([path]))
 
     def changed(files: frozenset[Path], reported: frozenset[Path]) -> None:
         del reported
         changes.put(files)
         raise ZeroDivisionError("an error of the callback")
 
-    watcher = FileWatcher(lambda: [path], folders, changed, lambda _: None)
+    watcher = FileWatcher(watched, changed, lambda _: None)
     watcher.start()
+    watcher.ask_again()
     try:
         assert failed.wait(10)
         for content in ("new", "newer"):
@@ -206,6 +215,70 @@ def test_an_error_while_looking_does_not_end_the_watching(
     finally:
         watcher.close()
     assert [r.levelname for r in caplog.records] == ["ERROR"] * 3
+
+
+def test_what_counts_is_asked_only_when_it_may_have_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watch, "LOOK_PERIOD", 0.05)
+    first, later = tmp_path / "model.urdf", tmp_path / "part.xacro"
+    for path in (first, later):
+        path.write_text("old", "utf-8")
+    files, asked, changes = [first], itertools.count(), Changes()
+
+    def watched() -> Watched:
+        next(asked)
+        return Watched(frozenset(files))
+
+    watcher = FileWatcher(watched, lambda files, _: changes.put(files), lambda _: None)
+    watcher.start()
+    try:
+        for content in ("new", "newer"):
+            first.write_text(content, "utf-8")
+            assert changes.get(timeout=10) == {first}
+        assert next(asked) == 1
+        # It was read, then saved, and only then it is told that it counts.
+        files.append(later)
+        later.write_text("new", "utf-8")
+        watcher.ask_again()
+        assert changes.get(timeout=10) == {later}
+        later.write_text("newer", "utf-8")
+        assert changes.get(timeout=10) == {later}
+        assert next(asked) == 3
+    finally:
+        watcher.close()
+
+
+def test_what_a_callback_reads_counts_from_then_on_and_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watch, "LOOK_PERIOD", 0.05)
+    first, part = tmp_path / "model.urdf", tmp_path / "part.xacro"
+    first.write_text("old", "utf-8")
+    files, changes = [first], Changes()
+
+    def changed(found: frozenset[Path], reported: frozenset[Path]) -> None:
+        del reported
+        if found:
+            changes.put(found)
+        if part not in files and part.exists():
+            files.append(part)
+            watcher.ask_again()
+
+    watcher = FileWatcher(lambda: Watched(frozenset(files)), changed, lambda _: None)
+    watcher.start()
+    try:
+        part.write_text("old", "utf-8")
+        # Times of files may be some milliseconds behind the clock.
+        time.sleep(0.2)
+        first.write_text("new", "utf-8")
+        assert changes.get(timeout=10) == {first}
+        first.write_text("newer", "utf-8")
+        assert changes.get(timeout=10) == {first}
+        part.write_text("newer", "utf-8")
+        assert changes.get(timeout=10) == {part}
+    finally:
+        watcher.close()
 
 
 class Followed:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,14 +38,20 @@ class MeshCache:
     """
 
     def __init__(
-        self, *, longest_side: int = LONGEST_SIDE, largest: int = LARGEST
+        self,
+        *,
+        longest_side: int = LONGEST_SIDE,
+        largest: int = LARGEST,
+        on_read: Callable[[], object] = lambda: None,
     ) -> None:
         """Set the limits for everything read through this cache.
 
         Args:
             longest_side: textures are made this small [pixels].
             largest: meshes above this size are refused [bytes].
+            on_read: called after a file was read, in the thread that has read it.
         """
+        self._on_read = on_read
         self._images = TextureStore(longest_side)
         self._largest = largest
         self._entries: dict[Asset, _Entry] = {}
@@ -67,6 +73,7 @@ class MeshCache:
             entry = self._entries.get(asset)
             if entry is None:
                 entry = self._entries[asset] = self._read(asset)
+                self._on_read()
         return entry.content
 
     def files(self, asset: Asset) -> tuple[Path, ...]:

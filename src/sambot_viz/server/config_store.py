@@ -36,6 +36,7 @@ class ConfigStore:
             browser has written it.
         view: the current view that it had when it was read.
         on_open: called after another file was opened.
+        on_save: called after the page has saved the document.
     """
 
     def __init__(
@@ -53,6 +54,7 @@ class ConfigStore:
         self.trusted = True
         self.view = _view_of(document)
         self.on_open: list[Callable[[], object]] = []
+        self.on_save: list[Callable[[], object]] = []
 
     def __call__(self) -> RvizConfig:
         """The document for one more session."""
@@ -105,6 +107,8 @@ class ConfigStore:
         """The page has saved the document into this file: follow it from now on."""
         with self._lock:
             self.file, self.trusted = path, False
+        for listener in self.on_save:
+            listener()
 
 
 def _view_of(document: RvizConfig) -> Plain:

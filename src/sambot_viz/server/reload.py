@@ -21,13 +21,10 @@ from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.server.config_store import Sources
 from sambot_viz.server.sessions import Sessions
-from sambot_viz.server.watch import FileWatcher
+from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
 
 _log = logging.getLogger(__name__)
-
-MOST_FOLDERS = 200
-"""Upper bound of the watched folders of a package in which a file is missing."""
 
 
 class Reloader:
@@ -54,6 +51,8 @@ class Reloader:
         self._model = sources.model or next(iter(files), None)
         self._documents = sources.configs
         self._documents.on_open.append(self._opened)
+        self._documents.on_save.append(self._ask_again)
+        sessions.on_files = self._ask_again
         self._suspects: tuple[Path, ...] = ()
         self._of_model = () if robot is None else robot.problems
         self._of_config = self._documents.current.problems
@@ -64,8 +63,7 @@ class Reloader:
         """Follow the files from now on; saves since they were opened count too."""
         self._reported = (*self._of_model, *self._of_config)
         self._watcher = FileWatcher(
-            self._files,
-            self._folders,
+            self._watched,
             self._changed,
             self._cannot_watch,
             self._sources.opened,
@@ -95,20 +93,18 @@ class Reloader:
         for session in self._sessions.all():
             yield from robot_displays(session.scene.displays)
 
-    def _files(self) -> set[Path]:
+    def _watched(self) -> Watched:
         file = self._documents.file
         config = {file} if file is not None else set[Path]()
         own = {file for display in self._displays() for file in display.files}
-        return self._model_files() | self._asset_files() | config | own
+        files = self._model_files() | self._asset_files() | config | own
+        # A file that is missing now may appear anywhere in the package.
+        waits = self._waiting_for_files
+        return Watched(frozenset(files), self._model if waits else None)
 
-    def _folders(self) -> list[Path]:
-        """Where a file that is missing now may appear."""
-        if self._model is None or not self._waiting_for_files:
-            return []
-        for folder in Path(os.path.realpath(self._model)).parents:
-            if os.path.isfile(folder / "package.xml"):
-                return list(_folders_in(folder))
-        return []
+    def _ask_again(self) -> None:
+        if self._watcher is not None:
+            self._watcher.ask_again()
 
     @property
     def _waiting_for_files(self) -> bool:
@@ -172,6 +168,7 @@ class Reloader:
         suspects = (*model, *error.files, *named)
         self._suspects = tuple(dict.fromkeys(map(Path.absolute, suspects)))
         self._of_model = error.problems
+        self._ask_again()
         self._sessions.set_reload_problems("model", error.problems)
 
     def refuse_config(self, error: ConfigError) -> None:
@@ -189,6 +186,7 @@ class Reloader:
     def _opened(self) -> None:
         """Another config was opened in the page."""
         self._of_config = self._documents.current.problems
+        self._ask_again()
         self._sessions.set_reload_problems("config", ())
 
     def _reload_config(self, path: Path) -> None:
@@ -245,17 +243,3 @@ class Reloader:
         )
         if self._report is not None:
             self._report((reload_problems.unwatched(reason),))
-
-
-def _folders_in(folder: Path) -> Iterator[Path]:
-    """A folder and those below it without hidden ones, the nearest first."""
-    pending, count = [folder], 0
-    while pending and count < MOST_FOLDERS:
-        folder = pending.pop(0)
-        yield folder
-        count += 1
-        try:
-            inner = sorted(p for p in folder.iterdir() if p.name[:1] != ".")
-            pending += [p for p in inner if p.is_dir() and not p.is_symlink()]
-        except OSError:
-            continue

@@ -29,6 +29,7 @@ from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.session_copy import SessionCopy
+from sambot_viz.session.signals import connect
 from sambot_viz.session.worker import Worker
 
 _log = logging.getLogger(__name__)
@@ -64,6 +65,7 @@ class Sessions:
         meshes: what was read of mesh files, for all of them.
         robot: what is shown in all of them that have no model of their own.
         on_joined: called when a client has its rows, in any thread.
+        on_files: called after other files may be shown than before, in any thread.
     """
 
     def __init__(
@@ -83,7 +85,8 @@ class Sessions:
         self._poses = poses or Presets()
         self._files = files
         self._ask_page = ask_page
-        self.meshes = MeshCache()
+        self.on_files: Callable[[], object] = lambda: None
+        self.meshes = MeshCache(on_read=self._tell_files)
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
         self.robot: Robot | None = None
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
@@ -156,11 +159,15 @@ class Sessions:
         """Show a robot in every session, present and to come, without its own model."""
         with self._lock:
             self.robot = robot
+        self.on_files()
         try:
             self.for_each(lambda session: session.show_robot(robot))
         finally:
             self._forget_unused_files()
             self.for_each(lambda session: session.checks.run())
+
+    def _tell_files(self) -> None:
+        self.on_files()
 
     def show_panels(self) -> None:
         """Add the panels to the shared session, unless it has them or is to have none.
@@ -250,6 +257,7 @@ class Sessions:
             self.options,
             poses,
         )
+        connect([session.scene.statuses], self._tell_files)
         if copy is not None:
             session.trust(copy)
         session.document.show()
@@ -348,6 +356,7 @@ class Sessions:
         with self._lock:
             place.session = session
             robot, problems = self.robot, dict(self._reload_problems)
+        self.on_files()
         if robot is not None and robot is not session.robot.model:
             session.show_robot(robot)
         for of, found in problems.items():
@@ -369,6 +378,7 @@ class Sessions:
     def _close_private(self, client_id: int, place: _Place) -> None:
         with self._lock:
             del self._places[client_id]
+        self.on_files()
         if place.window is not None:
             place.window.close()
         if place.session is not None:

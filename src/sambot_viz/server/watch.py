@@ -5,7 +5,8 @@ folders, and once a second in any case: that finds what the system does not repo
 (network drives, a link that points elsewhere, a folder that was created again), and
 takes over when the system cannot watch at all. What counts is the state of the files:
 how an editor saves, in place, by renaming or in two steps, makes no difference. An
-error, of the file system or of a callback, is logged; the watching goes on.
+error, of the file system or of a callback, is logged; the watching goes on. Which files
+count is asked only after it may have changed, so that a look costs what it looks at.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import logging
 import os.path
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from watchfiles import Change, watch
@@ -32,8 +34,13 @@ SETTLE = 0.3
 or remove the old file before they write the new one."""
 _RETRY = 0.02
 _LONGEST_CLOSE = 5.0
+MOST_FOLDERS = 200
+"""Upper bound of the watched folders of a package in which a file is missing."""
 _CLOCK_STEP = 10_000_000
 """Times of files may be this much [ns] behind the clock."""
+_TOLD_LATE = 2_000_000_000
+"""That a file counts is told at most this long [ns] after it was read: it is drawn
+first."""
 
 _log = logging.getLogger(__name__)
 
@@ -41,12 +48,24 @@ _Changes = set[tuple[Change, str]]
 OnChange = Callable[[frozenset[Path], frozenset[Path]], None]
 
 
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """What is watched.
+
+    Attributes:
+        files: the files that count.
+        package_of: a file in whose package new files are reported too.
+    """
+
+    files: frozenset[Path]
+    package_of: Path | None = None
+
+
 class FileWatcher:
     """Calls back when files change.
 
     Args:
-        files: the files that count; asked at every look, so it may change.
-        folders: more folders in which new files are reported.
+        watched: what counts; asked again after `ask_again`.
         on_change: takes the files that have changed, and everything that has newly
             appeared in the folders; it runs in the watcher's thread, one call at a
             time.
@@ -56,22 +75,20 @@ class FileWatcher:
 
     def __init__(
         self,
-        files: Callable[[], Iterable[Path]],
-        folders: Callable[[], Iterable[Path]],
+        watched: Callable[[], Watched],
         on_change: OnChange,
         on_trouble: Callable[[str], None],
         since: int | None = None,
     ) -> None:
-        self._files = files
-        self._more_folders = folders
+        self._ask = watched
         self._on_change = on_change
         self._on_trouble = on_trouble
         self._stop = threading.Event()
         self._looked = time.time_ns()
-        self._known: dict[Path, Stamp | None] = {
-            path: None if since is not None and _saved_since(now, since) else now
-            for path, now in self._stamps().items()
-        }
+        self._asked_at: int | None = None
+        self._watched = watched()
+        self._known: dict[Path, Stamp | None] = {}
+        self._track(time.time_ns() if since is None else since)
         self._thread = threading.Thread(
             target=self._run, name="sambot-viz-watch", daemon=True
         )
@@ -79,6 +96,14 @@ class FileWatcher:
     def start(self) -> None:
         """Watch from now on; what was saved before, since `since`, is found too."""
         self._thread.start()
+
+    def ask_again(self) -> None:
+        """Ask which files count, at the next look; any thread may call this.
+
+        Call it when a file counts, not before.
+        """
+        if self._asked_at is None:
+            self._asked_at = time.time_ns()
 
     def close(self) -> None:
         """Stop watching, and wait a few seconds for a callback that is running."""
@@ -132,15 +157,35 @@ class FileWatcher:
 
     def _look(self, appeared: frozenset[Path]) -> None:
         """Compare the files with what they were, and call back if they differ."""
+        if self._asked_at is not None:
+            self._list(min(self._looked, self._asked_at - _TOLD_LATE))
         before, self._known = self._known, self._settled_stamps()
-        since, self._looked = self._looked, time.time_ns() - _CLOCK_STEP
-        changed = frozenset(
-            path
-            for path, now in self._known.items()
-            if (before[path] != now if path in before else _saved_since(now, since))
-        )
+        self._looked = time.time_ns() - _CLOCK_STEP
+        changed = frozenset(p for p, now in self._known.items() if before[p] != now)
         if (changed or appeared) and not self._stop.is_set():
             self._on_change(changed, appeared)
+            if self._asked_at is not None:
+                # All that was read meanwhile was read after this look.
+                self._list(self._looked)
+
+    def _list(self, since: int) -> None:
+        """Ask which files count; new ones saved since a time [ns] have changed."""
+        # What is told from here on may come too late for this answer.
+        asked_at, self._asked_at = self._asked_at, None
+        try:
+            self._watched = self._ask()
+        except BaseException:
+            self._asked_at = asked_at
+            raise
+        self._track(since)
+
+    def _track(self, since: int) -> None:
+        before, self._known = self._known, self._stamps()
+        for path, now in self._known.items():
+            if path in before:
+                self._known[path] = before[path]
+            elif now is not None and now[0] > since:
+                self._known[path] = None
 
     def _settled_stamps(self) -> dict[Path, Stamp | None]:
         """Look at the files, and again while one has just become empty or vanished."""
@@ -155,12 +200,13 @@ class FileWatcher:
         return found
 
     def _stamps(self) -> dict[Path, Stamp | None]:
-        return {path: stamp(path) for path in self._files()}
+        return {path: stamp(path) for path in self._watched.files}
 
     def _folders(self) -> dict[Path, int]:
         """The folders to watch, with their numbers: a new one has another number."""
-        wanted: dict[Path, None] = dict.fromkeys(self._more_folders())
-        for path in self._files():
+        model = self._watched.package_of
+        wanted = dict.fromkeys(() if model is None else _folders_of_package(model))
+        for path in self._watched.files:
             wanted[path.parent] = None
             if os.path.islink(path):
                 # A save is reported where the file is, a new link where the link is.
@@ -188,9 +234,26 @@ def _batches(changes: Iterator[_Changes]) -> Iterator[_Changes]:
         yield reported
 
 
-def _saved_since(now: Stamp | None, since: int) -> bool:
-    """Whether a newly tracked file changed after it may have been read."""
-    return now is not None and now[0] > since
+def _folders_of_package(file: Path) -> list[Path]:
+    """Return the package of a file, with its folders; nothing without a package."""
+    for folder in Path(os.path.realpath(file)).parents:
+        if os.path.isfile(folder / "package.xml"):
+            return list(_folders_in(folder))
+    return []
+
+
+def _folders_in(folder: Path) -> Iterator[Path]:
+    """Yield a folder and those below it without hidden ones, the nearest first."""
+    pending, count = [folder], 0
+    while pending and count < MOST_FOLDERS:
+        folder = pending.pop(0)
+        yield folder
+        count += 1
+        try:
+            inner = sorted(p for p in folder.iterdir() if p.name[:1] != ".")
+            pending += [p for p in inner if p.is_dir() and not p.is_symlink()]
+        except OSError:
+            continue
 
 
 def _is_empty(found: Stamp | None) -> bool:
