@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sambot_viz.meshes.assembly.polygons import triangulate
+from sambot_viz.meshes.assembly.triangles import triangulate
 from sambot_viz.meshes.read_mesh import read_mesh
 from sambot_viz.meshes.source import MeshBudget
 

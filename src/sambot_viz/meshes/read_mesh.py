@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,16 @@ LARGEST = 500 * 1024 * 1024
 """Files above this size [bytes] are refused unless the caller allows more."""
 
 _Reader = Callable[[MeshSource], list[Submesh]]
+_FORMATS = {
+    ".stl": "stl",
+    ".stlb": "stl",
+    ".dae": "collada",
+    ".obj": "obj",
+    ".glb": "gltf",
+    ".gltf": "gltf",
+    ".ply": "ply",
+}
+"""Ending → module of `formats`, which has a function ``read_…`` of that name."""
 
 
 def read_mesh(
@@ -108,53 +119,13 @@ def _read_bytes(path: Path, largest: int) -> bytes:
 def _reader(path: Path) -> _Reader:
     """Return the reader for a file; each is imported when the first such file comes."""
     suffix = path.suffix.lower()
-    reader = _READERS.get(suffix)
-    if reader is not None:
-        return reader
+    name = _FORMATS.get(suffix)
+    if name is not None:
+        module = import_module(f"sambot_viz.meshes.formats.{name}")
+        return getattr(module, f"read_{name}")
     raise mesh_error(
         path,
         "mesh-format-unknown",
         f"meshes of the kind '{suffix or path.name}' cannot be read",
         "convert it to one of .stl, .dae, .obj, .glb, .gltf, .ply",
     )
-
-
-def _stl(source: MeshSource) -> list[Submesh]:
-    from sambot_viz.meshes.formats.stl import read_stl
-
-    return read_stl(source)
-
-
-def _collada(source: MeshSource) -> list[Submesh]:
-    from sambot_viz.meshes.formats.collada import read_collada
-
-    return read_collada(source)
-
-
-def _obj(source: MeshSource) -> list[Submesh]:
-    from sambot_viz.meshes.formats.obj import read_obj
-
-    return read_obj(source)
-
-
-def _gltf(source: MeshSource) -> list[Submesh]:
-    from sambot_viz.meshes.formats.gltf import read_gltf
-
-    return read_gltf(source)
-
-
-def _ply(source: MeshSource) -> list[Submesh]:
-    from sambot_viz.meshes.formats.ply import read_ply
-
-    return read_ply(source)
-
-
-_READERS: dict[str, _Reader] = {
-    ".stl": _stl,
-    ".stlb": _stl,
-    ".dae": _collada,
-    ".obj": _obj,
-    ".glb": _gltf,
-    ".gltf": _gltf,
-    ".ply": _ply,
-}

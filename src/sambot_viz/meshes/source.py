@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import Findings
-from sambot_viz.meshes.mesh import MeshError, mesh_error
-from sambot_viz.meshes.named_files import NamedFiles
-from sambot_viz.meshes.textures import TextureStore
+from sambot_viz.geometry import Rgba
+from sambot_viz.meshes.mesh import MeshError, Texture, mesh_error
+from sambot_viz.meshes.named_files import NamedFileError, NamedFiles
+from sambot_viz.meshes.textures import TextureError, TextureStore
 
 MOST_NODES = 100_000
 MOST_TRIANGLES = 20_000_000
@@ -116,3 +118,35 @@ class MeshSource:
     ) -> MeshError:
         """Return the error for a file that contradicts itself or is cut off."""
         return mesh_error(self.path, "mesh-broken", message, hint)
+
+
+@dataclass(frozen=True, slots=True)
+class MeshMaterial:
+    """Colour and texture of a surface."""
+
+    rgba: Rgba
+    texture: Texture | None = None
+
+
+def load_texture(name: str, source: MeshSource) -> Texture | None:
+    """Read the image that a mesh names; None, with a warning, when that fails."""
+    try:
+        path = source.files.find(name)
+    except NamedFileError as error:
+        source.warn(
+            "mesh-texture-missing",
+            f"the texture '{name}' was not found: {error}; the surface is shown "
+            "without it",
+            "put the image beside the mesh",
+        )
+        return None
+    source.files.note(path)
+    try:
+        return source.images.from_file(path)
+    except TextureError as error:
+        source.warn(
+            "mesh-texture-broken",
+            f"the texture '{name}' cannot be used: {error}; the surface is shown "
+            "without it",
+        )
+        return None

@@ -16,7 +16,7 @@ import viser
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
-from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
+from sambot_viz.displays.robot_model.robot_entries import BOX, WITH_AXIS, RobotEntries
 from sambot_viz.displays.scene.lines import Ribbon
 from sambot_viz.displays.scene.nodes import Handle, any_gone, position_of, remove_all
 from sambot_viz.displays.scene.solids import (
@@ -41,7 +41,6 @@ TRAIL_COLOR, TRAIL_WIDTH = (0, 128, 128), 0.01
 ELEMENT = 0.02
 """Length of a piece of a trail [m]."""
 MOST_ELEMENTS = 100
-WITH_AXIS = frozenset({"continuous", "revolute", "prismatic", "planar"})
 
 
 @dataclass(frozen=True, slots=True)

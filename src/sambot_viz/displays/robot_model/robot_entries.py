@@ -1,4 +1,4 @@
-"""The links and joints of a RobotModel as items of the document.
+"""The links and joints of a RobotModel: items of the document, and their rows.
 
 RViz saves the entries under one of four keys, by their style, and reads them only from
 "Links", in whatever style. All four keys are read here; a change is written where the
@@ -7,9 +7,10 @@ link or joint already has its entry.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
+from sambot_viz.displays.display import DisplayContext, EntryList, numbers
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
     ALL_LINKS_ENABLED,
@@ -18,7 +19,10 @@ from sambot_viz.displays.robot_model.properties import (
     STYLE,
     STYLES,
 )
+from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.rviz import DisplayConfig, EntryItem
 from sambot_viz.rviz.yaml.nodes import Plain
 
@@ -29,6 +33,7 @@ KEYS = ("Links", "Joints", "Link Tree", "Link/Joint Tree")
 """The key of each style."""
 _TREES = KEYS[2:]
 _DECLARED = {"link": LINK_PROPERTIES, "joint": JOINT_PROPERTIES}
+WITH_AXIS = frozenset({"continuous", "revolute", "prismatic", "planar"})
 BOX = "Value"
 """The property that shows or hides a link."""
 
@@ -186,3 +191,106 @@ class RobotEntries:
             if all_below:
                 joints = self._robot.joints.values()
                 pending += [j.child for j in joints if j.parent == link]
+
+
+FrameOf = Callable[[str], str]
+_MOST_NAMES = 12
+
+
+def robot_lists(
+    context: DisplayContext, entries: RobotEntries, robot: Robot, frame_of: FrameOf
+) -> tuple[EntryList, ...]:
+    """Return the links and joints of a robot, in RViz's alphabetic order."""
+    links = EntryList(
+        "Links",
+        "link",
+        sorted(robot.links),
+        entries.link,
+        entries.set_link,
+        lambda name: _link_facts(context, robot, name, frame_of),
+        lambda name: _link_rows(robot.links[name]),
+    )
+    joints = EntryList(
+        "Joints",
+        "joint",
+        sorted(robot.joints),
+        entries.joint,
+        entries.set_joint,
+        lambda name: _joint_facts(context, robot.joints[name], frame_of),
+        lambda name: _joint_rows(robot, robot.joints[name]),
+    )
+    return (links, joints) if robot.joints else (links,)
+
+
+def collision_note(robot: Robot) -> str:
+    """Name the links without a collision shape; "" when all have one."""
+    bare = [name for name in sorted(robot.links) if not robot.links[name].collisions]
+    if len(bare) == len(robot.links):
+        return "No link of this robot has a collision shape."
+    rest = len(bare) - _MOST_NAMES
+    shown = ", ".join(bare[:_MOST_NAMES]) + (f" and {rest} more" if rest > 0 else "")
+    return f"Without a collision shape: {shown}" if bare else ""
+
+
+def _link_rows(link: Link) -> Sequence[str]:
+    """List the rows of a link: without geometry it has neither a box nor an Alpha."""
+    rows = ("Show Trail", "Show Axes")
+    return ("Value", "Alpha", *rows) if link.visuals or link.collisions else rows
+
+
+def _joint_rows(robot: Robot, joint: Joint) -> Sequence[str]:
+    rows = ["Show Axes"]
+    child = robot.links[joint.child]
+    if child.visuals or child.collisions:
+        rows.insert(0, "Value")
+    if joint.type in WITH_AXIS:
+        rows.append("Show Joint Axis")
+    return rows
+
+
+def _pose_facts(T: Matrix | None) -> dict[str, str]:
+    if T is None:
+        return {"Position": "no transform"}
+    w, x, y, z = wxyz_from_matrix(T)
+    return {"Position": numbers(position_of(T)), "Orientation": numbers((x, y, z, w))}
+
+
+def _pose(context: DisplayContext, frame: str) -> Matrix | None:
+    fixed = context.fixed_frame
+    if not context.nodes.connected(frame):
+        return None
+    return context.tree.lookup(fixed, frame).matrix
+
+
+def _link_facts(
+    context: DisplayContext, robot: Robot, name: str, frame_of: FrameOf
+) -> Mapping[str, str]:
+    facts = _pose_facts(_pose(context, frame_of(name)))
+    joints = robot.joints.values()
+    above = next((j.name for j in joints if j.child == name), None)
+    facts["Parent joint"] = above or "none: it is the root link"
+    below = sorted(j.name for j in joints if j.parent == name)
+    facts["Child joints"] = ", ".join(below) or "none"
+    link = robot.links[name]
+    if not link.visuals and not link.collisions:
+        facts["Geometry"] = "none"
+    elif not link.visuals:
+        facts["Geometry"] = "collision, but nothing visible"
+    elif not link.collisions:
+        facts["Geometry"] = "visible, but no collision"
+    return facts
+
+
+def _joint_facts(
+    context: DisplayContext, joint: Joint, frame_of: FrameOf
+) -> Mapping[str, str]:
+    above = _pose(context, frame_of(joint.parent))
+    facts = _pose_facts(None if above is None else above @ joint.origin.matrix)
+    facts["Type"] = joint.type
+    facts["Parent link"], facts["Child link"] = joint.parent, joint.child
+    if joint.limit is not None:
+        facts["Lower Limit"] = numbers((joint.limit.lower,))
+        facts["Upper Limit"] = numbers((joint.limit.upper,))
+    if joint.type in WITH_AXIS:
+        facts["Joint Axis"] = numbers(joint.axis)
+    return facts

@@ -10,13 +10,17 @@ from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
-from sambot_viz.displays.robot_model.link_rows import collision_note, robot_lists
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
     COLLISIONS,
     ROBOT_MODEL_PROPERTIES,
 )
-from sambot_viz.displays.robot_model.robot_entries import BOX, RobotEntries
+from sambot_viz.displays.robot_model.robot_entries import (
+    BOX,
+    RobotEntries,
+    collision_note,
+    robot_lists,
+)
 from sambot_viz.displays.robot_model.robot_source import (
     FILE,
     OUTSIDE,

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.meshes.assembly.arrays import (
+from sambot_viz.meshes.assembly.assemble import Floats, Ints
+from sambot_viz.meshes.assembly.triangles import (
     parse_floats,
     parse_ints,
     table_of,
+    triangulate,
 )
-from sambot_viz.meshes.assembly.assemble import Floats, Ints
-from sambot_viz.meshes.assembly.polygons import triangulate
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument
 from sambot_viz.meshes.source import MeshSource
 

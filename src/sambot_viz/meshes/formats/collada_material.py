@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from sambot_viz.meshes.assembly.materials import MeshMaterial, load_texture
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument
 from sambot_viz.meshes.mesh import GREY, WHITE, Texture
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.source import MeshMaterial, MeshSource, load_texture
 
 _SHADERS = ("phong", "lambert", "blinn", "constant")
 

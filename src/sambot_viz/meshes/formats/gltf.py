@@ -21,8 +21,7 @@ import numpy.typing as npt
 
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.assemble import Submesh, placed
-from sambot_viz.meshes.formats.gltf_file import GltfFile, Json
-from sambot_viz.meshes.formats.gltf_material import GltfMaterials
+from sambot_viz.meshes.formats.gltf_file import GltfFile, GltfMaterials, Json
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
 from sambot_viz.meshes.mesh import mesh_error
 from sambot_viz.meshes.named_files import NamedFileError

@@ -16,17 +16,16 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.meshes.assembly.arrays import (
+from sambot_viz.meshes.assembly.assemble import Floats, Submesh
+from sambot_viz.meshes.assembly.triangles import (
     parse_floats,
     parse_ints,
     table_of,
+    triangulate,
 )
-from sambot_viz.meshes.assembly.assemble import Floats, Submesh
-from sambot_viz.meshes.assembly.materials import MeshMaterial, load_texture
-from sambot_viz.meshes.assembly.polygons import triangulate
 from sambot_viz.meshes.mesh import GREY, Texture
 from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.source import MeshMaterial, MeshSource, load_texture
 
 _TWO_SLASHES = re.compile(rb"/\d*/")
 _LARGEST_LIBRARY = 64 * 2**20

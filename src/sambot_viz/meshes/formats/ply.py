@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.meshes.assembly.assemble import Submesh
-from sambot_viz.meshes.assembly.polygons import triangulate
+from sambot_viz.meshes.assembly.triangles import triangulate
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
 from sambot_viz.meshes.mesh import WHITE
 from sambot_viz.meshes.source import MeshSource

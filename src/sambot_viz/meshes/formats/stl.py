@@ -10,8 +10,8 @@ import re
 
 import numpy as np
 
-from sambot_viz.meshes.assembly.arrays import parse_floats, table_of, triples
 from sambot_viz.meshes.assembly.assemble import Submesh
+from sambot_viz.meshes.assembly.triangles import parse_floats, table_of, triples
 from sambot_viz.meshes.mesh import mesh_error
 from sambot_viz.meshes.source import MeshSource
 
