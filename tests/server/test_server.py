@@ -17,6 +17,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
 from sambot_viz.errors import FrameError, Problem, ServerError
+from sambot_viz.robot.model import Robot
 from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 
@@ -123,12 +124,12 @@ def test_a_private_page_that_opens_during_a_save_shows_what_was_saved(
     with Visualizer(old, port=0, session="private") as viz:
         server, saves = server_of(viz), list[threading.Thread]()
 
-        def show_during_a_save(session: Session, robot: object) -> None:
+        def show_during_a_save(session: Session, robot: Robot, **kind: bool) -> None:
             if not saves:
                 saves.append(threading.Thread(target=save))
                 saves[0].start()
                 saved.wait(0.2)
-            show(session, robot)  # type: ignore[arg-type]
+            show(session, robot, **kind)
 
         saved = threading.Event()
 

@@ -35,23 +35,21 @@ class MeshCache:
 
     What was read stays the same object until `forget_changed` finds that the file, or
     an image or a material file that it names, was saved since.
+
+    Attributes:
+        on_read: called after a file was read, in the thread that has read it.
     """
 
     def __init__(
-        self,
-        *,
-        longest_side: int = LONGEST_SIDE,
-        largest: int = LARGEST,
-        on_read: Callable[[], object] = lambda: None,
+        self, *, longest_side: int = LONGEST_SIDE, largest: int = LARGEST
     ) -> None:
         """Set the limits for everything read through this cache.
 
         Args:
             longest_side: textures are made this small [pixels].
             largest: meshes above this size are refused [bytes].
-            on_read: called after a file was read, in the thread that has read it.
         """
-        self._on_read = on_read
+        self.on_read: Callable[[], object] = lambda: None
         self._images = TextureStore(longest_side)
         self._largest = largest
         self._entries: dict[Asset, _Entry] = {}
@@ -73,7 +71,7 @@ class MeshCache:
             entry = self._entries.get(asset)
             if entry is None:
                 entry = self._entries[asset] = self._read(asset)
-                self._on_read()
+                self.on_read()
         return entry.content
 
     def files(self, asset: Asset) -> tuple[Path, ...]:

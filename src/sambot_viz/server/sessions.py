@@ -86,7 +86,8 @@ class Sessions:
         self._files = files
         self._ask_page = ask_page
         self.on_files: Callable[[], object] = lambda: None
-        self.meshes = MeshCache(on_read=self._tell_files)
+        self.meshes = MeshCache()
+        self.meshes.on_read = self._tell_files
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
         self.robot: Robot | None = None
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
