@@ -187,3 +187,16 @@ def _missing(what: str, path: Path) -> str:
     names = [p.name for p in _files(folder, endings)]
     near = did_you_mean(path.name, names) if names else f"'{folder}' has no {what}"
     return f"no {what} '{path}': there is no such file; {near}"
+
+
+def poses_beside(model: Path) -> Path:
+    """Return the poses file of a model: robot.urdf.xacro has robot.poses.yaml.
+
+    Those of the bundled robot are kept in the working folder: its own one belongs to
+    the package.
+    """
+    stem = model.name
+    for ending in (".xacro", ".urdf"):
+        stem = stem.removesuffix(ending)
+    own = model.resolve() != model_path().resolve()
+    return (model.parent if own else Path.cwd()) / f"{stem}.poses.yaml"

@@ -28,6 +28,7 @@ SHORTEST_TOKEN = 8
 """A token that a user has chosen has at least so many characters."""
 
 _KEY = "option"
+_BASE_PATH = re.compile(r"/|(/[A-Za-z0-9._~-]+)+")
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
 
 
@@ -157,6 +158,21 @@ def check_choice(option: Field[Any], value: object) -> None:
 def new_token() -> str:
     """Return a token that cannot be guessed: 22 characters, 128 bits."""
     return secrets.token_urlsafe(16)
+
+
+def check_base_path(text: str) -> str:
+    """Return a base path with a slash at its begin and none at its end.
+
+    Raises:
+        UsageError: it cannot be part of an address.
+    """
+    path = f"/{text.strip('/')}"
+    if not _BASE_PATH.fullmatch(path):
+        raise UsageError(
+            f"the base path '{text}' cannot be part of an address; give one such as "
+            "/robot"
+        )
+    return path
 
 
 def check_token(token: str, flag: str = "--token") -> str:

@@ -256,7 +256,7 @@ class Inputs:
     def _poses_file(self) -> Path | None:
         if self._options.poses is not None:
             return Path(self._options.poses)
-        return None if self.model is None else poses_beside(self.model)
+        return None if self.model is None else bundled.poses_beside(self.model)
 
 
 def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
@@ -274,19 +274,6 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
             "yourdfpy.URDF"
         )
     return Robot.from_yourdfpy(model)
-
-
-def poses_beside(model: Path) -> Path:
-    """Return the poses file of a model: robot.urdf.xacro has robot.poses.yaml.
-
-    Those of the bundled robot are kept in the working folder: its own one belongs to
-    the package.
-    """
-    stem = model.name
-    for ending in (".xacro", ".urdf"):
-        stem = stem.removesuffix(ending)
-    own = model.resolve() != bundled.model_path().resolve()
-    return (model.parent if own else Path.cwd()) / f"{stem}.poses.yaml"
 
 
 def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:

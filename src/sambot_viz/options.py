@@ -9,7 +9,6 @@ is used.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
@@ -19,6 +18,7 @@ from sambot_viz.errors import Problem, UsageError
 from sambot_viz.flags import (
     AGAIN,
     assignments,
+    check_base_path,
     check_choice,
     check_token,
     declared,
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
 
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
-_BASE_PATH = re.compile(r"/|(/[A-Za-z0-9._~-]+)+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,13 +256,7 @@ class Options:
                 "the fixed frame has an empty name; give a frame of the robot, such "
                 "as base_link"
             )
-        path = f"/{self.base_path.strip('/')}"
-        if not _BASE_PATH.fullmatch(path):
-            raise UsageError(
-                f"the base path '{self.base_path}' cannot be part of an address; give "
-                "one such as /robot"
-            )
-        object.__setattr__(self, "base_path", path)
+        object.__setattr__(self, "base_path", check_base_path(self.base_path))
         for name in ("token", "presenter"):
             if (secret := getattr(self, name)) is not None:
                 token = check_token(secret, f"--{name}") if secret else new_token()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz import JointError, Visualizer, bundled
-from sambot_viz.inputs import poses_beside
+from sambot_viz.bundled import poses_beside
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 

@@ -92,8 +92,11 @@ def _sort(data: bytes) -> _Lines:
         if start == b"v ":
             positions.append(line[2:])
         elif start == b"f ":
-            if b"-" in line:
-                group = _recounted(group, lines)
+            seen = (len(positions), len(uvs), len(normals)) if b"-" in line else None
+            if seen is not None and seen != group.seen:
+                # It counts backwards from the lines so far.
+                group = _Group(group.material, seen)
+                lines.groups.append(group)
             group.lines.append(line[2:])
         elif start == b"vn":
             normals.append(line[3:])
@@ -111,16 +114,6 @@ def _sort(data: bytes) -> _Lines:
                 stripped = [text.lstrip() for text in data.splitlines()]
                 return _sort(b"\n".join(stripped))
     return lines
-
-
-def _recounted(group: _Group, lines: _Lines) -> _Group:
-    """Return the group for a face that counts backwards from the lines so far."""
-    seen = (len(lines.positions), len(lines.uvs), len(lines.normals))
-    if group.seen == seen:
-        return group
-    following = _Group(group.material, seen)
-    lines.groups.append(following)
-    return following
 
 
 def _text(line: bytes) -> str:
@@ -282,7 +275,7 @@ def _set_numbers(material: _Material, keyword: str, rest: str) -> None:
     if not numbers:
         return
     # A single number is used for all three.
-    colour = (numbers * 3)[:3] if len(numbers) < 3 else numbers[:3]
+    colour = (numbers * 3)[:3]
     if keyword == "Kd":
         material.diffuse = colour
     elif keyword == "Ke":
