@@ -29,13 +29,17 @@ _SHORTEST_WORDS = 4
 
 def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
     """Find the first text that YAML cannot read where a launch file makes it YAML."""
-    if not subject.files:
+    # xacro writes its own line breaks and indentation between tags.
+    urdf = _BETWEEN_TAGS.sub(">\n<", subject.robot.urdf)
+    trap = _TRAP.search(urdf)
+    # Launch files are only looked for where one could have trouble: most have none.
+    if trap is None or not subject.files:
         return
     model = Path(subject.files[0])
     launch = next(_bare_launch_files(model.absolute().parent), None)
-    text = None if launch is None else _text_that_stops_yaml(subject.robot.urdf)
-    if launch is None or text is None:
+    if launch is None or _is_text_in_yaml(urdf):
         return
+    text = _text_around(urdf, trap.start())
     yield Problem.at(
         _place(subject.files, text) or str(model),
         "warning",
@@ -87,19 +91,14 @@ def _is_command(node: ast.expr) -> bool:
     return isinstance(node, ast.Call) and call_name(node.func) == "Command"
 
 
-def _text_that_stops_yaml(urdf: str) -> str | None:
-    """The text at which YAML fails, without tags; None when YAML reads plain text."""
-    # xacro writes its own line breaks and indentation between tags.
-    urdf = _BETWEEN_TAGS.sub(">\n<", urdf)
-    trap = _TRAP.search(urdf)
-    if trap is None or _is_text_in_yaml(urdf):
-        return None
-    start = urdf.rfind("\n", 0, trap.start()) + 1
+def _text_around(urdf: str, at: int) -> str:
+    """Return the text at an offset, up to the next tags, quotes and line breaks."""
+    start = urdf.rfind("\n", 0, at) + 1
     line = urdf[start:].split("\n", 1)[0]
     reached = 0
     for part in re.split(r"<!--|-->|[<>\"]", line):
         reached = line.find(part, reached) + len(part)
-        if reached >= trap.start() - start:
+        if reached >= at - start:
             return part.strip()
     return line.strip()
 

@@ -8,7 +8,7 @@ import math
 
 from sambot_viz.commands.command_line import Parser, parse, posed_frames
 from sambot_viz.errors import FrameError
-from sambot_viz.frames.explain import Explanation, explain
+from sambot_viz.frames.robot_frames import Explanation, explain
 from sambot_viz.frames.transform import Transform
 from sambot_viz.geometry import rotation_from_xyzw
 from sambot_viz.inputs import Inputs

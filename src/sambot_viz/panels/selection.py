@@ -9,7 +9,7 @@ from typing import Any
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.errors import Place
 from sambot_viz.frames import FrameTree, LookupRefused
-from sambot_viz.frames.explain import distance_between
+from sambot_viz.frames.robot_frames import distance_between
 from sambot_viz.panels.frames.frame_answer import shown_numbers
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Json, Row

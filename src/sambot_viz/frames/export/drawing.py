@@ -10,8 +10,8 @@ import json
 from collections.abc import Iterator
 from typing import TypedDict
 
-from sambot_viz.frames.explain import joint_between
 from sambot_viz.frames.frame_tree import FrameTree, Hop
+from sambot_viz.frames.robot_frames import joint_between
 from sambot_viz.robot.model import Robot
 from sambot_viz.text import text
 

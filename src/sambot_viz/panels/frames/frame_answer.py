@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 
 from sambot_viz.frames import Transform
-from sambot_viz.frames.explain import Explanation
+from sambot_viz.frames.robot_frames import Explanation
 from sambot_viz.panels.row import Row
 
 DIGITS = 6

@@ -9,8 +9,8 @@ from typing import Any
 
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.frames import Transform
-from sambot_viz.frames.explain import Explanation, explain
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.robot_frames import Explanation, explain
 from sambot_viz.frames.static_transform import StaticTransform, parse_static_transform
 from sambot_viz.panels.command import FLAG, NUMBER, TEXT, command
 from sambot_viz.panels.frames.frame_answer import answer_rows

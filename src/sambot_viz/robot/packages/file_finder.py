@@ -67,17 +67,18 @@ class FileFinder:
             findings: where problems go.
             trusted: False finds nothing outside the model's folder and packages.
         """
-        self._index = PackageIndex(folder, package_path)
-        self._folder = folder
+        self._where = (folder, package_path)
         self._findings = findings
         self._seen: set[str] = set()
         self.roots: tuple[Path, ...] | None = None
         if not trusted:
-            self.roots = tuple(root.resolve() for root in self._index.own_roots())
+            self.roots = tuple(
+                root.resolve() for root in PackageIndex(*self._where).own_roots()
+            )
 
     @cached_property
     def _resolver(self) -> FileResolver:
-        return FileResolver(self._index, self._folder)
+        return FileResolver(PackageIndex(*self._where), self._where[0])
 
     def mesh(self, filename: str, element: Element) -> Path | None:
         """Find the file of a <mesh>."""

@@ -8,8 +8,7 @@ import pytest
 from close import is_close
 
 from sambot_viz.frames import FrameTree, LookupRefused, Transform
-from sambot_viz.frames.explain import distance_between, explain
-from sambot_viz.frames.robot_frames import robot_frames
+from sambot_viz.frames.robot_frames import distance_between, explain, robot_frames
 from sambot_viz.robot.model import Robot
 
 
