@@ -15,6 +15,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Row
 from sambot_viz.session.worker import Worker
 
 JOINT = "drivewhl_l_joint"
@@ -136,14 +137,78 @@ def test_a_step_makes_no_rows_again_and_asks_no_disk(
     assert disk.asked == []
 
 
-def test_a_number_of_a_display_makes_only_displays_again(
-    viz: Visualizer, clients: list[ProtocolClient], made: Counter[str], disk: Disk
+@pytest.fixture
+def converted(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """How often each row was made ready for the pages, by its name."""
+    counts: Counter[str] = Counter()
+    json = Row.json
+
+    def counted(row: Row) -> dict[str, Any]:
+        counts[row.name] += 1
+        return json(row)
+
+    monkeypatch.setattr(Row, "json", counted)
+    return counts
+
+
+def test_a_number_of_a_display_makes_only_its_row_again(
+    viz: Visualizer,
+    clients: list[ProtocolClient],
+    made: Counter[str],
+    converted: Counter[str],
+    disk: Disk,
 ) -> None:
     drag(clients[0], viz, "displays", "Grid", "Cell Size")
     made.clear()
+    converted.clear()
     disk.counts = True
     drag(clients[0], viz, "displays", "Grid", "Cell Size")
-    assert set(made) <= {"edit", "displays"}
+    assert set(made) <= {"edit"} and made["edit"] <= len(clients)
     # Once for all clients, however many there are.
-    assert made["displays"] <= STEPS + 1 and made["edit"] <= len(clients)
+    assert set(converted) == {"Cell Size"}
+    assert converted["Cell Size"] <= STEPS + 1
+    clients[0].act("edit/undo")
+    clients[0].settle(viz.viser)
+    assert set(converted) == {"Cell Size"} and "displays" not in made
     assert disk.asked == []
+
+
+def rows_of_displays(client: ProtocolClient) -> dict[str, Any]:
+    rows = client.rows.items()
+    return {i: dict(row) for i, row in rows if row["panel"] == "displays"}
+
+
+@pytest.mark.parametrize(
+    "path, value",
+    [
+        (("Grid", "Cell Size"), 0.25),
+        (("Grid", "Color"), [1, 2, 3]),
+        # Too many lines: the status gets a row, and loses it again.
+        (("Grid", "Plane Cell Count"), 1_000_000),
+        (("RobotModel", "Alpha"), 0.5),
+        (("TF", "Marker Scale"), 2.0),
+        (("RobotModel", "Links", "=base_link", "Alpha"), 0.5),
+    ],
+)
+def test_rows_that_are_made_alone_are_as_when_all_are_made(
+    viz: Visualizer, clients: list[ProtocolClient], path: tuple[str, ...], value: Any
+) -> None:
+    client, session = clients[0], viz.server.sessions.all()[0]
+    first = rows_of_displays(client)
+
+    def made_alone() -> dict[str, Any]:
+        client.settle(viz.viser)
+        alone = rows_of_displays(client)
+        with session.lock:
+            session.document.displays.touch()
+        client.settle(viz.viser)
+        assert rows_of_displays(client) == alone
+        return alone
+
+    display, *below = path
+    client.edit("/".join([client.id_of("displays", display), *below]), value)
+    assert made_alone() != first
+    client.act("edit/undo")
+    assert made_alone() == first
+    client.act("edit/redo")
+    assert made_alone() != first

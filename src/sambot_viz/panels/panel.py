@@ -21,11 +21,13 @@ class Panel:
     Attributes:
         name: the panel of the page that shows the rows.
         remade_by: the rows are made again after these have changed.
+        changed_by: only `changed_rows` is asked after these.
         period: shortest time between two times that `values` is asked [s].
     """
 
     name: ClassVar[str]
     remade_by: Sequence[Signal[Any]] = ()
+    changed_by: Sequence[Signal[Any]] = ()
     period: ClassVar[float] = 0.0
     _declared: ClassVar[tuple[Command, ...]] = ()
 
@@ -60,6 +62,10 @@ class Panel:
     def offers(self, command_id: str) -> bool:
         """Tell whether a declared command can be called at present."""
         return True
+
+    def changed_rows(self) -> Sequence[Row] | None:
+        """Return the rows that differ from before; None when there may be others."""
+        return None
 
     def values(self) -> Mapping[str, Json]:
         """Return the values of rows and data that a motion may have changed, by id."""

@@ -35,6 +35,7 @@ class RowSync:
         # None: its rows were not made yet.
         self._items: dict[str, dict[str, Item] | None] = {p.name: None for p in panels}
         self._remake: set[Panel] = set()
+        self._change: set[Panel] = set()
         self._move: set[Panel] = set()
         self._followed = False
         self._throttle = Throttle(worker, PERIOD, self._publish)
@@ -72,7 +73,9 @@ class RowSync:
     def _connect(self, panel: Panel) -> Iterator[Callable[[], None]]:
         """Show a change of what a panel shows, all panels together."""
         yield connect(panel.remade_by, partial(self._remake.add, panel))
-        yield connect(panel.remade_by, self._throttle.request, sends=True)
+        yield connect(panel.changed_by, partial(self._change.add, panel))
+        signals = [*panel.remade_by, *panel.changed_by]
+        yield connect(signals, self._throttle.request, sends=True)
 
     def _listeners(self, panel: Panel) -> Iterator[Listening]:
         """Yield what follows a motion; it listens once rows have been made."""
@@ -96,11 +99,18 @@ class RowSync:
 
     def _publish(self) -> None:
         with self._worker.lock:
-            remake, move = {*self._remake}, self._move - self._remake
-            self._remake.clear()
-            self._move.clear()
-            changed = [self._make(panel) for panel in self._panels if panel in remake]
-            changed += [self._follow(panel) for panel in self._panels if panel in move]
+            remake, change, move = {*self._remake}, {*self._change}, {*self._move}
+            for waiting in (self._remake, self._change, self._move):
+                waiting.clear()
+            changed: list[bool] = []
+            for panel in self._panels:
+                if panel in remake:
+                    changed.append(self._make(panel))
+                    continue
+                if panel in change:
+                    changed.append(self._make_changed(panel))
+                if panel in move:
+                    changed.append(self._follow(panel))
             followed, self._followed = self._followed, False
             if followed or any(changed):
                 self.store.tell()
@@ -116,6 +126,14 @@ class RowSync:
             self.store.replace(panel.name, list(new.values()))
             return True
         return any([self._update(row_id, value) for row_id, value in new.items()])
+
+    def _make_changed(self, panel: Panel) -> bool:
+        """Make only the rows of a panel that differ; the others are there already."""
+        rows, items = panel.changed_rows(), self._items[panel.name]
+        if rows is None or items is None:
+            return self._make(panel)
+        items.update((row.id, row) for row in rows)
+        return any([self._update(row.id, row.json()) for row in rows])
 
     def _update(self, row_id: str, new: dict[str, Json]) -> bool:
         old = self.store.get(row_id) or {}

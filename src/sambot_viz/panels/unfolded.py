@@ -63,17 +63,22 @@ def row_paths(rows: Iterable[Row]) -> Iterator[tuple[Row, str]]:
         yield row, paths[row.id]
 
 
-def mark_expanded(
+def listed_rows(
     rows: Iterable[Row], expanded: Collection[str] | None
-) -> Iterator[Row]:
-    """Yield the rows, unfolded as the file says, if it says anything."""
+) -> frozenset[str] | None:
+    """Return the ids of the rows that the file unfolds; None when it says nothing."""
     if expanded is None:
-        yield from rows
-        return
-    listed = frozenset(expanded)
-    for row, path in row_paths(rows):
-        unfolded = path in listed or bool(row.level and row.expanded)
-        yield row if unfolded == row.expanded else replace(row, expanded=unfolded)
+        return None
+    paths = frozenset(expanded)
+    return frozenset(row.id for row, path in row_paths(rows) if path in paths)
+
+
+def mark_expanded(row: Row, listed: Collection[str] | None) -> Row:
+    """Return the row, unfolded as the file says, if it says anything."""
+    if listed is None:
+        return row
+    unfolded = row.id in listed or bool(row.level and row.expanded)
+    return row if unfolded == row.expanded else replace(row, expanded=unfolded)
 
 
 def keep_expanded(

@@ -16,7 +16,12 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
 from sambot_viz.panels.row import Json, Row
 from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_rows
-from sambot_viz.panels.unfolded import LazyRows, keep_expanded, mark_expanded
+from sambot_viz.panels.unfolded import (
+    LazyRows,
+    keep_expanded,
+    listed_rows,
+    mark_expanded,
+)
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.declarations import GROUP, row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
@@ -59,7 +64,8 @@ class DisplaysPanel(Panel):
             robot.changed,
             problems.shown,
         )
-        self.remade_by = (*whole, document.values)
+        self.remade_by = whole
+        self.changed_by = (document.values,)
         self._document = document
         self._display_edits = display_edits
         self._scene = scene
@@ -68,10 +74,11 @@ class DisplaysPanel(Panel):
         self._ids = Ids[DisplayConfig]("d")
         self._remake = remake
         self._lazy = LazyRows("displays/unfold", self._unfolded)
-        # Rows as they were made at a revision of their display; the last number that
-        # was set makes only the rows of its display again.
+        # Rows as they were made at a revision of their display: a number that is set
+        # makes only the rows of its display again.
         self._made: dict[DisplayConfig, tuple[int, list[Row]]] = {}
         self._facts: dict[DisplayConfig, list[tuple[str, EntryList, str]]] = {}
+        self._listed: frozenset[str] | None = None
         self._disconnect = connect(whole, self._forget)
 
     @property
@@ -104,7 +111,23 @@ class DisplaysPanel(Panel):
             else row
             for row in tree
         )
-        return [*mark_expanded(rows, self._document.config.expanded)]
+        self._listed = listed_rows(tree, self._document.config.expanded)
+        return [mark_expanded(row, self._listed) for row in rows]
+
+    def changed_rows(self) -> Sequence[Row] | None:
+        """Return what numbers that were set have changed in the rows of displays."""
+        changed: list[Row] = []
+        for display in self._scene.displays:
+            if display.config not in self._made:
+                return None
+            revision, before = self._made[display.config]
+            if revision != display.revision:
+                rows = self._make(display.config, display, before[0].parent)
+                if [row.id for row in rows] != [row.id for row in before]:
+                    return None
+                both = zip(rows, before, strict=True)
+                changed += (row for row, was in both if row != was)
+        return [mark_expanded(row, self._listed) for row in changed]
 
     def commands(self) -> list[Command]:
         """Return the command to unfold a row."""
@@ -113,6 +136,8 @@ class DisplaysPanel(Panel):
     def keep_unfolded(self, unfolded: Collection[str]) -> None:
         """Write into the document which rows are unfolded, from their ids."""
         keep_expanded(self._document.config, self._tree(), unfolded)
+        # All rows are made with that from the next change on.
+        self._made.clear()
 
     def _tree(self) -> list[Row]:
         if not self._made:
@@ -164,11 +189,17 @@ class DisplaysPanel(Panel):
             display = displays.get(id(config))
             revision = 0 if display is None else display.revision
             if config not in self._made or self._made[config][0] != revision:
-                self._facts[config] = []
-                rows = [*self._rows_of(config, display, parent)]
-                self._made[config] = (revision, rows)
+                self._make(config, display, parent)
             yield from self._made[config][1]
             yield from self._display_rows(config.displays, self.id_of(config))
+
+    def _make(
+        self, config: DisplayConfig, display: Display | None, parent: str
+    ) -> list[Row]:
+        self._facts[config] = []
+        rows = [*self._rows_of(config, display, parent)]
+        self._made[config] = (0 if display is None else display.revision, rows)
+        return rows
 
     def _rows_of(
         self, config: DisplayConfig, display: Display | None, parent: str

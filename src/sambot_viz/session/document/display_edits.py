@@ -67,11 +67,12 @@ class DisplayEdits:
             UsageError: the value cannot be meant, or the display refuses it.
         """
         config = display.config
-        with self._change(*self._told(display, config.declared.get(path))):
+        declared = config.declared.get(path)
+        with self._change(*self._told(display, declared)):
             robot_display = display.robot_display
             refusal = robot_display and robot_display.refusal(path, value)
             if refusal is None:
-                with self._setting(config, path, path):
+                with self._setting(config, declared, path, path):
                     config.set(path, value)
                     display.property_changed(path)
         # Raised after the listeners were notified: the panel shows the old value again.
@@ -100,19 +101,21 @@ class DisplayEdits:
             )
         declared = entries.item(name).declared.get(path)
         with self._change(*self._told(display, declared)):
-            with self._setting(display.config, f"{name}/{path}", (title, name, path)):
+            label, merge = f"{name}/{path}", (title, name, path)
+            with self._setting(display.config, declared, label, merge):
                 entries.set(name, path, value)
                 display.property_changed(f"{title}/{path}")
 
     def _told(
-        self, display: Display, declared: Declared | None
+        self, display: Display | None, declared: Declared | None
     ) -> tuple[Signal[Any], ...]:
         """Return what changes with a value of a display.
 
         A number or a colour changes the picture and the status of its display; a frame,
         a file, a box or what is set of a topic may change what others show.
         """
-        display.revision += 1
+        if display is not None:
+            display.revision += 1
         if declared is not None and isinstance(declared.property, _NUMBERS):
             above = declared.above
             if above is None or not isinstance(above.property, TopicProperty):
@@ -120,16 +123,20 @@ class DisplayEdits:
         return (self._document.displays, self._scene.statuses)
 
     def _setting(
-        self, config: DisplayConfig, what: str, merge: object
+        self,
+        config: DisplayConfig,
+        declared: Declared | None,
+        what: str,
+        merge: object,
     ) -> AbstractContextManager[None]:
         """Record the properties of a display that are set inside."""
         self._require(config)
 
         def apply(put_back: Restore) -> None:
             self._require(config)
-            with self._change(self._document.displays, self._scene.statuses):
+            display = self._scene.display_of(config)
+            with self._change(*self._told(display, declared)):
                 put_back()
-                display = self._scene.display_of(config)
                 if display is not None:
                     display.values_put_back()
 
