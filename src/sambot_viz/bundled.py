@@ -13,6 +13,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from sambot_viz.errors import UsageError, did_you_mean
@@ -79,9 +80,12 @@ def config_names() -> list[str]:
 
 def is_bundled(config: str | None) -> bool:
     """Tell if a config file is one that comes with the program."""
-    if config is None:
-        return False
-    path = Path(config).absolute()
+    return config is not None and _is_bundled(Path(config).absolute())
+
+
+@lru_cache(maxsize=64)
+def _is_bundled(path: Path) -> bool:
+    # The bundled files never change; this is asked after edits, which ask no disk.
     return path.parent.resolve() == configs_folder() and path.name in config_names()
 
 

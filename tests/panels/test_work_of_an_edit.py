@@ -212,3 +212,17 @@ def test_rows_that_are_made_alone_are_as_when_all_are_made(
     assert made_alone() == first
     client.act("edit/redo")
     assert made_alone() != first
+
+
+@pytest.mark.parametrize("path", [("Grid",), ("RobotModel", "Visual Enabled")])
+def test_a_box_of_a_display_asks_no_disk(
+    viz: Visualizer, clients: list[ProtocolClient], disk: Disk, path: tuple[str, ...]
+) -> None:
+    row = clients[0].id_of("displays", *path)
+    disk.counts = True
+    for wanted in (False, True):
+        clients[0].edit(row, wanted)
+        clients[0].wait_until(lambda on=wanted: clients[0].rows[row]["value"] == on)
+    clients[0].act("edit/undo")
+    clients[0].settle(viz.viser)
+    assert disk.asked == []
