@@ -11,13 +11,14 @@ import numpy.typing as npt
 
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.picking.pick_geometry import (
+    Array,
     Corners,
     PickBuffer,
     PickGeometry,
     Selectable,
+    TriangleMesh,
 )
 from sambot_viz.displays.picking.rasterise import covered, nearness
-from sambot_viz.displays.picking.rays import Array, TriangleMesh
 from sambot_viz.geometry import Matrix
 from sambot_viz.rviz import DisplayConfig
 

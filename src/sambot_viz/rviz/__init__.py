@@ -27,6 +27,7 @@ from sambot_viz.rviz.properties.color import ColorProperty as ColorProperty
 from sambot_viz.rviz.properties.numbers import BoolProperty as BoolProperty
 from sambot_viz.rviz.properties.numbers import FloatProperty as FloatProperty
 from sambot_viz.rviz.properties.numbers import IntProperty as IntProperty
+from sambot_viz.rviz.properties.numbers import VectorProperty as VectorProperty
 from sambot_viz.rviz.properties.property import GroupProperty as GroupProperty
 from sambot_viz.rviz.properties.property import KeptProperty as KeptProperty
 from sambot_viz.rviz.properties.property import Property as Property
@@ -43,5 +44,4 @@ from sambot_viz.rviz.properties.texts import RegexProperty as RegexProperty
 from sambot_viz.rviz.properties.texts import StringProperty as StringProperty
 from sambot_viz.rviz.properties.texts import TfFrameProperty as TfFrameProperty
 from sambot_viz.rviz.properties.texts import TopicProperty as TopicProperty
-from sambot_viz.rviz.properties.vectors import VectorProperty as VectorProperty
 from sambot_viz.rviz.rviz_config import RvizConfig as RvizConfig

@@ -12,10 +12,9 @@ from typing import TypeAlias
 
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.rviz.properties.color import ColorProperty
-from sambot_viz.rviz.properties.numbers import BoolProperty, IntProperty
+from sambot_viz.rviz.properties.numbers import BoolProperty, IntProperty, VectorProperty
 from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.properties.texts import TfFrameProperty
-from sambot_viz.rviz.properties.vectors import VectorProperty
 from sambot_viz.rviz.yaml.nodes import Map
 
 GROUP = "rviz_common/Group"

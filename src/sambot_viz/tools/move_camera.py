@@ -1,7 +1,8 @@
-"""MoveCamera: the mouse moves the camera."""
+"""MoveCamera and Interact: the mouse moves the camera."""
 
 from __future__ import annotations
 
+from sambot_viz.rviz import BoolProperty
 from sambot_viz.tools.tool import Tool
 
 
@@ -13,3 +14,21 @@ class MoveCameraTool(Tool):
     key = "M"
     help = "Left: turn. Middle: move. Right or wheel: zoom. Shift: move."
     touch = "One finger: turn. Two: move and zoom."
+
+
+class InteractTool(Tool):
+    """Interactive markers come from ROS programs; without them it moves the camera."""
+
+    kind = "rviz_default_plugins/Interact"
+    label = "Interact"
+    key = "I"
+    help = MoveCameraTool.help
+    touch = MoveCameraTool.touch
+    properties = (
+        BoolProperty(
+            "Hide Inactive Objects",
+            default=True,
+            help="Concerns interactive markers, which need a ROS program.",
+            support="none",
+        ),
+    )

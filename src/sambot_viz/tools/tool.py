@@ -7,8 +7,7 @@ from typing import ClassVar, Literal, Protocol
 
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Hit, Selectable
-from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.picking.pick_geometry import Array, Hit, Selectable
 from sambot_viz.rviz import Property, ToolConfig
 
 Key = Literal["I", "M", "S", "C", "N"]

@@ -13,8 +13,7 @@ from sambot_viz.views.camera import (
     on_sphere,
     vector,
 )
-from sambot_viz.views.common import COMMON_PROPERTIES
-from sambot_viz.views.view import STEEPEST, Values, View
+from sambot_viz.views.view import COMMON_PROPERTIES, STEEPEST, Values, View
 
 FPS_PROPERTIES: tuple[Property, ...] = (
     *COMMON_PROPERTIES,

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from sambot_viz.views.fps import FPSView
 from sambot_viz.views.orbit import OrbitView
-from sambot_viz.views.third_person_follower import ThirdPersonFollowerView
 from sambot_viz.views.top_down_ortho import TopDownOrthoView
 from sambot_viz.views.view import View
-from sambot_viz.views.xy_orbit import XYOrbitView
+from sambot_viz.views.xy_orbit import ThirdPersonFollowerView, XYOrbitView
 
 VIEWS: dict[str, type[View]] = {
     view.kind: view

@@ -16,9 +16,8 @@ from sambot_viz.views.camera import (
     Vectors,
     vector,
 )
-from sambot_viz.views.common import COMMON_PROPERTIES
 from sambot_viz.views.orbit import OrbitView
-from sambot_viz.views.view import Values, View
+from sambot_viz.views.view import COMMON_PROPERTIES, Values, View
 
 TOP_DOWN_ORTHO_PROPERTIES: tuple[Property, ...] = (
     *COMMON_PROPERTIES,

@@ -15,7 +15,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from sambot_viz.rviz import Property, ViewConfig
+from sambot_viz.rviz import (
+    BoolProperty,
+    FloatProperty,
+    KeptProperty,
+    Property,
+    TfFrameProperty,
+    ViewConfig,
+)
 from sambot_viz.views.camera import (
     FIELD_OF_VIEW,
     Camera,
@@ -209,3 +216,30 @@ def to_target(camera: Camera, target: Target) -> Camera:
         turned(camera.look_at - target.position, -target.yaw),
         turned(camera.up, -target.yaw),
     )
+
+
+COMMON_PROPERTIES: tuple[Property, ...] = (
+    FloatProperty(
+        "Near Clip Distance",
+        default=0.01,
+        minimum=0.001,
+        maximum=10000.0,
+        unit="m",
+        help="What is nearer to the camera is not drawn.",
+    ),
+    BoolProperty("Invert Z Axis", default=False, help="Turn the picture upside down."),
+    TfFrameProperty(
+        "Target Frame",
+        default="<Fixed Frame>",
+        help="The frame that the view follows.",
+    ),
+    KeptProperty(
+        "Enable Stereo Rendering",
+        note="RViz for ROS 2 writes it, and has no stereo picture",
+    ),
+    KeptProperty(
+        "Field of View",
+        support="none",
+        note="of ROS 1; the angle is 45 degrees, as in RViz for ROS 2",
+    ),
+)

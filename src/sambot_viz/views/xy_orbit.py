@@ -1,4 +1,4 @@
-"""XYOrbit: Orbit with the focal point on the ground, low in the picture."""
+"""XYOrbit, with the focal point on the ground; ThirdPersonFollower, which turns too."""
 
 from __future__ import annotations
 
@@ -64,3 +64,11 @@ def _to_ground(origin: Vector, direction: Vector) -> float | None:
         return None
     reach = float(-origin[2] / direction[2])
     return reach if reach > 0.0 else None
+
+
+class ThirdPersonFollowerView(XYOrbitView):
+    """Follows position and yaw of the target frame, not its roll and pitch."""
+
+    kind = "rviz_default_plugins/ThirdPersonFollower"
+    help = "Follows the target frame and turns with it."
+    follows_yaw = True

@@ -9,8 +9,12 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.grid import GridLines
-from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.displays.picking.rays import Array, RayGrid, TriangleMesh
+from sambot_viz.displays.picking.pick_geometry import (
+    Array,
+    RayGrid,
+    Selectable,
+    TriangleMesh,
+)
 from sambot_viz.displays.triangle_display import PlacedMesh, TriangleGeometry
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.parts import Origin

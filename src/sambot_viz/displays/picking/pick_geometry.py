@@ -1,13 +1,152 @@
-"""Geometry of one display at one moment, for rays and rectangles to meet."""
+"""What rays meet: a picture's rays, triangles, and the geometry of one display."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from functools import cached_property
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
-from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.geometry import Matrix
+
+Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.integer[Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class RayGrid:
+    """Rays from one eye through the pixels of a rectangle of a picture.
+
+    The ray through column i and row j has the direction ``axes @ (i, j, 1)``, which
+    need not have length 1: distances along rays are counted in multiples of it. A
+    click is a grid of one ray.
+
+    Attributes:
+        origin: the eye, (3,) [m].
+        axes: from one column to the next, from one row to the next, and the first ray,
+            as columns, (3, 3); right-handed.
+        columns: how many.
+        rows: how many.
+    """
+
+    origin: Array
+    axes: Array
+    columns: int
+    rows: int
+
+    @classmethod
+    def through(cls, origin: Array, direction: Array) -> RayGrid:
+        """Return a single ray, both (3,)."""
+        # Any two axes across the ray will do.
+        axes = np.empty((3, 3))
+        axes[:, 0] = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
+        axes[:, 1] = np.cross(direction, axes[:, 0])
+        axes[:, 2] = direction
+        return cls(origin, axes, 1, 1)
+
+    def part(self, column: int, row: int, columns: int, rows: int) -> RayGrid:
+        """Return a rectangle of these rays that begins with a column and a row."""
+        axes: Array = np.copy(self.axes)
+        axes[:, 2] = self.axes @ np.array((column, row, 1.0))
+        return RayGrid(self.origin, axes, columns, rows)
+
+    def seen(self, points: npt.NDArray[np.floating[Any]], T: Matrix) -> Array:
+        """Points as the eye sees them.
+
+        There the ray through column i and row j is (i, j, 1), so that a point (x, y, z)
+        is drawn at column x / z and row y / z, and z is the distance along its ray.
+
+        Args:
+            points: (…, 3) [m].
+            T: (4, 4) affine map from their frame to that of the rays.
+        """
+        to_eye = np.linalg.inv(self.axes)
+        A, b = to_eye @ T[:3, :3], to_eye @ (T[:3, 3] - self.origin)
+        x, y, z = (points[..., axis].astype(np.float64) for axis in range(3))
+        seen: Array = np.empty(points.shape)
+        # A matrix product of so many points would start threads, and wait for them.
+        for axis in range(3):
+            seen[..., axis] = A[axis, 0] * x + A[axis, 1] * y + A[axis, 2] * z + b[axis]
+        return seen
+
+
+GROUP = 128
+"""Neighbouring triangles that share a box; files list neighbours one after another."""
+CHUNK = 1 << 18
+"""Triangles whose corners are gathered in one go, which bounds the memory."""
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """Triangles that rays can meet.
+
+    Attributes:
+        vertices: (V, 3) float32 [m].
+        faces: (F, 3) indices of vertices, counter-clockwise seen from outside.
+        low: the lowest corner of the box around the vertices, (3,) [m].
+        high: the highest corner, (3,) [m].
+    """
+
+    vertices: npt.NDArray[np.floating[Any]]
+    faces: Indices
+    low: Array
+    high: Array
+
+    @classmethod
+    def of(
+        cls, vertices: npt.NDArray[np.floating[Any]], faces: Indices
+    ) -> TriangleMesh:
+        """Return a mesh with the box around it."""
+        if not len(vertices):
+            return cls(vertices, faces, np.zeros(3), np.zeros(3))
+        low = vertices.min(axis=0).astype(np.float64)
+        return cls(vertices, faces, low, vertices.max(axis=0).astype(np.float64))
+
+    def box(self, T: Matrix) -> tuple[Array, Array]:
+        """The corners (3,) of the box along the axes around the mesh's own box [m].
+
+        As in RViz, a turned mesh gets the box around its turned box.
+
+        Args:
+            T: (4, 4) from the mesh to the frame of the axes; it may scale.
+        """
+        center = T[:3, :3] @ ((self.low + self.high) / 2) + T[:3, 3]
+        half = np.abs(T[:3, :3]) @ ((self.high - self.low) / 2)
+        return center - half, center + half
+
+    @cached_property
+    def corners(self) -> Array:
+        """Return the corners of the box around the vertices, (1, 8, 3) [m]."""
+        return _corners(np.array([[self.low, self.high]]))
+
+    @cached_property
+    def group_corners(self) -> Array:
+        """Return the corners of a box around every `GROUP` triangles, (G, 8, 3) [m].
+
+        Five million triangles take about two seconds, once.
+        """
+        boxes: list[Array] = []
+        for start in range(0, len(self.faces), CHUNK):
+            corners = self.vertices[self.faces[start : start + CHUNK]].astype(float)
+            begins = np.arange(0, len(corners), GROUP)
+            low = np.minimum.reduceat(corners.min(axis=1), begins)
+            high = np.maximum.reduceat(corners.max(axis=1), begins)
+            boxes.append(np.stack([low, high], axis=1))
+        return _corners(np.concatenate(boxes)) if boxes else np.zeros((0, 8, 3))
+
+    def faces_of(self, groups: Indices) -> Indices:
+        """Return the faces of some groups, (N, 3)."""
+        numbers = (groups[:, None] * GROUP + np.arange(GROUP)).ravel()
+        return self.faces[numbers[numbers < len(self.faces)]]
+
+
+def _corners(ends: Array) -> Array:
+    """The corners (N, 8, 3) of boxes, from their lowest and highest, (N, 2, 3)."""
+    x, y, z = (axis.ravel() for axis in np.meshgrid((0, 1), (0, 1), (0, 1)))
+    return np.stack([ends[:, x, 0], ends[:, y, 1], ends[:, z, 2]], axis=2)
+
 
 Corners = tuple[Array, Array]
 """The lowest and the highest corner of a box along the axes, (3,) [m]."""

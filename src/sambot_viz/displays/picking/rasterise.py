@@ -16,7 +16,12 @@ from functools import reduce
 
 import numpy as np
 
-from sambot_viz.displays.picking.rays import Array, Indices, RayGrid, TriangleMesh
+from sambot_viz.displays.picking.pick_geometry import (
+    Array,
+    Indices,
+    RayGrid,
+    TriangleMesh,
+)
 from sambot_viz.geometry import Matrix
 
 GROUPS = 2000

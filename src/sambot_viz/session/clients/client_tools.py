@@ -13,8 +13,7 @@ from typing import Any, Literal
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Hit, Selectable
-from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.pick_geometry import Array, Hit, RayGrid, Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.session.clients.pointer_events import click_of, pointed_at, rays_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.pick_geometry import Array, RayGrid
 from sambot_viz.tools.picking.picture import Picture, ScreenPoint
 from sambot_viz.tools.tool import Click
 

@@ -9,13 +9,14 @@ import numpy as np
 
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.picking.pick_geometry import (
+    Array,
     Corners,
     Hit,
     PickBuffer,
     PickGeometry,
+    RayGrid,
     Selectable,
 )
-from sambot_viz.displays.picking.rays import Array, RayGrid
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.pick_geometry import Array, RayGrid
 from sambot_viz.geometry import rotation_from_xyzw
 
 LARGEST_SIDE = 100_000

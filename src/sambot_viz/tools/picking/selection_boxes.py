@@ -8,8 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.picking.pick_geometry import Array, Selectable
 
 CYAN = (0, 255, 255)
 CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
