@@ -19,6 +19,7 @@ from websockets.typing import Subprotocol
 
 from sambot_viz import Visualizer
 from sambot_viz.server import client_writer, connection, inbound_filter
+from sambot_viz.session.clients.camera import ClientCamera
 
 Connect = Callable[..., ProtocolClient]
 SLIDER = "joints", "drivewhl_l_joint"
@@ -235,16 +236,46 @@ def test_nonsense_is_dropped_and_the_connection_stays(
     assert not client.closed
 
 
-def test_a_camera_that_is_not_finite_is_dropped(
-    viz: Visualizer, protocol: Connect
-) -> None:
+def test_what_is_no_camera_is_dropped(viz: Visualizer, protocol: Connect) -> None:
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
     for x in (math.nan, math.inf, 1e300):
         client.send("ViewerCameraMessage", **{**CAMERA, "position": (x, 0.0, 0.0)})
+    for x in (0.0, 1.0, -1e6, 1e9):
+        at = {"position": (x, 2.0, 1.0), "look_at": (x, 2.0, 1.0)}
+        client.send("ViewerCameraMessage", **{**CAMERA, **at})
+        at["look_at"] = (x + 1e-9 + abs(x) * 1e-14, 2.0, 1.0)
+        client.send("ViewerCameraMessage", **{**CAMERA, **at})
+    for up in (0.0, 1e-200, -1e-7):
+        new = {"position": (7.0, 7.0, 7.0), "up_direction": (0.0, 0.0, up)}
+        client.send("ViewerCameraMessage", **{**CAMERA, **new})
     client.settle(viz.viser)
     (handle,) = viz.viser.get_clients().values()
     assert tuple(handle.camera.position) == (3.0, 0.0, 0.0)
+
+
+def test_an_error_that_a_browser_causes_is_told_to_it_alone_and_logged_once(
+    viz: Visualizer,
+    witness: ProtocolClient,
+    protocol: Connect,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    def fail(self: object) -> bool:
+        raise ZeroDivisionError("a camera of this kind")
+
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    monkeypatch.setattr(ClientCamera, "take", fail)
+    for distance in range(1, 6):
+        at = {"position": (0.0, 0.0, float(distance))}
+        client.send("ViewerCameraMessage", **{**CAMERA, **at})
+        client.settle(viz.viser)
+    client.wait_until(lambda: "camera of this kind" in str(client.rows["notice"]))
+    monkeypatch.undo()
+    assert still_works(viz, witness, protocol)
+    assert "camera of this kind" not in str(witness.rows)
+    assert [record.levelname for record in caplog.records] == ["ERROR"]
 
 
 def test_a_message_that_is_too_long_ends_its_connection_only(

@@ -39,7 +39,7 @@ def errors() -> list[Exception]:
 def change(log: Log, errors: list[Exception]) -> Iterator[Change]:
     loop = asyncio.new_event_loop()
     worker = Worker(loop)
-    worker.on_error = errors.append
+    worker.on_error = lambda error, client: errors.append(error)
     yield Change(worker, cast(Any, log))
     worker.close()
     loop.close()

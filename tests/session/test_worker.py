@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Literal
 
 import pytest
@@ -27,9 +28,10 @@ def worker() -> Iterator[Worker]:
     loop.close()
 
 
-def run_all(worker: Worker) -> None:
+def run_all(worker: Worker, client: int | None = None) -> None:
+    """Wait for everything of a client."""
     done = threading.Event()
-    worker.post(done.set)
+    worker.post(done.set, client=client)
     assert done.wait(10)
 
 
@@ -54,10 +56,65 @@ def test_of_values_in_a_row_the_latest_wins(worker: Worker) -> None:
 
 def test_an_action_that_fails_is_reported_and_the_next_one_runs(worker: Worker) -> None:
     met: list[Exception] = []
-    worker.on_error = met.append
+    worker.on_error = lambda error, client: met.append(error)
     worker.post(lambda: 1 / 0)
     run_all(worker)
     assert [type(error) for error in met] == [ZeroDivisionError]
+
+
+def test_clients_take_turns_and_each_keeps_its_order(worker: Worker) -> None:
+    ran: list[tuple[int | None, int]] = []
+    with worker.lock:
+        post = partial(post_many, worker, ran)
+        # The first action may have been taken out already: it waits for the lock.
+        post(None, 1)
+        post(1, 5)
+        post(2, 2)
+        post(3, 1)
+    run_all(worker, 1)
+    clients = [client for client, _ in ran[1:]]
+    assert clients == [1, 2, 3, 1, 2, 1, 1, 1]
+    for client in (1, 2, 3):
+        numbers = [number for one, number in ran if one == client]
+        assert numbers == sorted(numbers)
+
+
+def test_every_other_action_is_of_one_in_control(worker: Worker) -> None:
+    ran: list[tuple[int | None, int]] = []
+    worker.in_control = lambda client: client < 10
+    with worker.lock:
+        post = partial(post_many, worker, ran)
+        post(None, 1)
+        for viewer in (10, 11, 12):
+            post(viewer, 2)
+        post(1, 2)
+        post(2, 1)
+    run_all(worker, 12)
+    assert [client for client, _ in ran[1:]] == [10, 1, 11, 2, 12, 1, 10, 11, 12]
+
+
+def post_many(
+    worker: Worker, ran: list[tuple[int | None, int]], client: int | None, count: int
+) -> None:
+    for number in range(count):
+        action = partial(ran.append, (client, number))
+        worker.post(action, client=client)
+
+
+def test_an_error_is_reported_with_the_client_that_has_caused_it(
+    worker: Worker,
+) -> None:
+    met: list[tuple[type[Exception], int | None]] = []
+    worker.on_error = lambda error, client: met.append((type(error), client))
+    worker.post(lambda: 1 / 0, client=7)
+    worker.post(lambda: 1 / 0)
+    worker.post(lambda: worker.report(KeyError()), client=8)
+    for client in (7, 8, None):
+        run_all(worker, client)
+    worker.report(ValueError())
+    errors = {(ZeroDivisionError, 7), (ZeroDivisionError, None), (KeyError, 8)}
+    assert set(met[:-1]) == errors
+    assert met[-1] == (ValueError, None)
 
 
 def test_a_later_action_runs_after_its_delay(worker: Worker) -> None:

@@ -93,8 +93,10 @@ def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:
 class _Nobody(Worker):
     """The worker of a session that no browser sees: nothing is to be done later."""
 
-    def post(self, action: Action, latest_of: object = None) -> None:
-        del action, latest_of
+    def post(
+        self, action: Action, latest_of: object = None, *, client: int | None = None
+    ) -> None:
+        del action, latest_of, client
 
     def post_later(self, delay: float, action: Action) -> None:
         del delay, action

@@ -79,7 +79,7 @@ class PicturesPanel(Panel):
         if self._drawing:
             raise UsageError("a picture is being drawn already")
         self._drawing = True
-        self._worker.run_on_loop(self._draw(width, height))
+        self._worker.run_on_loop(self._draw(width, height), self._client.client_id)
 
     async def _draw(self, width: int, height: int) -> None:
         """Have the browser draw, and send it the file; runs on the event loop."""
@@ -105,7 +105,7 @@ class PicturesPanel(Panel):
         past = self._robot.recorder.last_minute()
         make = self._ask_page(self._copy(), past, self._client, motion)
         self._making = True
-        self._worker.run_on_loop(self._make(make))
+        self._worker.run_on_loop(self._make(make), self._client.client_id)
 
     async def _make(self, make: MakePage) -> None:
         """Have a page made, and send it; runs on the event loop."""

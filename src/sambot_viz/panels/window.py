@@ -56,6 +56,7 @@ class Window:
             self._remake,
         )
         self._shared = RowSync(session.worker, self._panels(joints), "session")
+        session.problems.tell_client = self._tell_error
         session.clients.listeners.append(self._take_client)
         for client in session.clients.all.values():
             self._take_client(client, True)
@@ -110,6 +111,11 @@ class Window:
             if panels is not None:
                 panels.close()
 
+    def _tell_error(self, client_id: int, sentence: str) -> None:
+        browser = self._browsers.get(client_id)
+        if browser is not None:
+            browser.say(sentence, "error")
+
     def rows_of(self, client_id: int) -> ClientRows | None:
         """Return the rows that a client sees; None when it has none yet."""
         browser = self._browsers.get(client_id)
@@ -131,7 +137,7 @@ class Window:
             self._keys = {key: self._keys.get(key, key)}
             latest_of = self._keys[key]
         take = partial(self._take, client_id, sent)
-        self._session.worker.post(take, latest_of=latest_of)
+        self._session.worker.post(take, latest_of=latest_of, client=client_id)
 
     def _take(self, client_id: int, sent: validation.Sent) -> None:
         """Check what a browser wants and do it; a refusal is answered there."""

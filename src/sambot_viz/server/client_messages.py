@@ -5,10 +5,13 @@ The names are viser's own; what is not in this list is not a message.
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, Literal
 
 import msgspec
 
+SHORTEST = 1e-6
+"""Of the distance from a camera to its target [m], and of its up direction."""
 _Number = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
 _Vector = tuple[_Number, _Number, _Number]
 _Pixels = Annotated[int, msgspec.Meta(ge=0, le=2**15)]
@@ -31,6 +34,13 @@ class CameraMoved(_Message, tag="ViewerCameraMessage"):
     image_width: _Pixels
     look_at: _Vector
     up_direction: _Vector
+
+    def shows_a_direction(self) -> bool:
+        """Return whether a picture can be drawn; viser raises when it turns others."""
+        # The difference must survive a move of both points by as much again.
+        shortest = SHORTEST + max(map(abs, self.position)) * 1e-12
+        away = math.dist(self.position, self.look_at)
+        return away > shortest and math.hypot(*self.up_direction) > SHORTEST
 
 
 class SetValue(_Message, tag="GuiUpdateMessage"):

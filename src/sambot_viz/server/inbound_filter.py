@@ -142,6 +142,8 @@ class InboundFilter:
         if message is None:
             return "not one of the messages that a page of this server sends"
         if isinstance(message, CameraMoved):
+            if not message.shows_a_direction():
+                return "a camera without a direction"
             self._known = True
             return None
         if not self._known:

@@ -289,7 +289,7 @@ class Sessions:
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
         """Run an action behind what a browser has caused in its session."""
         place = self._place_of(client_id)
-        action() if place is None else place.worker.post(action)
+        action() if place is None else place.worker.post(action, client=client_id)
 
     def _place_of(self, client_id: int) -> _Place | None:
         return self._places.get(client_id) or self._places.get(None)
@@ -320,7 +320,10 @@ class Sessions:
         viser_private.allow_late_messages(client)
         shared, context = self.shared, self._context(client.client_id)
         if shared is not None and not context.copy:
-            shared.worker.post(partial(self._give_view, shared, client, context))
+            shared.worker.post(
+                partial(self._give_view, shared, client, context),
+                client=client.client_id,
+            )
             return
         with self._lock:
             if self._closed:
@@ -332,7 +335,8 @@ class Sessions:
         else:
             # Copied under the lock of all, and drawn in the thread of one.
             shared.worker.post(
-                lambda: place.worker.post(partial(open_private, shared.copy()))
+                lambda: place.worker.post(partial(open_private, shared.copy())),
+                client=client.client_id,
             )
 
     def _give_view(
@@ -372,9 +376,12 @@ class Sessions:
             # A session that has not begun to open stays closed.
             place.left = True
             # Behind one that opens at the moment: this must not wait on the loop.
-            place.worker.post(partial(self._close_private, client.client_id, place))
+            # Behind what it has sent.
+            close = partial(self._close_private, client.client_id, place)
+            place.worker.post(close, client=client.client_id)
         elif (shared := self.shared) is not None:
-            shared.worker.post(partial(shared.leave, client.client_id))
+            leave = partial(shared.leave, client.client_id)
+            shared.worker.post(leave, client=client.client_id)
 
     def _close_private(self, client_id: int, place: _Place) -> None:
         with self._lock:

@@ -50,7 +50,7 @@ async def picture_of(
     """
     handle, camera = client.client, client.view.camera
     if camera.scale is not None:
-        scale = camera.scale * height / handle.camera.image_height
+        scale = camera.scale * height / max(1, handle.camera.image_height)
         # The page's own camera is farther away than viser draws into pictures.
         camera = replace(camera, scale=scale).as_perspective(height)
     R = np.stack([camera.right, -camera.image_up, camera.forward], 1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -18,6 +18,10 @@ from sambot_viz.session.worker import log_error
 
 Reloaded = Literal["model", "config", "watch", "fault"]
 """What a save failed to change (model, config), or why saves fail at all."""
+
+
+MOST_LOGGED = 100
+"""So many different internal errors are logged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +51,7 @@ class Problems:
         of_model: what is wrong with the model that is shown.
         of_frames: what is wrong with its frames and wheels; `set_model` adds them.
         of_saves: why the last save is not what is shown.
+        tell_client: called with a client, and with what only this one is told.
     """
 
     def __init__(
@@ -60,10 +65,12 @@ class Problems:
         self.of_model: tuple[Problem, ...] = ()
         self.of_frames: tuple[Problem, ...] = ()
         self.of_saves: dict[Reloaded, tuple[Problem, ...]] = {}
+        self.tell_client: Callable[[int, str], None] = lambda client, text: None
         self._document = document
         self._scene = scene
         self._robot = robot
         self._change = change
+        self._logged: set[Problem] = set()
         self._collected = Signal(change, None)
         sources = [document.replaced, scene.statuses, robot.changed, self._collected]
         connect(sources, self._show)
@@ -80,8 +87,13 @@ class Problems:
             with self._change(self._collected):
                 self.of_saves[of] = tuple(problems)
 
-    def report_error(self, error: Exception) -> None:
-        """Show an exception that was not handled, and log it once."""
+    def report_error(self, error: Exception, client: int | None = None) -> None:
+        """Show an exception that was not handled, and log it once.
+
+        Args:
+            error: what was raised.
+            client: who has caused it, and alone is told; None shows it to all.
+        """
         if isinstance(error, SambotVizError):
             problem = Problem("error", "refused", str(error))
         else:
@@ -89,11 +101,15 @@ class Problems:
             hint = "start the program again, and please report it"
             problem = Problem("error", "internal-error", text, hint)
         with self._change.lock:
-            if self.of_saves.get("fault") == (problem,):
-                return
-            if not isinstance(error, SambotVizError):
+            # A client may cause as many as it likes.
+            known = problem in self._logged or len(self._logged) >= MOST_LOGGED
+            if problem.code == "internal-error" and not known:
                 log_error(error)
-            self.set_saves("fault", (problem,))
+                self._logged.add(problem)
+            if client is None:
+                self.set_saves("fault", (problem,))
+            else:
+                self.tell_client(client, problem.message)
 
     def _show(self) -> None:
         self.shown.set(ShownProblems(tuple(self._listed()), self._note()))

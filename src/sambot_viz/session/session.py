@@ -110,6 +110,7 @@ class Session:
 
         self.problems = Problems(document, scene, robot, change)
         worker.on_error = self.problems.report_error
+        worker.in_control = self.roles.may_edit
         self.checks = Checks(robot, document, scene, self.problems, change)
         self.clients = Clients(
             document, scene, robot, picker, history, self.roles, change, worker

@@ -96,7 +96,7 @@ class Change:
                 listener()
             except Exception as error:
                 # One that fails does not stop the others.
-                self._worker.on_error(error)
+                self._worker.report(error)
 
 
 class Signal(Generic[T]):

@@ -3,7 +3,9 @@
 viser calls back on its event loop, which serves every browser and must never wait. So
 a callback only posts an action here. The worker runs the actions one after the other
 and holds the session's lock while it does, so that a program's own threads, which take
-the same lock, never see a session that is half changed.
+the same lock, never see a session that is half changed. Clients take turns, so that one
+that asks for much holds up nobody; when those who have control and those who have not
+wait, every other action is of one in control.
 
 A throttle runs an action at once for a single event, and at a steady rate for a
 stream. The clock is the computer's; that of a recording or of ROS may take its place.
@@ -19,9 +21,11 @@ import time
 from collections import deque
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
+from functools import partial
 from typing import Any, Protocol
 
 Action = Callable[[], object]
+OnError = Callable[[Exception, int | None], None]
 
 LONGEST_STOP = 5.0
 """`close` waits this long for the action that is running [s]."""
@@ -37,35 +41,44 @@ class Worker(threading.Thread):
 
     Attributes:
         lock: held while an action runs; threads of the program may take it too.
-        on_error: called with an exception that an action raised; logs it by default.
+        in_control: whether a client has control; asked in any thread, takes no lock.
+        on_error: called with an exception that an action raised, and the client that
+            has caused it; logs it by default.
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
         super().__init__(name="sambot-viz-session", daemon=True)
         self.lock = threading.RLock()
-        self.on_error: Callable[[Exception], None] = log_error
+        self.in_control: Callable[[int], bool] = lambda client: True
+        self.on_error: OnError = lambda error, client: log_error(error)
         self._loop = loop
         self._changed = threading.Condition()
-        self._inbox: deque[tuple[object, Action]] = deque()
+        # By client, who comes next first; None is the program itself.
+        self._inbox: dict[int | None, deque[tuple[object, Action]]] = {}
+        self._was_in_control = False
+        self._acting: int | None = None
         self._timers: list[tuple[float, int, Action]] = []
         self._count = 0
         self._closed = False
 
-    def post(self, action: Action, latest_of: object = None) -> None:
-        """Run an action soon, after those that were posted before; returns at once.
+    def post(
+        self, action: Action, latest_of: object = None, *, client: int | None = None
+    ) -> None:
+        """Run an action soon, after what its client has posted; returns at once.
 
         Args:
             action: what to run.
             latest_of: of actions in a row that name the same object here, only the
                 last one runs: a flood of slider values costs one step.
+            client: who has caused it; None for the program itself.
         """
         with self._changed:
             if self._closed:
                 return
-            if latest_of is not None and self._inbox:
-                if self._inbox[-1][0] is latest_of:
-                    self._inbox.pop()
-            self._inbox.append((latest_of, action))
+            waiting = self._inbox.setdefault(client, deque())
+            if latest_of is not None and waiting and waiting[-1][0] is latest_of:
+                waiting.pop()
+            waiting.append((latest_of, action))
             self._wake()
 
     def post_later(self, delay: float, action: Action) -> None:
@@ -87,14 +100,15 @@ class Worker(threading.Thread):
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(action)
 
-    def run_on_loop(self, task: Coroutine[Any, Any, None]) -> None:
-        """Run something on viser's event loop that waits for a browser there."""
+    def run_on_loop(self, task: Coroutine[Any, Any, None], client: int) -> None:
+        """Run something on viser's event loop that waits for a client there."""
 
         async def reported() -> None:
             try:
                 await task
             except Exception as error:
-                self.on_error(error)
+                # The loop serves every client and waits for no lock.
+                self.post(partial(self.on_error, error, client), client=client)
 
         asyncio.run_coroutine_threadsafe(reported(), self._loop)
 
@@ -114,29 +128,49 @@ class Worker(threading.Thread):
 
     def run(self) -> None:
         """Run the actions until `close`; the thread's own method."""
-        while (action := self._next()) is not None:
+        while (turn := self._next()) is not None:
             if not self._take_lock():
                 return
+            self._acting, action = turn
             try:
                 action()
             except Exception as error:
-                self.on_error(error)
+                self.report(error)
             finally:
+                self._acting = None
                 self.lock.release()
 
-    def _next(self) -> Action | None:
-        """Wait for the next action; None after `close`."""
+    def report(self, error: Exception) -> None:
+        """Report an exception as one of the action that runs, if one does."""
+        own = threading.current_thread() is self
+        self.on_error(error, self._acting if own else None)
+
+    def _next(self) -> tuple[int | None, Action] | None:
+        """Wait for the next action, and whose it is; None after `close`."""
         with self._changed:
             while not self._closed:
                 wait = None
                 if self._timers:
                     wait = self._timers[0][0] - time.monotonic()
                     if wait <= 0:
-                        return heapq.heappop(self._timers)[2]
+                        return None, heapq.heappop(self._timers)[2]
                 if self._inbox:
-                    return self._inbox.popleft()[1]
+                    return self._next_turn()
                 self._changed.wait(wait)
             return None
+
+    def _next_turn(self) -> tuple[int | None, Action]:
+        """Take the oldest action of the one whose turn it is."""
+        wanted = not self._was_in_control
+        turns = {one: one is None or self.in_control(one) for one in self._inbox}
+        turn = next((one for one in turns if turns[one] is wanted), next(iter(turns)))
+        self._was_in_control = turns[turn]
+        waiting = self._inbox.pop(turn)
+        _, action = waiting.popleft()
+        if waiting:
+            # Behind the others.
+            self._inbox[turn] = waiting
+        return turn, action
 
     def _take_lock(self) -> bool:
         """Take the lock; False when the worker was closed before it was free."""

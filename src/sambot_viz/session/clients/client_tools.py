@@ -294,12 +294,12 @@ class ClientTools:
                 scene.on_rect_select(modifier=modifier)(self._on_rectangle(tool))
 
     def _on_click(self, tool: Tool) -> Callable[[viser.SceneClickEvent], Any]:
-        worker = self._worker
+        worker, client_id = self._worker, self._client.client_id
 
         async def clicked(event: viser.SceneClickEvent) -> None:
             click = click_of(event)
             if click is not None:
-                worker.post(partial(self._click, tool, click))
+                worker.post(partial(self._click, tool, click), client=client_id)
 
         return clicked
 
@@ -313,12 +313,15 @@ class ClientTools:
         self._follow("click", click, then)
 
     def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
-        worker = self._worker
+        worker, client_id = self._worker, self._client.client_id
 
         async def drawn(event: viser.SceneRectSelectEvent) -> None:
             rays = rays_of(event)
             if rays is not None:
-                worker.post(partial(self._rectangle, tool, rays, event.modifier))
+                worker.post(
+                    partial(self._rectangle, tool, rays, event.modifier),
+                    client=client_id,
+                )
 
         return drawn
 

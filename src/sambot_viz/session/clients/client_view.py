@@ -104,7 +104,7 @@ class ClientView:
 
         async def moved(handle: viser.CameraHandle) -> None:
             del handle
-            worker.post(self._moved, latest_of=self)
+            worker.post(self._moved, latest_of=self, client=client.client_id)
 
         client.camera.on_update(moved)
         self._positions = robot.positions
