@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from sambot_viz.errors import Problem
@@ -51,13 +51,7 @@ class PropertyReport:
 
     def as_json(self) -> dict[str, Any]:
         """Return the fields for ``--format json``."""
-        return {
-            "path": self.path,
-            "value": self.value,
-            "level": self.level,
-            "note": self.note,
-            "given": self.given,
-        }
+        return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TypedDict
 
+import numpy as np
 import viser
 
 from sambot_viz import viser_private
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.displays.robot_model.shape_solids import (
+    STAND_IN_SIZE,
     WHITE,
     ShapeLook,
     ShapePiece,
@@ -17,15 +19,15 @@ from sambot_viz.displays.robot_model.shape_solids import (
     rgb255,
     solids_of,
     stand_in,
-    stand_in_edges,
     textured,
 )
+from sambot_viz.displays.scene.lines import box_lines
 from sambot_viz.displays.scene.nodes import any_gone, position_of, remove_all
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, sphere
 from sambot_viz.displays.triangle_display import DrawnTriangles
 from sambot_viz.errors import Problem
-from sambot_viz.geometry import Rgba, Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.geometry import Matrix, Rgba, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import shared_glb
@@ -35,9 +37,22 @@ from sambot_viz.robot.parts import Box, Capsule, Cylinder, MeshFile, Shape, Sphe
 STAND_IN_COLOR: Rgb = (255, 140, 0)
 
 
-class _Pose(TypedDict):
+class _Placing(TypedDict):
+    """Arguments of viser for every solid: its pose, and no shadows, as in RViz."""
+
     wxyz: Wxyz
     position: Vector3
+    cast_shadow: bool
+    receive_shadow: bool
+
+
+def _placing(T: Matrix) -> _Placing:
+    return {
+        "wxyz": wxyz_from_matrix(T),
+        "position": position_of(T),
+        "cast_shadow": False,
+        "receive_shadow": False,
+    }
 
 
 class ShapeNode:
@@ -168,11 +183,7 @@ class ShapeNode:
         return not same and any(piece.textured for piece in self._pieces)
 
     def _create(self, look: ShapeLook) -> None:
-        T_link_shape = self._shape.origin.matrix
-        pose: _Pose = {
-            "wxyz": wxyz_from_matrix(T_link_shape),
-            "position": position_of(T_link_shape),
-        }
+        pose = _placing(self._shape.origin.matrix)
         geometry, material = self._shape.geometry, self._shape.material
         if isinstance(geometry, MeshFile):
             self._create_mesh(geometry, look, pose)
@@ -186,7 +197,7 @@ class ShapeNode:
             self._create_primitive(geometry, material_rgba(material), pose)
 
     def _create_primitive(
-        self, geometry: Box | Cylinder | Sphere | Capsule, rgba: Rgba, pose: _Pose
+        self, geometry: Box | Cylinder | Sphere | Capsule, rgba: Rgba, pose: _Placing
     ) -> None:
         scene, name, color = self._scene, self._name, rgb255(rgba)
         if isinstance(geometry, Box):
@@ -194,8 +205,6 @@ class ShapeNode:
                 name,
                 color,
                 geometry.size,
-                cast_shadow=False,
-                receive_shadow=False,
                 **pose,
             )
             self._pieces.append(ShapePiece(box, color, rgba[3]))
@@ -210,17 +219,16 @@ class ShapeNode:
             color,
             radial_segments=16,
             flat_shading=True,
-            cast_shadow=False,
-            receive_shadow=False,
             **pose,
         )
         self._pieces.append(ShapePiece(cylinder, color, rgba[3]))
         if isinstance(geometry, Capsule):
             for end, z in (("t", geometry.length / 2), ("b", -geometry.length / 2)):
-                cap: _Pose = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, z)}
-                self._add_sphere(f"{name}/{end}", geometry.radius, rgba, cap)
+                T = np.eye(4)
+                T[2, 3] = z
+                self._add_sphere(f"{name}/{end}", geometry.radius, rgba, _placing(T))
 
-    def _add_sphere(self, name: str, radius: float, rgba: Rgba, pose: _Pose) -> None:
+    def _add_sphere(self, name: str, radius: float, rgba: Rgba, pose: _Placing) -> None:
         shape, color = sphere(), rgb255(rgba)
         handle = self._scene.add_mesh_simple(
             name,
@@ -229,13 +237,11 @@ class ShapeNode:
             color=color,
             flat_shading=True,
             scale=2 * radius,
-            cast_shadow=False,
-            receive_shadow=False,
             **pose,
         )
         self._pieces.append(ShapePiece(handle, color, rgba[3]))
 
-    def _create_mesh(self, geometry: MeshFile, look: ShapeLook, pose: _Pose) -> None:
+    def _create_mesh(self, geometry: MeshFile, look: ShapeLook, pose: _Placing) -> None:
         if not isinstance(self._content, Mesh):
             self._add_stand_in(pose)
             return
@@ -248,7 +254,7 @@ class ShapeNode:
             self._add_part(name, apply_scale(part, geometry.scale), own, look, pose)
 
     def _add_part(
-        self, name: str, part: MeshPart, rgba: Rgba, look: ShapeLook, pose: _Pose
+        self, name: str, part: MeshPart, rgba: Rgba, look: ShapeLook, pose: _Placing
     ) -> None:
         """A mesh of one colour, or a GLB when it has a texture."""
         color = rgb255(rgba)
@@ -257,8 +263,6 @@ class ShapeNode:
             handle = self._scene.add_glb(
                 name,
                 shared_glb(part, rgba, look.alpha),
-                cast_shadow=False,
-                receive_shadow=False,
                 **pose,
             )
         else:
@@ -268,21 +272,20 @@ class ShapeNode:
                 part.faces,
                 color=color,
                 flat_shading=part.normals is None,
-                cast_shadow=False,
-                receive_shadow=False,
                 **pose,
             )
             viser_private.share_arrays(handle, vertices=part.vertices, faces=part.faces)
         self._pieces.append(ShapePiece(handle, color, rgba[3], textured))
 
-    def _add_stand_in(self, pose: _Pose) -> None:
+    def _add_stand_in(self, pose: _Placing) -> None:
         """A box of orange lines where the mesh should be."""
         lines = self._scene.add_line_segments(
             self._name,
-            stand_in_edges(),
+            box_lines([-STAND_IN_SIZE / 2] * 3, [STAND_IN_SIZE / 2] * 3),
             colors=STAND_IN_COLOR,
             thickness=1.5,
             thickness_units="screen",
-            **pose,
+            wxyz=pose["wxyz"],
+            position=pose["position"],
         )
         self._pieces.append(ShapePiece(lines, STAND_IN_COLOR, 1.0))

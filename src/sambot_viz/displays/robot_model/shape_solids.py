@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.scene.nodes import Handle
@@ -128,21 +127,6 @@ def solids_of(geometry: Geometry, content: Content | None) -> list[Solid]:
 def stand_in() -> Solid:
     """Return the box in place of a mesh that could not be read."""
     return unit_box(), _scaled((STAND_IN_SIZE, STAND_IN_SIZE, STAND_IN_SIZE))
-
-
-def stand_in_edges() -> npt.NDArray[np.float32]:
-    """Return the twelve edges of that box, (12, 2, 3) [m]."""
-    half = STAND_IN_SIZE / 2
-    edges: list[list[list[float]]] = []
-    for axis in range(3):
-        for one in (-half, half):
-            for two in (-half, half):
-                start = [one, two]
-                start.insert(axis, -half)
-                end = [one, two]
-                end.insert(axis, half)
-                edges.append([start, end])
-    return np.array(edges, dtype=np.float32)
 
 
 def textured(

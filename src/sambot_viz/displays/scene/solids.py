@@ -218,27 +218,13 @@ def add_arrows(
     head_color: Rgb,
 ) -> tuple[viser.BatchedMeshHandle, viser.BatchedMeshHandle]:
     """Several arrows in one frame: one node for the shafts, one for the heads."""
-    parts = [arrow.parts() for arrow in arrows]
-    turns = [turn for turn, _, _ in parts]
-    shaft_sizes = [_thick(arrow.shaft) for arrow in arrows]
-    head_sizes = [_thick(arrow.head) for arrow in arrows]
-    count = len(arrows)
-    shafts = add_batch(
-        scene,
-        f"{name}s",
-        cylinder(),
-        turns,
-        [at for _, at, _ in parts],
-        shaft_sizes,
-        [shaft_color] * count,
+    turns, shafts_at, heads_at = zip(*(arrow.parts() for arrow in arrows), strict=True)
+    shafts = [_thick(arrow.shaft) for arrow in arrows]
+    heads = [_thick(arrow.head) for arrow in arrows]
+    shaft_colors, head_colors = [shaft_color] * len(arrows), [head_color] * len(arrows)
+    return (
+        add_batch(
+            scene, f"{name}s", cylinder(), turns, shafts_at, shafts, shaft_colors
+        ),
+        add_batch(scene, f"{name}h", cone(), turns, heads_at, heads, head_colors),
     )
-    heads = add_batch(
-        scene,
-        f"{name}h",
-        cone(),
-        turns,
-        [at for _, _, at in parts],
-        head_sizes,
-        [head_color] * count,
-    )
-    return shafts, heads

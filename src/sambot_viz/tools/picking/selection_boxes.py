@@ -9,17 +9,9 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Array, Selectable
+from sambot_viz.displays.scene.lines import box_lines
 
 CYAN = (0, 255, 255)
-CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-EDGES = np.array(
-    [
-        (a, b)
-        for a in range(8)
-        for b in range(a + 1, 8)
-        if np.abs(CORNERS[a] - CORNERS[b]).sum() == 1
-    ]
-)
 
 
 class SelectionBoxes:
@@ -56,9 +48,3 @@ class SelectionBoxes:
             thickness=1.5,
             thickness_units="screen",
         )
-
-
-def box_lines(low: Array, high: Array) -> npt.NDArray[np.float32]:
-    """Return the twelve edges of a box, (12, 2, 3) float32 [m]."""
-    points = low + CORNERS * (high - low)
-    return points[EDGES].astype(np.float32)
