@@ -113,6 +113,47 @@ def test_a_page_that_is_slow_gets_the_newest_and_no_queue(worker: Worker) -> Non
     made.close()
 
 
+def test_rows_that_are_as_before_are_not_made_ready_again(
+    worker: Worker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    panel = Numbers(worker, 3)
+    made = RowSync(worker, [panel], "session")
+    page, ready, json = Page(made), list[str](), Row.json
+    page.ask()
+
+    def counted(row: Row) -> dict[str, Any]:
+        ready.append(row.id)
+        return json(row)
+
+    monkeypatch.setattr(Row, "json", counted)
+    panel.numbers[1] = 4
+    made.remake(panel)
+    assert page.ask()["rows"] == {"n1": {"value": 4}} and ready == ["n1"]
+    # A motion has changed what the page has; the row is as it was made before.
+    move(panel, 1)
+    assert page.ask()["rows"] == {"n1": {"value": 5}}
+    panel.numbers[1] = 4
+    made.remake(panel)
+    assert page.ask()["rows"] == {"n1": {"value": 4}}
+    made.remake(panel)
+    assert page.ask() is None and ready == ["n1", "n1"]
+    made.close()
+
+
+def test_a_row_that_can_only_be_read_now_is_shown_so(worker: Worker) -> None:
+    panel = Numbers(worker, 0)
+    made = RowSync(worker, [panel], "session")
+    rows = [Row("a", "", "text", value="x", set=lambda _: None)]
+    panel.rows = lambda: rows
+    made.remake(panel)
+    page = Page(made)
+    page.ask()
+    rows[0] = Row("a", "", "text", value="x")
+    made.remake(panel)
+    assert page.ask()["rows"] == {"a": {"fixed": True}}
+    made.close()
+
+
 def test_rows_that_were_replaced_are_sent_whole_and_keys_that_are_gone_as_null(
     worker: Worker,
 ) -> None:

@@ -7,7 +7,7 @@ from functools import partial
 from itertools import chain
 
 from sambot_viz.panels.panel import Item, Panel
-from sambot_viz.panels.row import Json, safe
+from sambot_viz.panels.row import Row, safe
 from sambot_viz.panels.row_store import RowStore, Scope
 from sambot_viz.session.signals import Listening, connect
 from sambot_viz.session.worker import Throttle, Worker
@@ -38,6 +38,8 @@ class RowSync:
         self._change: set[Panel] = set()
         self._move: set[Panel] = set()
         self._followed = False
+        # Of these the page has another value than the rows as they were made last.
+        self._moved_rows: set[str] = set()
         self._throttle = Throttle(worker, PERIOD, self._publish)
         self._slow = {
             panel: Throttle(worker, panel.period, partial(self._moved, panel))
@@ -121,11 +123,17 @@ class RowSync:
         for listening in self._listening[panel]:
             listening.to(*panel.moved_by)
         before, self._items[panel.name] = self._items[panel.name], made
-        new = {item_id: item.json() for item_id, item in made.items()}
-        if before is None or list(before) != list(new):
-            self.store.replace(panel.name, list(new.values()))
+        moved = self._moved_rows & made.keys()
+        self._moved_rows -= moved
+        if before is None or list(before) != list(made):
+            self.store.replace(panel.name, [item.json() for item in made.values()])
             return True
-        return any([self._update(row_id, value) for row_id, value in new.items()])
+        differing = [
+            item
+            for item_id, item in made.items()
+            if item_id in moved or not _is_same(item, before[item_id])
+        ]
+        return any([self._update(item) for item in differing])
 
     def _make_changed(self, panel: Panel) -> bool:
         """Make only the rows of a panel that differ; the others are there already."""
@@ -133,14 +141,14 @@ class RowSync:
         if rows is None or items is None:
             return self._make(panel)
         items.update((row.id, row) for row in rows)
-        return any([self._update(row.id, row.json()) for row in rows])
+        return any([self._update(row) for row in rows])
 
-    def _update(self, row_id: str, new: dict[str, Json]) -> bool:
-        old = self.store.get(row_id) or {}
+    def _update(self, item: Item) -> bool:
+        old, new = self.store.get(item.id) or {}, item.json()
         patch = {key: value for key, value in new.items() if old.get(key) != value}
         patch |= {key: None for key in old if key not in new}
         if patch:
-            self.store.update(row_id, patch)
+            self.store.update(item.id, patch)
         return bool(patch)
 
     def _follow(self, panel: Panel) -> bool:
@@ -149,5 +157,14 @@ class RowSync:
             row = self.store.get(row_id)
             if row is not None and row.get("value") != (shown := safe(value)):
                 self.store.update(row_id, {"value": shown})
+                self._moved_rows.add(row_id)
                 changed = True
         return changed
+
+
+def _is_same(item: Item, before: Item) -> bool:
+    """Tell whether a row is the same for the page; data are always compared there."""
+    if not isinstance(item, Row) or item != before:
+        return False
+    # What sets it is not compared, but whether it can be set is shown.
+    return isinstance(before, Row) and (item.set is None) == (before.set is None)
