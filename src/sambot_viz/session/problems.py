@@ -51,6 +51,7 @@ class Problems:
         of_model: what is wrong with the model that is shown.
         of_frames: what is wrong with its frames and wheels; `set_model` adds them.
         of_saves: why the last save is not what is shown.
+        saves: tells changes of that.
         tell_client: called with a client, and with what only this one is told.
     """
 
@@ -71,20 +72,21 @@ class Problems:
         self._robot = robot
         self._change = change
         self._logged: set[Problem] = set()
-        self._collected = Signal(change, None)
-        sources = [document.replaced, scene.statuses, robot.changed, self._collected]
-        connect(sources, self._show)
+        self.saves = Signal(change, None)
+        self._model = Signal(change, None)
+        sources = [document.replaced, scene.statuses, robot.changed]
+        connect([*sources, self.saves, self._model], self._show)
 
     def set_model(self, problems: Sequence[Problem]) -> None:
         """Show what is wrong with the model."""
         with self._change.lock:
             self.of_model = (*problems, *self.of_frames)
-            self._collected.touch()
+            self._model.touch()
 
     def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show why the last save is not what is shown; an empty list when it is."""
         if self.of_saves.get(of, ()) != tuple(problems):
-            with self._change(self._collected):
+            with self._change(self.saves):
                 self.of_saves[of] = tuple(problems)
 
     def report_error(self, error: Exception, client: int | None = None) -> None:

@@ -62,7 +62,7 @@ class DisplaysPanel(Panel):
             scene.statuses,
             scene.frames,
             robot.changed,
-            problems.shown,
+            problems.saves,
         )
         self.remade_by = whole
         self.changed_by = (document.values,)
