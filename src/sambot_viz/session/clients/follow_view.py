@@ -12,7 +12,7 @@ from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import connect
+from sambot_viz.session.signals import Listening
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Vector, vector
@@ -61,10 +61,12 @@ class FollowView:
         self._before: Vector | None = None
         self._looking = Throttle(worker, PERIOD, self._look_after)
         self._lock = worker.lock
-        connect([drive.pose_changed, scene.frames], self._looking.request)
+        self._frames = scene.frames
+        self._driving = Listening(self._looking.request)
 
     def close(self) -> None:
         """Move no camera any more."""
+        self._driving.to()
         self._looking.close()
 
     def show_motion(self) -> bool:
@@ -94,6 +96,8 @@ class FollowView:
     def begin(self) -> None:
         """Follow the robot with the view of the client that acts now."""
         self._driver = self._history.actor
+        self._before = self._place()
+        self._driving.to(self._drive.pose_changed, self._frames)
 
     def make_room(self) -> None:
         """Show the floor round the robot, as RViz's user would do by the wheel."""

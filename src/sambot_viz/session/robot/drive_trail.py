@@ -6,7 +6,7 @@ from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import Change, connect
+from sambot_viz.session.signals import Change, Listening, connect
 from sambot_viz.session.worker import Throttle, Worker
 
 PERIOD = 0.2
@@ -37,12 +37,18 @@ class DriveTrail:
         self._change = change
         self._line = PathLine(scene.context.scene)
         self._drawing = Throttle(worker, PERIOD, self._draw)
-        facts = [drive.pose_changed, scene.frames, robot.changed]
-        connect(facts, self._drawing.request)
+        self._others = (scene.frames, robot.changed)
+        self._driven = Listening(self._drawing.request)
+        connect([drive.pose_changed], self._moved)
 
     def close(self) -> None:
         """Draw nothing any more."""
         self._drawing.close()
+
+    def _moved(self) -> None:
+        # A robot that never drove has no trail: until then nothing else matters.
+        self._driven.to(*self._others)
+        self._drawing.request()
 
     def _draw(self) -> None:
         with self._change():
