@@ -14,8 +14,10 @@ from sambot_viz.robot.model_source import (
     OpenedModel,
     PathLike,
     first_xacro,
+    missing_prefixes,
     only_names_files,
     open_model,
+    undeclared_prefix,
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.parts import Joint, Link
@@ -28,12 +30,8 @@ from sambot_viz.robot.xacro.child_result import (
     XacroFailure,
 )
 from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
+from sambot_viz.robot.xacro.diagnose.without_links import explain_without_links
 from sambot_viz.robot.xacro.expand import expand_model
-from sambot_viz.robot.xacro.unexpanded import (
-    explain_without_links,
-    missing_prefixes,
-    undeclared_prefix,
-)
 from sambot_viz.robot.xml.decode import declared_as_utf8
 from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 from sambot_viz.robot.xml.element import Element
