@@ -134,11 +134,7 @@ class Options:
         read=static_transforms,
     )
     gui: bool = option(
-        True,
-        "the Joints panel with its sliders",
-        "--gui",
-        word="gui",
-        switch="yes-no",
+        True, "the Joints panel with its sliders", "--gui", word="gui", switch="yes-no"
     )
     host: str = option("127.0.0.1", "the address to listen on", "--host")
     port: int = option(

@@ -48,10 +48,7 @@ def _problems(options: Options, found: Found) -> list[Problem]:
     folder = model_path(options)
     if folder is None or not folder.is_dir():
         return check(
-            found.model,
-            xacro_args=args,
-            package_path=packages,
-            trusted=options.trusted,
+            found.model, xacro_args=args, package_path=packages, trusted=options.trusted
         )
     return check_folder(
         folder,

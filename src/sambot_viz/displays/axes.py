@@ -33,11 +33,7 @@ class AxesDisplay(TriangleDisplay):
             help="The frame whose axes are drawn.",
         ),
         FloatProperty(
-            "Length",
-            default=1.0,
-            minimum=0.0001,
-            unit="m",
-            help="Length of each axis.",
+            "Length", default=1.0, minimum=0.0001, unit="m", help="Length of each axis."
         ),
         FloatProperty(
             "Radius",

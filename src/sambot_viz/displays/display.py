@@ -17,11 +17,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import (
-    Corners,
-    PickGeometry,
-    Selectable,
-)
+from sambot_viz.displays.picking.pick_geometry import Corners, PickGeometry, Selectable
 from sambot_viz.displays.robot_display import ModelReader, RobotDisplay
 from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets

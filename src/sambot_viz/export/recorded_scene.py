@@ -15,11 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
-from sambot_viz.displays.robot_display import (
-    ModelReader,
-    ModelRequest,
-    ModelResult,
-)
+from sambot_viz.displays.robot_display import ModelReader, ModelRequest, ModelResult
 from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.joints import JointState
 from sambot_viz.server.server import prepare_scene

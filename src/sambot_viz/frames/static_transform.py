@@ -188,8 +188,7 @@ def _build(
             transform = Transform.from_xyz_rpy(xyz, rpy)
     except TransformRefused as refused:
         raise StaticTransformError(
-            str(refused),
-            "the real tool publishes it, and every listener ignores it",
+            str(refused), "the real tool publishes it, and every listener ignores it"
         ) from refused
     return StaticTransform(parent, child, transform, tuple(warnings))
 

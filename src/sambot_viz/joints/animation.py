@@ -23,11 +23,7 @@ def wrap_angle(angle: float) -> float:
 
 
 def turn(
-    state: JointState,
-    velocities: Mapping[str, float],
-    dt: float,
-    *,
-    wrap: bool = False,
+    state: JointState, velocities: Mapping[str, float], dt: float, *, wrap: bool = False
 ) -> dict[str, float]:
     """Return positions after a time at constant velocities: a wheel keeps turning.
 

@@ -44,10 +44,7 @@ class JointState:
     kinematics: Kinematics
 
     def __init__(
-        self,
-        robot: Robot,
-        *,
-        zeros: Mapping[str, float] | None = None,
+        self, robot: Robot, *, zeros: Mapping[str, float] | None = None
     ) -> None:
         self._zeros: dict[str, float] = {}
         self._positions: dict[str, float] = {}

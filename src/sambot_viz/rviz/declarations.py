@@ -135,9 +135,7 @@ GLOBAL_OPTIONS: tuple[Property, ...] = (
         help="The frame everything is drawn in; its origin is the origin of the scene.",
     ),
     ColorProperty(
-        "Background Color",
-        default=(48, 48, 48),
-        help="The colour behind the scene.",
+        "Background Color", default=(48, 48, 48), help="The colour behind the scene."
     ),
     IntProperty(
         "Frame Rate",

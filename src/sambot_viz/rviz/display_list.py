@@ -129,10 +129,7 @@ class DisplayList(VisualizationManager):
         return display.parent is None or self.holds(display.parent)
 
     def move(
-        self,
-        display: DisplayConfig,
-        index: int,
-        group: DisplayConfig | None = None,
+        self, display: DisplayConfig, index: int, group: DisplayConfig | None = None
     ) -> None:
         """Put a display elsewhere.
 

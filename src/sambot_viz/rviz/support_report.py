@@ -192,9 +192,7 @@ def _display(display: DisplayConfig) -> ItemReport:
 
 
 def _item(
-    item: ClassItem,
-    enabled: bool | None = None,
-    members: tuple[ItemReport, ...] = (),
+    item: ClassItem, enabled: bool | None = None, members: tuple[ItemReport, ...] = ()
 ) -> ItemReport:
     rows = _properties(item) if item.supported else _kept(item)
     level: Level = "shown" if item.supported else "not supported"

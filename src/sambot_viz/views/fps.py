@@ -80,10 +80,7 @@ class FPSView(View):
 
     def zero(self) -> Values:
         """At (5, 5, 10), looking at the origin."""
-        return {
-            "Position": components(ZERO_POSITION),
-            **_looking(-ZERO_POSITION),
-        }
+        return {"Position": components(ZERO_POSITION), **_looking(-ZERO_POSITION)}
 
     def shifted(self, offset: Vector) -> Values:
         """Moves the camera."""

@@ -75,10 +75,7 @@ class TopDownOrthoView(View):
         camera, middle = self.local_camera(), points.mean(axis=0)
         across = float(np.ptp(points @ camera.right))
         upwards = float(np.ptp(points @ camera.image_up))
-        scales = (
-            FILLED_WIDTH * width / across,
-            FILLED_HEIGHT * height / upwards,
-        )
+        scales = (FILLED_WIDTH * width / across, FILLED_HEIGHT * height / upwards)
         return {"Scale": min(scales), **self.look_at_local(middle)}
 
     def mimic(self, old: View) -> Values:

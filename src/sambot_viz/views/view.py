@@ -158,12 +158,7 @@ class View:
         return self.look_at_local(local)
 
     def fit(
-        self,
-        low: Vector,
-        high: Vector,
-        width: int,
-        height: int,
-        target: Target = WORLD,
+        self, low: Vector, high: Vector, width: int, height: int, target: Target = WORLD
     ) -> Values:
         """Return the properties with which it shows a box of the fixed frame whole.
 
@@ -229,9 +224,7 @@ COMMON_PROPERTIES: tuple[Property, ...] = (
     ),
     BoolProperty("Invert Z Axis", default=False, help="Turn the picture upside down."),
     TfFrameProperty(
-        "Target Frame",
-        default="<Fixed Frame>",
-        help="The frame that the view follows.",
+        "Target Frame", default="<Fixed Frame>", help="The frame that the view follows."
     ),
     KeptProperty(
         "Enable Stereo Rendering",

@@ -99,9 +99,7 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         "Visual Enabled", default=True, help="Show the visual shapes of the links."
     ),
     BoolProperty(
-        COLLISIONS,
-        default=False,
-        help="Show the collision shapes of the links.",
+        COLLISIONS, default=False, help="Show the collision shapes of the links."
     ),
     GroupProperty(
         "Mass Properties",

@@ -201,12 +201,7 @@ class ShapeNode:
     ) -> None:
         scene, name, color = self._scene, self._name, rgb255(rgba)
         if isinstance(geometry, Box):
-            box = scene.add_box(
-                name,
-                color,
-                geometry.size,
-                **pose,
-            )
+            box = scene.add_box(name, color, geometry.size, **pose)
             self._pieces.append(ShapePiece(box, color, rgba[3]))
             return
         if isinstance(geometry, Sphere):
@@ -261,9 +256,7 @@ class ShapeNode:
         textured = part.texture is not None and not look.error
         if textured:
             handle = self._scene.add_glb(
-                name,
-                shared_glb(part, rgba, look.alpha),
-                **pose,
+                name, shared_glb(part, rgba, look.alpha), **pose
             )
         else:
             handle = self._scene.add_mesh_simple(

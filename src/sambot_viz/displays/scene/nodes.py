@@ -15,13 +15,7 @@ import viser
 
 from sambot_viz import viser_private
 from sambot_viz.frames import FrameTree
-from sambot_viz.geometry import (
-    Matrix,
-    Vector3,
-    Wxyz,
-    inverse_matrix,
-    wxyz_from_matrix,
-)
+from sambot_viz.geometry import Matrix, Vector3, Wxyz, inverse_matrix, wxyz_from_matrix
 from sambot_viz.viser_private import is_removed, set_pose
 
 _AS_CREATED = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

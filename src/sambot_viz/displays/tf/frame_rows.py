@@ -31,15 +31,9 @@ TF_PROPERTIES: tuple[Property, ...] = (
     BoolProperty("Show Names", default=False, help="Write each frame's name below it."),
     BoolProperty("Show Axes", default=True, help="Draw the axes of each frame."),
     BoolProperty(
-        "Show Arrows",
-        default=True,
-        help="Draw an arrow from each frame to its parent.",
+        "Show Arrows", default=True, help="Draw an arrow from each frame to its parent."
     ),
-    FloatProperty(
-        "Marker Scale",
-        default=1.0,
-        help="Size of names, axes and arrows.",
-    ),
+    FloatProperty("Marker Scale", default=1.0, help="Size of names, axes and arrows."),
     FloatProperty(
         "Update Interval",
         default=0.0,

@@ -33,10 +33,7 @@ from sambot_viz.displays.tf.frame_rows import (
 )
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.geometry import Vector3
-from sambot_viz.rviz import (
-    DisplayConfig,
-    RegexProperty,
-)
+from sambot_viz.rviz import DisplayConfig, RegexProperty
 from sambot_viz.text import text
 
 AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02

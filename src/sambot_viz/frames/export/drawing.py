@@ -112,10 +112,7 @@ def _broadcast(hop: Hop) -> tuple[str, ...]:
             "Most recent transform: 0.0",
             "Oldest transform: 0.0",
         )
-    return (
-        "Broadcaster: default_authority",
-        f"Most recent transform: {hop.stamp}",
-    )
+    return ("Broadcaster: default_authority", f"Most recent transform: {hop.stamp}")
 
 
 def _hops(tree: FrameTree) -> Iterator[Hop]:

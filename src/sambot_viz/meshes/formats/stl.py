@@ -41,11 +41,11 @@ def read_stl(source: MeshSource) -> list[Submesh]:
         return [_ascii(source)]
     if len(data) < _HEADER:
         raise source.broken(
-            f"the STL file has only {len(data)} bytes; a binary STL needs at least 84",
+            f"the STL file has only {len(data)} bytes; a binary STL needs at least 84"
         )
     raise source.broken(
         f"the STL file announces {count} triangles, which takes {expected} bytes, but "
-        f"it has {len(data)}",
+        f"it has {len(data)}"
     )
 
 
@@ -63,7 +63,7 @@ def _ascii(source: MeshSource) -> Submesh:
     if corners != 3 * facets:
         raise source.broken(
             f"the ASCII STL file has {corners} vertices in {facets} complete facets; "
-            "a facet has three",
+            "a facet has three"
         )
     numbers = parse_floats(b" ".join(_VERTEX.findall(text)))
     if numbers is None or len(numbers) != 3 * corners:
