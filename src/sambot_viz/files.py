@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import errno
+import glob
 import os
 import secrets
 import stat
+import time
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
+
+_LONGEST_SAVE = 3600.0
+"""A file that another program is still writing is younger [s]."""
 
 Stamp = tuple[int, int, int]
 """Facts that differ after a save: time of change [ns], size [B], inode."""
@@ -49,6 +55,17 @@ def write_atomically(path: Path, data: bytes) -> None:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+    _remove_leftovers(target)
+
+
+def _remove_leftovers(target: Path) -> None:
+    """Remove what programs that were killed while they saved have left."""
+    beside = f".{glob.escape(target.name[:200])}.{'[0-9a-f]' * 8}"
+    long_ago = time.time() - _LONGEST_SAVE
+    for left in target.parent.glob(beside):
+        with suppress(OSError):
+            if left.stat().st_mtime < long_ago:
+                left.unlink()
 
 
 class FileTooLargeError(OSError):

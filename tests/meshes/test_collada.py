@@ -327,11 +327,20 @@ def test_a_few_lines_that_unfold_to_millions_of_nodes_are_refused(write: Write) 
         read_mesh(write("a.dae", collada(node=node, extra=extra)))
 
 
-def test_a_few_nodes_that_name_an_empty_geometry_a_million_times_are_refused(
-    write: Write,
+@pytest.mark.parametrize(
+    ("primitives", "inside", "times"),
+    [
+        # An empty geometry, one of many parts, and a node of many transforms.
+        ("", '<instance_geometry url="#g"/>' * 1000, 1000),
+        (TRIANGLES * 1000, '<instance_geometry url="#g"/>', 1000),
+        ("", "<translate>1 0 0</translate>" * 2000, 10_000),
+    ],
+)
+def test_a_few_nodes_that_are_named_very_often_are_refused(
+    write: Write, primitives: str, inside: str, times: int
 ) -> None:
-    one = '<node id="all">' + '<instance_geometry url="#g"/>' * 1000 + "</node>"
-    many = "<node>" + '<instance_node url="#all"/>' * 1000 + "</node>"
-    text = collada(primitives="", node=one + many)
+    one = f'<node id="all">{inside}</node>'
+    many = "<node>" + '<instance_node url="#all"/>' * times + "</node>"
+    text = collada(primitives=primitives, node=one + many)
     with pytest.raises(MeshError, match="more than 100000 nodes"):
         read_mesh(write("a.dae", text))

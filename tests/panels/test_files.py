@@ -157,6 +157,43 @@ def test_a_browser_cannot_fill_the_disk_with_configs(
     page.act("file/save", [])
 
 
+def test_the_disk_is_asked_no_more_for_many_configs_than_for_few(
+    page: Page, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    resolved: list[Path] = []
+    resolve = Path.resolve
+
+    def counted(path: Path, strict: bool = False) -> Path:
+        resolved.append(path)
+        return resolve(path, strict)
+
+    monkeypatch.setattr(Path, "resolve", counted)
+    counts: list[int] = []
+    for many in (5, 200):
+        for number in range(many):
+            (folder / f"config{number}.rviz").write_text(CONFIG)
+        resolved.clear()
+        page.act("file/list")
+        counts.append(len(resolved))
+    assert counts[0] == counts[1]
+
+
+def test_what_a_killed_program_has_left_is_neither_listed_nor_kept(
+    page: Page, folder: Path
+) -> None:
+    old, new = folder / ".mine.rviz.0123abcd", folder / ".mine.rviz.89abcdef"
+    others = [folder / ".mine.rviz", folder / ".mine.rviz.backup", new]
+    for file in (old, *others):
+        file.write_text(CONFIG)
+    for file in (old, *others[:2]):
+        os.utime(file, (1e9, 1e9))
+    page.act("file/list")
+    assert ".mine.rviz" not in str(page.value("file/names"))
+    page.act("file/save", [])
+    assert not old.exists()
+    assert all(file.exists() for file in others)
+
+
 def test_a_file_that_cannot_be_written_is_reported_and_nothing_is_lost(
     page: Page, folder: Path, viz: Visualizer
 ) -> None:

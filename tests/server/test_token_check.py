@@ -178,6 +178,50 @@ def test_guesses_are_slowed_down_and_who_is_in_stays(
     assert ask(port, f"/?token={TOKEN}").status == 303
 
 
+@pytest.mark.parametrize(
+    "other",
+    [
+        'j={"a":1}',
+        'k="',
+        "q=a b c",
+        "é=1",
+        "=x",
+        "d=1; expires=Thu, 01 Jan 1970 00:00:00 GMT",
+        "$Version=1; \\",
+    ],
+)
+def test_the_cookies_of_other_programs_lock_nobody_out(port: int, other: str) -> None:
+    own = cookie_of(ask(port, f"/?token={TOKEN}"))
+    for cookie in (f"{other}; {own}", f"{own}; {other}", f"{other};{own};{other}"):
+        assert raw_status(port, b"GET /", f"Cookie: {cookie}".encode()) == 200
+
+
+def test_a_request_is_one_guess(port: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(token_check, "WRONG_ANSWER", 0.0)
+    compared: list[bytes] = []
+    compare = token_check.hmac.compare_digest
+
+    def counted(one: bytes, two: bytes) -> bool:
+        compared.append(one)
+        return compare(one, two)
+
+    monkeypatch.setattr(token_check.hmac, "compare_digest", counted)
+    name = cookie_of(ask(port, f"/?token={TOKEN}")).partition("=")[0]
+    compared.clear()
+    guesses = [f"{name}=guess{number}" for number in range(100)]
+    assert ask(port, "/?token=one&token=two").status == 400
+    bearer = {"Authorization": "Bearer one"}
+    assert ask(port, f"/?token={TOKEN}", bearer).status == 400
+    assert ask(port, "/", {"Cookie": "; ".join(guesses)}).status == 401
+    assert ask(port, "/?token=one", {"Cookie": "; ".join(guesses)}).status == 401
+    assert len(compared) == 1 + 2
+
+
+def test_a_path_of_any_letters_leads_to_the_page(port: int) -> None:
+    line = b"GET /a/\xc3\xbf%20b?token=" + TOKEN.encode()
+    assert raw_status(port, line, b"X: y") == 303
+
+
 def test_what_is_in_the_headers_can_be_any_text(port: int) -> None:
     for line in (b"GET //[/?token=x", b"GET /?token=\xff", b"GET /\xff?a=\xff"):
         assert raw_status(port, line, b"Cookie: a=\xff") in (400, 401)

@@ -130,6 +130,23 @@ def test_folders_with_blanks_and_korean_letters_are_watched(
     assert changes.get(timeout=10) == {path}
 
 
+def test_a_file_whose_name_is_no_text_does_not_end_the_watching(
+    tmp_path: Path, follow: Callable[..., Changes]
+) -> None:
+    path, troubles = tmp_path / "model.urdf", list[str]()
+    path.write_text("old", "utf-8")
+    changes = follow(path, troubles=troubles)
+    for content in ("new", "newer"):
+        try:
+            with open(os.fsencode(tmp_path) + b"/\xff.urdf", "ab") as stream:
+                stream.write(b"x")
+        except OSError:
+            pytest.skip("this file system takes no such names")
+        path.write_text(content, "utf-8")
+        assert changes.get(timeout=10) == {path}
+    assert troubles == []
+
+
 def test_a_save_behind_a_link_and_another_target_of_it_are_reported(
     tmp_path: Path, follow: Callable[..., Changes]
 ) -> None:

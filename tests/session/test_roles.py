@@ -68,6 +68,14 @@ def test_a_name_that_is_too_long_is_refused(roles: Roles) -> None:
     assert not roles.people[ANN].requests
 
 
+@pytest.mark.parametrize("name", ["Presenter", " presenter 2", "PRESENTERs friend"])
+def test_nobody_else_is_called_presenter(roles: Roles, name: str) -> None:
+    with pytest.raises(UsageError, match="are the presenter's"):
+        roles.request(ANN, name)
+    roles.request(TEACHER, name)
+    assert roles.people[ANN].name == "Guest 1"
+
+
 def test_the_wheel_goes_to_one_guest_at_a_time_and_back(roles: Roles) -> None:
     roles.request(ANN, "Ann")
     roles.give(TEACHER, ANN)

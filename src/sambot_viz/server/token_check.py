@@ -16,8 +16,7 @@ import hashlib
 import hmac
 import http
 from collections.abc import Awaitable
-from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qsl, urlencode
+from urllib.parse import parse_qsl, quote, urlencode
 
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
@@ -28,6 +27,8 @@ WRONG_ANSWER = 1.0
 """The answer to a wrong token takes so long [s]."""
 MOST_WAITING = 20
 """So many wrong tokens are answered at the same time; more are not looked at."""
+_KEPT = "%!$&'()*+,;=:@~"
+"""In the last part of a path, what is sent back as it came."""
 _REMEMBERED = 30 * 24 * 3600
 """How long a browser keeps the cookie [s]."""
 
@@ -36,7 +37,8 @@ class TokenCheck:
     """Lets in who has the token, and knows the presenter by another one.
 
     Guesses are slowed down for all together: so many seconds for an answer, so many
-    answers at a time. Who comes while that many guesses wait may try again later.
+    answers at a time, one token and the cookies in a request. Who comes while that many
+    guesses wait may try again later.
 
     Args:
         token: the secret without which nobody is let in; None lets everyone in.
@@ -68,10 +70,17 @@ class TokenCheck:
         """
         if not self._tokens:
             return None
-        address, given = _split(request.path)
-        sent = self._sent(request.headers)
+        address, in_address = _split(request.path)
+        given = [*in_address, *_bearers(request.headers)]
+        sent = self._cookies(request.headers)
         if not (self._needed or given or sent):
             return None
+        if len(given) > 1:
+            return plain_page(
+                http.HTTPStatus.BAD_REQUEST,
+                "More than one token",
+                "Open the address as sambot-viz has printed it.",
+            )
         if self._waiting >= MOST_WAITING:
             return plain_page(
                 http.HTTPStatus.TOO_MANY_REQUESTS,
@@ -79,45 +88,37 @@ class TokenCheck:
                 "Load the page again in a few seconds.",
                 {"Retry-After": "2"},
             )
-        name = next((n for one in given if (n := self._name_of(one))), None)
+        name = self._name_of(given[0]) if given else None
         if name is not None:
-            if is_websocket(request):
+            if is_websocket(request) or not in_address:
                 return None
             return self._remember(name, address, request.headers)
-        if any(map(self._name_of, sent)):
+        if any(_equal(one, self._tokens[name]) for name, one in sent.items()):
             return None
-        return self._wrong() if [*given, *sent] else _no_token()
+        return self._wrong() if given or sent else _no_token()
 
     def is_presenter(self, request: Request) -> bool:
         """Whether a request comes from a browser that has the presenter's link."""
         if self._presenter is None:
             return False
-        sent = [*_split(request.path)[1], *self._sent(request.headers)]
+        sent = [*_split(request.path)[1], *_bearers(request.headers)]
+        sent += self._cookies(request.headers).values()
         # All are looked at, so that the time says nothing.
-        return any([hmac.compare_digest(one, self._presenter) for one in sent])
+        return any([_equal(one, self._presenter) for one in sent])
 
     def _name_of(self, given: bytes) -> str | None:
         """The cookie of the token that this is; None when it is none."""
-        right = [
-            n for n, one in self._tokens.items() if hmac.compare_digest(given, one)
-        ]
+        right = [name for name, one in self._tokens.items() if _equal(given, one)]
         return right[0] if right else None
 
-    def _sent(self, headers: Headers) -> list[bytes]:
-        """The tokens in the headers of a request."""
-        found: list[bytes] = []
-        for text in headers.get_all("Authorization"):
-            kind, _, value = text.partition(" ")
-            if kind.lower() == "bearer":
-                found.append(_bytes(value.strip()))
-        for text in headers.get_all("Cookie"):
-            try:
-                cookies = SimpleCookie(text)
-            except CookieError:
-                continue
-            values = (cookies[name].value for name in self._tokens if name in cookies)
-            found.extend(map(_bytes, values))
-        return found
+    def _cookies(self, headers: Headers) -> dict[str, bytes]:
+        """The tokens in the cookies of a request, by the names of these.
+
+        Other programs of the same host have cookies that no parser may know.
+        """
+        parts = [part for text in headers.get_all("Cookie") for part in text.split(";")]
+        pairs = (part.strip().partition("=") for part in reversed(parts))
+        return {name: _bytes(one) for name, _, one in pairs if name in self._tokens}
 
     def _remember(self, name: str, address: str, headers: Headers) -> Response:
         """The same page without the token in its address, and with a cookie."""
@@ -143,6 +144,17 @@ class TokenCheck:
         )
 
 
+def _equal(one: bytes, two: bytes) -> bool:
+    """Compare secrets; the time that it takes says nothing about them."""
+    return hmac.compare_digest(one, two)
+
+
+def _bearers(headers: Headers) -> list[bytes]:
+    """The tokens that a program sends beside the address."""
+    pairs = (text.partition(" ") for text in headers.get_all("Authorization"))
+    return [_bytes(one.strip()) for kind, _, one in pairs if kind.lower() == "bearer"]
+
+
 def _no_token() -> Response:
     return plain_page(
         http.HTTPStatus.UNAUTHORIZED,
@@ -165,5 +177,5 @@ def _split(path: str) -> tuple[str, list[bytes]]:
     given = [_bytes(value) for name, value in query if name == "token"]
     rest = urlencode([pair for pair in query if pair[0] != "token"], errors="replace")
     # Relative: a proxy may show the page below another path, and on another host.
-    where = f"./{where.rpartition('/')[2]}"
+    where = f"./{quote(where.rpartition('/')[2], safe=_KEPT, errors='replace')}"
     return f"{where}?{rest}" if rest else where, given

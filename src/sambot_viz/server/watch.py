@@ -230,6 +230,9 @@ def _batches(changes: Iterator[_Changes]) -> Iterator[_Changes]:
         except StopIteration:
             return
         except (OSError, RuntimeError) as error:
+            if "decode path" in str(error):
+                # The name of a file is no text; watching begins again.
+                return
             raise _CannotWatchError(str(error)) from error
         yield reported
 

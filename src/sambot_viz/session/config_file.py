@@ -31,7 +31,9 @@ MOST_NAMES = 1000
 UNNAMED = f"sambot_viz{ENDING}"
 """What a config without a file is called when it is downloaded."""
 _FORBIDDEN = '<>:"|?*'
-_RESERVED = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\.|$)", re.IGNORECASE)
+_RESERVED = re.compile(
+    r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE
+)
 """Names that Windows keeps for devices, with any ending."""
 
 
@@ -88,7 +90,8 @@ class ConfigFile:
 
     def _leads_elsewhere(self, path: Path) -> bool:
         """Whether a path in the folder is a link out of it."""
-        if path == self.target or not path.is_symlink():
+        # Few are links: what else there is costs no more than this question.
+        if not path.is_symlink() or path == self.target:
             return False
         opened = self._opened
         folders = [self.folder.resolve()]
@@ -97,23 +100,31 @@ class ConfigFile:
             folders.append(Path(os.path.realpath(opened)).parent)
         return not is_below(path, folders)
 
+    def _is_hidden(self, path: Path) -> bool:
+        """Whether a file has a name that no file gets here, unless it was opened."""
+        hidden = path.name.startswith(".")
+        return hidden and path not in (self.target, self._opened)
+
     def names(self) -> list[str]:
         """The .rviz files in the folder, by name, and the one of the program.
 
         Raises:
             UsageError: the folder cannot be read.
         """
+        folder = self.folder
         try:
-            found = [
-                entry.name
-                for entry in os.scandir(self.folder)
-                if entry.name.endswith(ENDING)
-                and not self._leads_elsewhere(self.folder / entry.name)
-                and entry.is_file()
-            ]
+            with os.scandir(folder) as entries:
+                found = [
+                    entry.name
+                    for entry in entries
+                    if entry.name.endswith(ENDING)
+                    and not self._is_hidden(folder / entry.name)
+                    and not self._leads_elsewhere(folder / entry.name)
+                    and entry.is_file()
+                ]
         except OSError as error:
             raise UsageError(
-                f"the folder {self.folder} cannot be read: {error.strerror}"
+                f"the folder {folder} cannot be read: {error.strerror}"
             ) from error
         return [*sorted(found, key=str.casefold)[:MOST_NAMES], *_of_the_program()]
 

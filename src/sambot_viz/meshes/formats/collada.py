@@ -25,6 +25,8 @@ from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_documen
 from sambot_viz.meshes.source import MeshSource
 
 _DEEPEST = 200
+FEW_CHILDREN = 20
+"""A node with so many transforms and parts counts as two."""
 
 
 def read_collada(source: MeshSource) -> list[Submesh]:
@@ -88,7 +90,8 @@ class _Scene:
                 f"nested more than {_DEEPEST} deep; the rest is left out",
             )
             return
-        self.source.budget.spend_nodes()
+        # A node has a few transforms, and may be named again and again.
+        self.source.budget.spend_nodes(1 + len(node) // FEW_CHILDREN)
         T_root_node = T @ _local_transform(node)
         for child in node:
             if child.tag == "node":
@@ -124,7 +127,8 @@ class _Scene:
             geometry = read_geometry(element, self.document, self.source)
             self._geometries[id(element)] = geometry
         # A few nodes can name the same geometry a million times, an empty one too.
-        self.source.budget.spend_nodes()
+        # So can one geometry have a million parts without a triangle.
+        self.source.budget.spend_nodes(1 + len(geometry))
         bound = self.materials.bindings(instance)
         for primitives in geometry:
             self.source.budget.spend_triangles(

@@ -28,7 +28,7 @@ from sambot_viz.robot.xacro.child_result import (
 
 _CHILD = Path(__file__).parent / "child" / "main.py"
 _SECRET_NAME = re.compile(
-    r"TOKEN|SECRET|PASSW|PASSPHRASE|CREDENTIAL|COOKIE|API_?KEY|PRIVATE|AUTH|_KEY\b",
+    r"TOKEN|PRESENTER|SECRET|PASSW|PASSPHRASE|CREDENTIAL|COOKIE|API_?KEY|PRIVATE|AUTH|_KEY\b",
     re.IGNORECASE,
 )
 _SECRET_VALUE = re.compile(r"://[^/@\s]*:[^/@\s]*@")

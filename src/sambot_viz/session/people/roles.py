@@ -92,12 +92,15 @@ class Roles:
             name: what the presenter is to read; empty keeps "Guest 3".
 
         Raises:
-            UsageError: the name is too long.
+            UsageError: the name is too long, or sounds like a presenter's.
         """
         person = self._people[client_id]
         if len(name) > LONGEST_NAME:
             raise UsageError(f"a name has at most {LONGEST_NAME} characters")
-        person.name = name.strip() or person.name
+        name = name.strip()
+        if not person.presenter and name.casefold().startswith("presenter"):
+            raise UsageError("names that begin with 'Presenter' are the presenter's")
+        person.name = name or person.name
         person.requests = not person.has_control
         self.changed.touch()
 
