@@ -21,7 +21,6 @@ from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.session.checks import Checks
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
@@ -30,9 +29,8 @@ from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.document.toggles import Toggles
 from sambot_viz.session.people.roles import Roles
-from sambot_viz.session.problems import Problems
-from sambot_viz.session.robot.drive import Drive
-from sambot_viz.session.robot.drive_trail import DriveTrail
+from sambot_viz.session.problems import Checks, Problems
+from sambot_viz.session.robot.drive import Drive, DriveTrail
 from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState

@@ -52,7 +52,6 @@ class ClientView:
         client: whose view it is.
         change: sends the camera to this client.
         document: its view comes first.
-        scene: what is looked at.
         robot: it is followed, and shown whole at first.
         picker: finds how large the robot is.
         history: records changes of the view.

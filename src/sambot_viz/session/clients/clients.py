@@ -31,7 +31,6 @@ class Clients:
         picker: finds what is clicked on.
         history: records views.
         roles: whose view the others may follow.
-        change: tells changes.
         worker: acts on what clients send.
 
     Attributes:

@@ -37,14 +37,7 @@ _COUNTED = re.compile(r"^(.*) \(\d+\)$", re.DOTALL)
 
 
 class DisplayEdits:
-    """Changes displays as users do.
-
-    Args:
-        document: lists the displays.
-        scene: draws them.
-        history: records what users change.
-        change: sends and tells changes.
-    """
+    """Changes displays as users do."""
 
     def __init__(
         self,

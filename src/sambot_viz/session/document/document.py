@@ -19,9 +19,6 @@ class ShownDocument:
 
     Args:
         config: the .rviz document; it changes as the user changes it.
-        scene: draws it.
-        history: records what users change.
-        change: sends and tells changes.
 
     Attributes:
         config: the document that is shown.

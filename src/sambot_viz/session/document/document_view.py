@@ -21,8 +21,6 @@ class DocumentView:
     """The document's view, which a client shows first.
 
     Args:
-        document: the view is in it.
-        scene: what is looked at.
         picker: finds how large the robot is.
     """
 

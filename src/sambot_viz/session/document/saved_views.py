@@ -15,13 +15,7 @@ from sambot_viz.session.undo import History
 
 
 class SavedViews:
-    """Edits the saved views.
-
-    Args:
-        document: they are in it.
-        history: records what users change.
-        change: sends and tells changes.
-    """
+    """Edits the saved views."""
 
     def __init__(
         self, document: ShownDocument, history: History, change: Change

@@ -42,8 +42,6 @@ class Toggles:
     """Finds the toggles of all displays of a session.
 
     Args:
-        document: lists the displays.
-        scene: draws them.
         edits: sets a toggle, as an edit.
     """
 

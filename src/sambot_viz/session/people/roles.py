@@ -40,7 +40,6 @@ class Roles:
     """Keeps who has control.
 
     Args:
-        change: tells of it.
         presented: whether only presenters, and those to whom they give control, may
             change the session.
 

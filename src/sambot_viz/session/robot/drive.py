@@ -1,13 +1,15 @@
 """Drives a robot with two wheels in the frame odom.
 
 It is the odometry of a differential drive without a simulator: the velocities turn the
-wheels and move odom → root along exact arcs (see `drive.differential`).
+wheels and move odom → root along exact arcs (see `drive.differential`). The trail is a
+line on the floor of odom.
 """
 
 from __future__ import annotations
 
 import math
 
+from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.drive.differential import DifferentialDrive, PlanarPose, WheelPair
 from sambot_viz.drive.wheels import find_wheel_pair
 from sambot_viz.errors import FrameError, JointError, Problem
@@ -19,10 +21,14 @@ from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
-from sambot_viz.session.signals import Change, Listening, Signal
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Listening, Signal, connect
+from sambot_viz.session.worker import Throttle, Worker
 
 ODOM = "odom"
 """The frame that the robot moves in; its origin is on the floor below the start."""
+TRAIL_PERIOD = 0.2
+"""The trail is drawn at most this often [s]."""
 
 
 class Drive:
@@ -32,7 +38,6 @@ class Drive:
         robot: its wheels turn.
         frames: it is attached to odom.
         options: name the wheels.
-        change: tells changes.
 
     Attributes:
         velocity: linear [m/s], forwards positive, and angular [rad/s], to the left
@@ -220,3 +225,45 @@ class Drive:
         pose = self.pose
         xyz, rpy = (pose.x, pose.y, self._height), (0.0, 0.0, pose.yaw)
         return Transform.from_xyz_rpy(xyz, rpy).matrix
+
+
+class DriveTrail:
+    """Draws a line on the floor of odom.
+
+    Args:
+        drive: knows where the robot was.
+        robot: another one may have no wheels.
+        scene: where to draw.
+        change: sends the line.
+    """
+
+    def __init__(
+        self,
+        drive: Drive,
+        robot: RobotState,
+        scene: Scene,
+        change: Change,
+        worker: Worker,
+    ) -> None:
+        self._drive = drive
+        self._context = scene.context
+        self._change = change
+        self._line = PathLine(scene.context.scene)
+        self._drawing = Throttle(worker, TRAIL_PERIOD, self._draw)
+        self._others = (scene.frames, robot.changed)
+        self._driven = Listening(self._drawing.request)
+        connect([drive.pose_changed], self._moved)
+
+    def close(self) -> None:
+        """Draw nothing any more."""
+        self._drawing.close()
+
+    def _moved(self) -> None:
+        # A robot that never drove has no trail: until then nothing else matters.
+        self._driven.to(*self._others)
+        self._drawing.request()
+
+    def _draw(self) -> None:
+        with self._change():
+            above = self._context.nodes.path(ODOM)
+            self._line.draw(above, self._drive.trail or ((0.0, 0.0),))

@@ -21,9 +21,6 @@ class Frames:
         tree: all of them.
         user_frames: those that were added.
         robot: its frames are set again where an added one was.
-        scene: draws them.
-        history: records what users do.
-        change: sends and tells changes.
 
     Attributes:
         tree: all of them.

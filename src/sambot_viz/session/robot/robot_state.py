@@ -30,10 +30,6 @@ class RobotState:
     Args:
         tree: the frames; this fills them.
         added: frames that were added by hand or by driving.
-        scene: draws the robot.
-        history: records what users do.
-        change: sends and tells changes.
-        worker: draws streams.
         clock: the time of the recorder.
 
     Attributes:

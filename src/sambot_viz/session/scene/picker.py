@@ -22,7 +22,6 @@ class Picker:
     """Follows the rays of all clients of a session, one click after the other.
 
     Args:
-        scene: what is drawn.
         worker: acts on what was found.
     """
 
