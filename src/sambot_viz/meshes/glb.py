@@ -1,4 +1,4 @@
-"""A small GLB writer: one primitive per part, the texture's own bytes inside.
+"""A small GLB writer: the triangles of one look, the texture's own bytes inside.
 
 Written by hand because the general one decodes and encodes every texture again for
 every part, which takes seconds.
@@ -9,19 +9,17 @@ from __future__ import annotations
 import json
 import struct
 import weakref
-from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from sambot_viz.geometry import Rgba
-from sambot_viz.meshes.mesh import WHITE, Mesh, MeshPart, Texture
+from sambot_viz.meshes.mesh import WHITE, MeshPart
 
 _FLOAT, _UINT32, _UINT16 = 5126, 5125, 5123
 _VERTICES, _INDICES = 34962, 34963
-_OPAQUE = 0.9998
-"""From this alpha on RViz draws without blending."""
+OPAQUE_FROM = 0.9998
+"""RViz blends below this alpha and writes no depth."""
 
 
 _last: weakref.WeakKeyDictionary[MeshPart, tuple[tuple[Rgba | None, float], bytes]] = (
@@ -30,7 +28,7 @@ _last: weakref.WeakKeyDictionary[MeshPart, tuple[tuple[Rgba | None, float], byte
 
 
 def shared_glb(part: MeshPart, rgba: Rgba | None, alpha: float) -> bytes:
-    """Return `to_glb` of one part; the same object for the look asked for last.
+    """Return `to_glb` of a part; the same object for the look asked for last.
 
     So do all browsers of a class with a robot each.
     """
@@ -41,161 +39,113 @@ def shared_glb(part: MeshPart, rgba: Rgba | None, alpha: float) -> bytes:
     return known[1]
 
 
-def to_glb(
-    what: MeshPart | Mesh | Sequence[MeshPart],
-    *,
-    rgba: Rgba | None = None,
-    alpha: float = 1.0,
-) -> bytes:
-    """Return a GLB file that a browser shows as RViz shows the parts.
+def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> bytes:
+    """Return a GLB file that a browser shows as RViz shows the part.
 
-    Materials are not metallic and quite rough, back faces are culled, and flat parts
-    have no normals, by which a glTF reader knows them.
+    The material is not metallic and quite rough, back faces are culled, and a flat part
+    has no normals, by which a glTF reader knows it.
 
     Args:
-        what: one part, several, or a whole mesh.
-        rgba: colour factors instead of each part's own (a URDF material); white
+        part: the triangles.
+        rgba: colour factors instead of the part's own (a URDF material); white
             where neither says anything.
         alpha: multiplies the colour's own; below 0.9998 the result is blended.
     """
-    parts = (
-        (what,)
-        if isinstance(what, MeshPart)
-        else what.parts
-        if isinstance(what, Mesh)
-        else tuple(what)
-    )
-    writer = _Writer()
-    primitives = [writer.primitive(part, rgba, alpha) for part in parts]
-    return writer.file(primitives)
+    numbers = _Numbers()
+    position = numbers.add(part.vertices, "VEC3")
+    lows, highs = np.min(part.vertices, axis=0), np.max(part.vertices, axis=0)
+    numbers.accessors[position]["min"] = [float(value) for value in lows]
+    numbers.accessors[position]["max"] = [float(value) for value in highs]
+    attributes = {"POSITION": position}
+    if part.normals is not None:
+        attributes["NORMAL"] = numbers.add(part.normals, "VEC3")
+    if part.uv is not None and part.texture is not None:
+        # The first row of an image is v = 0 in glTF.
+        uv = np.column_stack([part.uv[:, 0], 1 - part.uv[:, 1]])
+        attributes["TEXCOORD_0"] = numbers.add(uv, "VEC2")
+    small = len(part.vertices) < 65536
+    indices = np.ravel(part.faces).astype("<u2" if small else "<u4")
+    primitive = {
+        "attributes": attributes,
+        "indices": numbers.add(indices, "SCALAR"),
+        "material": 0,
+    }
+    material = _material(part, rgba, alpha)
+    images: dict[str, Any] = {}
+    if part.texture is not None and part.uv is not None:
+        image = {
+            "bufferView": numbers.view(part.texture.data),
+            "mimeType": part.texture.mime,
+        }
+        images = {
+            "images": [image],
+            "samplers": [{"wrapS": 10497, "wrapT": 10497}],
+            "textures": [{"source": 0, "sampler": 0}],
+        }
+    body = b"".join(numbers.chunks)
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [primitive]}],
+        "materials": [material],
+        "accessors": numbers.accessors,
+        "bufferViews": numbers.views,
+        "buffers": [{"byteLength": len(body)}],
+        **images,
+    }
+    return glb_file(document, body)
 
 
-@dataclass(slots=True)
-class _Writer:
-    """The lists of a glTF document and its one buffer."""
+def _material(part: MeshPart, rgba: Rgba | None, alpha: float) -> dict[str, Any]:
+    """Return the look of a part."""
+    red, green, blue, opacity = rgba or part.rgba or WHITE
+    opacity *= alpha
+    pbr: dict[str, Any] = {
+        "baseColorFactor": [*map(srgb_to_linear, (red, green, blue)), opacity],
+        "metallicFactor": 0.0,
+        "roughnessFactor": 1.0,
+    }
+    if part.texture is not None and part.uv is not None:
+        pbr["baseColorTexture"] = {"index": 0}
+    material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": False}
+    if opacity < OPAQUE_FROM:
+        material["alphaMode"] = "BLEND"
+    return material
 
-    chunks: list[bytes] = field(default_factory=list[bytes])
-    length: int = 0
-    views: list[dict[str, Any]] = field(default_factory=list[dict[str, Any]])
-    accessors: list[dict[str, Any]] = field(default_factory=list[dict[str, Any]])
-    materials: list[dict[str, Any]] = field(default_factory=list[dict[str, Any]])
-    images: list[dict[str, Any]] = field(default_factory=list[dict[str, Any]])
-    known: dict[int, int] = field(default_factory=dict[int, int])
+
+class _Numbers:
+    """The one buffer of a document, its views and accessors."""
+
+    def __init__(self) -> None:
+        self.chunks: list[bytes] = []
+        self.views: list[dict[str, Any]] = []
+        self.accessors: list[dict[str, Any]] = []
 
     def view(self, data: bytes, target: int | None = None) -> int:
         """Append bytes to the buffer, padded to four."""
-        entry: dict[str, Any] = {
-            "buffer": 0,
-            "byteOffset": self.length,
-            "byteLength": len(data),
-        }
-        if target is not None:
-            entry["target"] = target
-        padded = data + b"\0" * (-len(data) % 4)
-        self.chunks.append(padded)
-        self.length += len(padded)
-        self.views.append(entry)
+        start = sum(map(len, self.chunks))
+        entry = {"buffer": 0, "byteOffset": start, "byteLength": len(data)}
+        self.views.append(entry if target is None else {**entry, "target": target})
+        self.chunks.append(data + b"\0" * (-len(data) % 4))
         return len(self.views) - 1
 
-    def accessor(self, data: bytes, kind: int, shape: str, count: int) -> int:
-        """Return a typed view."""
+    def add(self, rows: np.ndarray[Any, np.dtype[Any]], shape: str) -> int:
+        """Append an array: floats, or the indices of corners."""
+        indices = _UINT16 if rows.itemsize == 2 else _UINT32
+        kind = indices if rows.dtype.kind == "u" else _FLOAT
+        data = rows.astype("<f4") if kind == _FLOAT else rows
         target = _INDICES if shape == "SCALAR" else _VERTICES
         self.accessors.append(
             {
-                "bufferView": self.view(data, target),
+                "bufferView": self.view(data.tobytes(), target),
                 "componentType": kind,
-                "count": count,
+                "count": len(rows),
                 "type": shape,
             }
         )
         return len(self.accessors) - 1
-
-    def primitive(
-        self, part: MeshPart, rgba: Rgba | None, alpha: float
-    ) -> dict[str, Any]:
-        """Return the triangles of a part with their material."""
-        count = len(part.vertices)
-        position = self.accessor(_floats(part.vertices), _FLOAT, "VEC3", count)
-        self.accessors[position]["min"] = [
-            float(value) for value in np.min(part.vertices, axis=0)
-        ]
-        self.accessors[position]["max"] = [
-            float(value) for value in np.max(part.vertices, axis=0)
-        ]
-        attributes = {"POSITION": position}
-        if part.normals is not None:
-            attributes["NORMAL"] = self.accessor(
-                _floats(part.normals), _FLOAT, "VEC3", count
-            )
-        if part.uv is not None and part.texture is not None:
-            # The first row of an image is v = 0 in glTF.
-            uv = np.column_stack([part.uv[:, 0], 1 - part.uv[:, 1]])
-            attributes["TEXCOORD_0"] = self.accessor(_floats(uv), _FLOAT, "VEC2", count)
-        small = count < 65536
-        indices = part.faces.astype("<u2" if small else "<u4")
-        return {
-            "attributes": attributes,
-            "indices": self.accessor(
-                indices.tobytes(),
-                _UINT16 if small else _UINT32,
-                "SCALAR",
-                3 * len(part.faces),
-            ),
-            "material": self.material(part, rgba, alpha),
-        }
-
-    def material(self, part: MeshPart, rgba: Rgba | None, alpha: float) -> int:
-        """Return the look of a part."""
-        red, green, blue, opacity = rgba or part.rgba or WHITE
-        opacity *= alpha
-        pbr: dict[str, Any] = {
-            "baseColorFactor": [
-                srgb_to_linear(red),
-                srgb_to_linear(green),
-                srgb_to_linear(blue),
-                opacity,
-            ],
-            "metallicFactor": 0.0,
-            "roughnessFactor": 1.0,
-        }
-        if part.texture is not None and part.uv is not None:
-            pbr["baseColorTexture"] = {"index": self.texture(part.texture)}
-        material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": False}
-        if opacity < _OPAQUE:
-            material["alphaMode"] = "BLEND"
-        self.materials.append(material)
-        return len(self.materials) - 1
-
-    def texture(self, texture: Texture) -> int:
-        """Return the number of an image, which is written once."""
-        number = self.known.get(id(texture))
-        if number is None:
-            number = self.known[id(texture)] = len(self.images)
-            self.images.append(
-                {"bufferView": self.view(texture.data), "mimeType": texture.mime}
-            )
-        return number
-
-    def file(self, primitives: list[dict[str, Any]]) -> bytes:
-        """Return the finished file."""
-        document: dict[str, Any] = {
-            "asset": {"version": "2.0"},
-            "scene": 0,
-            "scenes": [{"nodes": [0]}],
-            "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": primitives}],
-            "materials": self.materials,
-            "accessors": self.accessors,
-            "bufferViews": self.views,
-            "buffers": [{"byteLength": self.length}],
-        }
-        if self.images:
-            document["images"] = self.images
-            document["samplers"] = [{"wrapS": 10497, "wrapT": 10497}]
-            document["textures"] = [
-                {"source": number, "sampler": 0} for number in range(len(self.images))
-            ]
-        return glb_file(document, b"".join(self.chunks))
 
 
 def glb_file(document: dict[str, Any], body: bytes) -> bytes:
@@ -225,7 +175,3 @@ def glb_file(document: dict[str, Any], body: bytes) -> bytes:
 def srgb_to_linear(value: float) -> float:
     """Convert a colour value as shown, 0 to 1, to the linear light of glTF."""
     return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
-
-
-def _floats(values: np.ndarray[Any, np.dtype[Any]]) -> bytes:
-    return values.astype("<f4").tobytes()

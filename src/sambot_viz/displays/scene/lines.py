@@ -9,8 +9,8 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.scene.nodes import any_gone, remove_all
-from sambot_viz.displays.scene.solids import OPAQUE_FROM, Rgb, linear
-from sambot_viz.meshes.glb import glb_file
+from sambot_viz.displays.scene.solids import Rgb, linear
+from sambot_viz.meshes.glb import OPAQUE_FROM, glb_file
 
 _FLOAT, _LINES = 5126, 1
 

@@ -16,7 +16,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.geometry import Vector3, Wxyz, rotation_from_xyzw, wxyz_from_z
-from sambot_viz.meshes.glb import srgb_to_linear
+from sambot_viz.meshes.glb import OPAQUE_FROM, srgb_to_linear
 from sambot_viz.meshes.primitives import (
     Primitive,
     unit_cone,
@@ -25,8 +25,6 @@ from sambot_viz.meshes.primitives import (
 )
 
 Rgb = tuple[int, int, int]
-OPAQUE_FROM = 0.9998
-"""RViz blends below this alpha and writes no depth."""
 
 _HALF = math.sqrt(0.5)
 _AXIS_WXYZ: tuple[Wxyz, ...] = (
