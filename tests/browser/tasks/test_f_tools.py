@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import chain, pairwise, permutations
 
 import pytest
 from desk import Desk
@@ -101,12 +102,12 @@ def test_task_48_select_by_rectangle_add_and_take_away(s: Desk) -> None:
 
 
 def test_task_49_from_any_tool_to_any_other(s: Desk) -> None:
-    for before in KEYS:
-        for after in KEYS:
-            if before == after:
-                continue
-            s.choose_tool(before)
-            s.choose_tool(after)
+    tools = list(KEYS)
+    pairs = [(a, b) for n, a in enumerate(tools) for b in tools[n + 1 :]]
+    path = [*chain.from_iterable(pairs), tools[0]]
+    assert sorted(pairwise(path)) == sorted(permutations(tools, 2)), "each way once"
+    for tool in path:
+        s.choose_tool(tool)
     grid = s.user.row("Displays", "Grid").one("checkbox")
     slider = s.user.row("Joints", "drivewhl_l_joint").one("slider")
     for used in (grid, slider):
