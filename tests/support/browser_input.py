@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from typing import Literal, Protocol
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.export.devtools import Fields
 
 Point = tuple[float, float]
+_REST = 0.1
+"""How long fingers rest before they are lifted [s]."""
 Button = Literal["left", "middle", "right"]
 _BUTTON_BITS: dict[Button, int] = {"left": 1, "right": 2, "middle": 4}
 _MODIFIER_BITS = {"Alt": 1, "Control": 2, "Meta": 4, "Shift": 8}
@@ -236,6 +239,8 @@ class Touch:
 
     def __init__(self, page: Caller) -> None:
         self._page = page
+        self._at = 0.0
+        self._moves = False
 
     def start(self, *fingers: Point) -> None:
         """Put fingers on the page."""
@@ -244,18 +249,23 @@ class Touch:
     def move(self, *fingers: Point) -> None:
         """Move the fingers, in the order they were put down."""
         self._event("touchMove", fingers)
+        self._moves = True
 
     def end(self) -> None:
-        """Lift all fingers."""
-        self._event("touchEnd", ())
+        """Lift all fingers. What they have moved rests before, and is not thrown."""
+        # A browser takes a tap for the end of a throw, and the page gets no click.
+        self._event("touchEnd", (), _REST if self._moves else 0.0)
+        self._moves = False
 
     def tap(self, x: float, y: float) -> None:
         """Put one finger down and lift it."""
         self.start((x, y))
         self.end()
 
-    def _event(self, kind: str, fingers: tuple[Point, ...]) -> None:
+    def _event(self, kind: str, fingers: tuple[Point, ...], later: float = 0.0) -> None:
         points = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(fingers)]
+        self._at = max(time.time(), self._at + later)
         self._page.call(
-            "Input.dispatchTouchEvent", {"type": kind, "touchPoints": points}
+            "Input.dispatchTouchEvent",
+            {"type": kind, "touchPoints": points, "timestamp": self._at},
         )
