@@ -50,6 +50,16 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     an error or asked another server for anything, unless it set `expects_errors`. What
     depends on the pixels that the view has before they are read asks for resolution=1.
     """
+    yield from _viewers(chromium)
+
+
+@pytest.fixture(scope="module")
+def open_for_all(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
+    """The same for pages that all tests of a file use, each after the other."""
+    yield from _viewers(chromium)
+
+
+def _viewers(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     from recorded_page import open_page
     from viewer_page import COARSE, ViewerPage, viewer_url
 

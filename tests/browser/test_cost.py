@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import pytest
 import robots
@@ -18,19 +17,22 @@ COUNT = 60
 ROWS = "document.querySelectorAll('#sambot .joints .k-slider')"
 
 
-@pytest.fixture
-def viz(tmp_path: Path) -> Iterator[Visualizer]:
+@pytest.fixture(scope="module")
+def viewer(
+    tmp_path_factory: pytest.TempPathFactory, open_for_all: Open
+) -> Iterator[ViewerPage]:
     """So many joints that they are in groups."""
-    model = tmp_path / "chain.urdf"
+    model = tmp_path_factory.mktemp("cost") / "chain.urdf"
     model.write_text(robots.chain(COUNT), "utf-8")
     with Visualizer(model, port=0) as viz:
-        yield viz
+        viewer = open_for_all(viz.url)
+        yield viewer
+        # The server is closed before the page is.
+        assert viewer.errors() == []
+        viewer.expects_errors = True
 
 
-def test_a_page_at_rest_sends_and_gets_nothing(
-    viz: Visualizer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url)
+def test_a_page_at_rest_sends_and_gets_nothing(viewer: ViewerPage) -> None:
     viewer.wait_until_drawn()
     assert viewer.page.messages > 0
     # It takes a moment to come to rest.
@@ -43,10 +45,7 @@ def is_quiet(viewer: ViewerPage, seconds: float) -> bool:
     return viewer.page.messages == before
 
 
-def test_a_joint_is_a_few_elements_and_a_folded_one_none(
-    viz: Visualizer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(viz.url)
+def test_a_joint_is_a_few_elements_and_a_folded_one_none(viewer: ViewerPage) -> None:
     viewer.wait_for(f"{ROWS}.length === {COUNT}")
     most = viewer.page.evaluate(
         f"Math.max(...[...{ROWS}].map(row => row.querySelectorAll('*').length))"

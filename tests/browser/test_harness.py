@@ -14,7 +14,7 @@ pytestmark = pytest.mark.browser
 Open = Callable[..., ViewerPage]
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def server() -> Iterator[viser.ViserServer]:
     """A server with a red box."""
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
@@ -29,11 +29,16 @@ def server() -> Iterator[viser.ViserServer]:
     server.stop()
 
 
-def test_the_page_shows_the_box_without_errors_or_foreign_requests(
-    server: viser.ViserServer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(server.get_port(), width=800, height=600)
+@pytest.fixture(scope="module")
+def viewer(server: viser.ViserServer, open_for_all: Open) -> ViewerPage:
+    viewer = open_for_all(server.get_port(), width=800, height=600)
     viewer.wait_for_nodes("/group/box")
+    return viewer
+
+
+def test_the_page_shows_the_box_without_errors_or_foreign_requests(
+    viewer: ViewerPage,
+) -> None:
     assert {"/group", "/group/box"} <= set(viewer.nodes)
     pixels = viewer.pixels()
     assert pixels.shape == (600, 800, 4)
@@ -47,10 +52,8 @@ def test_the_page_shows_the_box_without_errors_or_foreign_requests(
 
 
 def test_the_mouse_turns_the_camera_and_the_wheel_comes_nearer(
-    server: viser.ViserServer, open_viewer: Open
+    viewer: ViewerPage,
 ) -> None:
-    viewer = open_viewer(server.get_port(), width=640, height=480)
-    viewer.wait_for_nodes("/group/box")
     position = "__viserMutable.camera.position.toArray()"
     distance = "__viserMutable.camera.position.length()"
     x, y, z = viewer.page.evaluate(position)
@@ -62,10 +65,8 @@ def test_the_mouse_turns_the_camera_and_the_wheel_comes_nearer(
     assert (x, y, z) != tuple(viewer.page.evaluate(position))
 
 
-def test_an_error_in_the_page_is_noticed(
-    server: viser.ViserServer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(server.get_port())
+def test_an_error_in_the_page_is_noticed(viewer: ViewerPage) -> None:
+    assert viewer.errors() == []
     viewer.expects_errors = True
     viewer.page.evaluate("console.error('something', 1)")
     viewer.page.evaluate("void setTimeout(() => { throw new Error('late') })")
@@ -74,10 +75,9 @@ def test_an_error_in_the_page_is_noticed(
     assert any("late" in error for error in viewer.errors())
 
 
-def test_a_phone_has_fingers_and_a_narrow_page(
-    server: viser.ViserServer, open_viewer: Open
-) -> None:
-    viewer = open_viewer(server.get_port(), width=390, height=844, touch=True)
+def test_a_phone_has_fingers_and_a_narrow_page(viewer: ViewerPage) -> None:
+    viewer.page.set_touch(390, 844)
+    viewer.wait_for_frames()
     size = viewer.page.evaluate("[innerWidth, innerHeight, navigator.maxTouchPoints]")
     assert size[:2] == [390, 844] and size[2] > 0
     assert viewer.screenshot().shape == (844, 390, 4)

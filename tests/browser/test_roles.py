@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer
+from sambot_viz import Robot, Visualizer
 
 pytestmark = pytest.mark.browser
 
@@ -16,20 +16,22 @@ LEFT = "drivewhl_l_joint"
 Open = Callable[..., ViewerPage]
 
 
-@pytest.fixture
-def viz(make_viz: Callable[..., Visualizer]) -> Visualizer:
-    return make_viz(presenter="")
+@pytest.fixture(scope="module")
+def viz(sam_bot: Robot) -> Iterator[Visualizer]:
+    """One class for all tests: each ends with the presenter in control again."""
+    with Visualizer(sam_bot, port=0, presenter="") as viz:
+        yield viz
 
 
-@pytest.fixture
-def guest(viz: Visualizer, open_viewer: Open) -> ViewerPage:
-    return ready(open_viewer(viz.url))
+@pytest.fixture(scope="module")
+def guest(viz: Visualizer, open_for_all: Open) -> ViewerPage:
+    return ready(open_for_all(viz.url))
 
 
-@pytest.fixture
-def teacher(viz: Visualizer, open_viewer: Open) -> ViewerPage:
+@pytest.fixture(scope="module")
+def teacher(viz: Visualizer, open_for_all: Open) -> ViewerPage:
     assert viz.presenter_url is not None
-    return ready(open_viewer(viz.presenter_url))
+    return ready(open_for_all(viz.presenter_url))
 
 
 def ready(viewer: ViewerPage) -> ViewerPage:

@@ -41,6 +41,11 @@ def viz() -> Iterator[Visualizer]:
         yield viz
 
 
+@pytest.fixture(scope="module")
+def viewer(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> ViewerPage:
+    return open_for_all(viz.url)
+
+
 def check_all(user: User) -> dict[str, int]:
     """Check every control of every tree that is shown; how wide each scroll bar is."""
     answer = user.page.evaluate(_LOOK)
@@ -59,9 +64,11 @@ def move_divider(user: User, panel: str, part: float) -> None:
 
 @pytest.mark.parametrize("size", [(1280, 720), (1440, 2400), (1024, 768), (390, 844)])
 def test_the_middle_of_every_box_and_swatch_answers(
-    viz: Visualizer, open_viewer: Callable[..., ViewerPage], size: tuple[int, int]
+    viewer: ViewerPage, size: tuple[int, int]
 ) -> None:
-    user = open_viewer(viz.url, width=size[0], height=size[1]).user
+    user = viewer.user
+    viewer.page.set_viewport(*size)
+    viewer.wait_for_frames()
     bars: dict[str, int] = {}
     for tab in ("Views", "Displays") if size[0] < 1100 else ("Frames", "Joints"):
         user.tab(tab)
