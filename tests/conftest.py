@@ -22,8 +22,8 @@ NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkou
 GROUPS = {
     "tests/browser/tasks/": "tasks",
     "tests/browser/": "browser",
-    "tests/golden/": "browser",
-    "tests/jupyter/": "browser",
+    "tests/golden/": "golden",
+    "tests/jupyter/": "jupyter",
 }
 """What a test's name begins with → the tests that one worker runs."""
 TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
