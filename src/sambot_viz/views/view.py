@@ -63,6 +63,32 @@ WORLD = Target(vector(0.0, 0.0, 0.0))
 """The fixed frame as its own target."""
 
 
+COMMON_PROPERTIES: tuple[Property, ...] = (
+    FloatProperty(
+        "Near Clip Distance",
+        default=0.01,
+        minimum=0.001,
+        maximum=10000.0,
+        unit="m",
+        help="What is nearer to the camera is not drawn.",
+    ),
+    BoolProperty("Invert Z Axis", default=False, help="Turn the picture upside down."),
+    TfFrameProperty(
+        "Target Frame", default="<Fixed Frame>", help="The frame that the view follows."
+    ),
+    KeptProperty(
+        "Enable Stereo Rendering",
+        note="RViz for ROS 2 writes it, and has no stereo picture",
+    ),
+    KeptProperty(
+        "Field of View",
+        support="none",
+        note="of ROS 1; the angle is 45 degrees, as in RViz for ROS 2",
+    ),
+)
+"""The properties that every view has."""
+
+
 class View:
     """Base of all views.
 
@@ -211,28 +237,3 @@ def to_target(camera: Camera, target: Target) -> Camera:
         turned(camera.look_at - target.position, -target.yaw),
         turned(camera.up, -target.yaw),
     )
-
-
-COMMON_PROPERTIES: tuple[Property, ...] = (
-    FloatProperty(
-        "Near Clip Distance",
-        default=0.01,
-        minimum=0.001,
-        maximum=10000.0,
-        unit="m",
-        help="What is nearer to the camera is not drawn.",
-    ),
-    BoolProperty("Invert Z Axis", default=False, help="Turn the picture upside down."),
-    TfFrameProperty(
-        "Target Frame", default="<Fixed Frame>", help="The frame that the view follows."
-    ),
-    KeptProperty(
-        "Enable Stereo Rendering",
-        note="RViz for ROS 2 writes it, and has no stereo picture",
-    ),
-    KeptProperty(
-        "Field of View",
-        support="none",
-        note="of ROS 1; the angle is 45 degrees, as in RViz for ROS 2",
-    ),
-)
