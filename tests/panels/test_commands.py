@@ -56,6 +56,8 @@ def test_few_commands_are_for_viewers_too() -> None:
     """A new one is here only when others see nothing of what it changes."""
     local = {found.id for found in DECLARED if found.client_local}
     assert local == {
+        # What somebody did as a viewer.
+        *("edit/undo", "edit/redo"),
         *("file/download", "file/page", "file/picture", "frames/show", "joints/copy"),
         *("permalink/copy", "permalink/open"),
         *(

@@ -271,6 +271,64 @@ def test_each_hears_what_the_other_does_about_control(
     assert heard(teacher) == "Ann released control"
 
 
+def test_who_loses_control_hears_who_has_it(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    protocol: Protocol,
+    viz: Visualizer,
+    settle: Callable[..., None],
+) -> None:
+    other = protocol(viz.viser.get_port())
+    for client, name in ((guest, "Ann"), (other, "Ben")):
+        settle(client)
+        client.act("role/request", name)
+        settle(client, teacher)
+        ((number, _),) = teacher.row("people/state")["value"]["requests"]
+        teacher.act("role/give", number)
+    settle(teacher, guest)
+    assert guest.row("notice")["value"]["text"] == "View only: Ben is now in control"
+    guest.act("role/request", "ben")
+    settle(guest)
+    assert "is called 'ben' already" in guest.row("notice")["value"]["text"]
+    teacher.close()
+    other.close()
+    guest.wait_until(lambda: guest.row("people/state")["value"]["clients"] == 1)
+    guest.act("role/request", "Ann")
+    settle(guest)
+    assert "no presenter is here" in guest.row("notice")["value"]["text"]
+
+
+def test_a_viewer_undoes_what_it_did_as_a_viewer_and_nothing_else(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    viz: Visualizer,
+    settle: Callable[..., None],
+    session: Session,
+) -> None:
+    guest.act("role/request", "Ann")
+    settle(guest, teacher)
+    ((number, _),) = teacher.row("people/state")["value"]["requests"]
+    teacher.act("role/give", number)
+    settle(teacher)
+    guest.edit(joint(guest), 1.0)
+    settle(guest)
+    teacher.act("role/take-back")
+    settle(teacher)
+    distance = guest.id_of("views", "Distance")
+    guest.edit(distance, 7.5)
+    settle(guest)
+    before = everything(viz, session)
+    for _ in range(2):
+        guest.act("edit/undo")
+        settle(guest)
+    assert guest.row(distance)["value"] != 7.5
+    assert guest.row("notice")["value"]["text"].startswith(REFUSED)
+    guest.act("edit/redo")
+    settle(guest)
+    assert guest.row(distance)["value"] == 7.5
+    assert everything(viz, session) == before
+
+
 def test_private_sessions_know_nothing_of_people(protocol: Protocol) -> None:
     with Visualizer(port=0, session="private") as viz:
         client = protocol(viz.viser.get_port())

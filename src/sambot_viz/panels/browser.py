@@ -67,7 +67,7 @@ class BrowserPanels:
             self._notices,
             OwnRolePanel(roles, client.client_id, self.say),
             ToolsPanel(client, scene),
-            UndoPanel(client.client_id, history, document, displays),
+            UndoPanel(client.client_id, history, document, displays, roles),
             views,
             SelectionPanel(client, scene, robot, remake),
             ToolPropertiesPanel(client, document),

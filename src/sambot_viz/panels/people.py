@@ -92,7 +92,9 @@ class OwnRolePanel(Panel):
         if person.has_control and not before.has_control:
             self._say("You are in control. Everyone sees what you change", "ok")
         elif before.has_control and not person.has_control:
-            self._say(_RELEASED if acted else _TAKEN_BACK, "ok" if acted else "warn")
+            taken = f"View only: {_list(self._helpers)} now in control"
+            taken = taken if self._helpers else _TAKEN_BACK
+            self._say(_RELEASED if acted else taken, "ok" if acted else "warn")
         elif before.requests and not person.requests and not acted:
             self._say("The presenter declined your request", "warn")
         elif person.presenter and not acted and helpers - self._helpers:
@@ -120,7 +122,9 @@ class OwnRolePanel(Panel):
     def _ask(self, name: str) -> Answer:
         with self._acting():
             self._roles.request(self._id, name)
-        return Answer("Requested control; the presenter sees your request")
+        if any(person.presenter for person in self._roles.people.values()):
+            return Answer("Requested control; the presenter sees your request")
+        return Answer("Requested control; no presenter is here at the moment")
 
     @command("role/release", client_local=True)
     def _hand_back(self) -> None:
@@ -143,6 +147,11 @@ class OwnRolePanel(Panel):
         with self._acting():
             self._roles.take_back(self._id)
         return Answer("Only you are in control")
+
+
+def _list(names: frozenset[str]) -> str:
+    verb = "is" if len(names) == 1 else "are"
+    return f"{', '.join(sorted(names))} {verb}"
 
 
 _RELEASED = "You have released control"

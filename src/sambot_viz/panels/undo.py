@@ -10,6 +10,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.undo import History
 
 
@@ -21,6 +22,7 @@ class UndoPanel(Panel):
         history: keeps them.
         document: has what they touched, or no longer.
         displays: the rows that edits touch.
+        roles: who may undo what everyone sees.
     """
 
     name = "edit"
@@ -31,8 +33,9 @@ class UndoPanel(Panel):
         history: History,
         document: ShownDocument,
         displays: DisplaysPanel,
+        roles: Roles,
     ) -> None:
-        self._history, self._id = history, client_id
+        self._history, self._id, self._roles = history, client_id, roles
         self.remade_by = (history.state(client_id),)
         self._document, self._displays = document, displays
 
@@ -47,13 +50,15 @@ class UndoPanel(Panel):
         state = self._history.state(self._id).value
         return (state.undo if command_id == "edit/undo" else state.redo) is not None
 
-    @command("edit/undo", name="Undo")
+    @command("edit/undo", name="Undo", client_local=True)
     def _undo(self) -> Answer | None:
-        return _said("Undone", self._history.undo(self._id))
+        may_edit = self._roles.may_edit(self._id)
+        return _said("Undone", self._history.undo(self._id, may_edit=may_edit))
 
-    @command("edit/redo", name="Redo")
+    @command("edit/redo", name="Redo", client_local=True)
     def _redo(self) -> Answer | None:
-        return _said("Redone", self._history.redo(self._id))
+        may_edit = self._roles.may_edit(self._id)
+        return _said("Redone", self._history.redo(self._id, may_edit=may_edit))
 
     def _touched(self) -> Json:
         """Return the row that the page goes to, with another number each time."""

@@ -151,7 +151,9 @@ class Window:
         may_edit = self._session.roles.may_edit(client_id)
         try:
             call = validation.accept(item, sent.value, may_edit=may_edit)
-            with self._session.history.acting(client_id, sent.gesture):
+            with self._session.history.acting(
+                client_id, sent.gesture, by_viewer=not may_edit
+            ):
                 answer = call()
             if isinstance(answer, Answer):
                 browser.give(answer)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.rviz.undo_log import Restore, record_changes
+from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.session.signals import Change, Signal
 
 LIMIT = 200
@@ -48,12 +49,14 @@ class _Step:
         merge_keys: of each edit; steps of one gesture with the same keys are one.
         gesture: of which it was a part.
         number: in the set of changes of the document; None for other changes.
+        by_viewer: whether it was made without control, so that no other sees it.
     """
 
     edits: tuple[Edit, ...]
     merge_keys: tuple[object, ...]
     gesture: object
     number: int | None
+    by_viewer: bool
 
     def goes_on(self, last: _Step) -> bool:
         """Whether this is one more movement of the gesture that made another step."""
@@ -68,6 +71,7 @@ class _Action:
 
     client_id: int
     gesture: object
+    by_viewer: bool
     edits: list[Edit] = field(default_factory=list[Edit])
     merge_keys: list[object] = field(default_factory=list[object])
     of_document: bool = False
@@ -112,6 +116,12 @@ def _label(steps: Sequence[_Step]) -> str | None:
     return steps[-1].edits[0].label if steps else None
 
 
+def _check(step: _Step, may_edit: bool) -> None:
+    """Let viewers touch only what they have done as viewers."""
+    if not (may_edit or step.by_viewer):
+        raise UsageError(VIEW_ONLY)
+
+
 class History:
     """The edits of a session, for each of its clients.
 
@@ -136,19 +146,22 @@ class History:
     # Recording
 
     @contextmanager
-    def acting(self, client_id: int | None, gesture: object = None) -> Generator[None]:
+    def acting(
+        self, client_id: int | None, gesture: object = None, *, by_viewer: bool = False
+    ) -> Generator[None]:
         """Record what is changed inside as one edit of a client.
 
         Args:
             client_id: the client; None for a program, whose edits cannot be undone.
             gesture: what all movements of one drag have in common; None for a single
                 action.
+            by_viewer: whether the client has no control.
         """
         with self._change.lock:
             if client_id is None or self._action is not None:
                 yield
                 return
-            action = self._action = _Action(client_id, gesture)
+            action = self._action = _Action(client_id, gesture, by_viewer)
             try:
                 yield
             finally:
@@ -232,7 +245,11 @@ class History:
         history = self._steps_of(action.client_id)
         number = self._next_number() if action.of_document else None
         step = _Step(
-            tuple(action.edits), tuple(action.merge_keys), action.gesture, number
+            tuple(action.edits),
+            tuple(action.merge_keys),
+            action.gesture,
+            number,
+            action.by_viewer,
         )
         last = history.done[-1] if history.done and not history.undone else None
         if last is not None and step.goes_on(last):
@@ -240,7 +257,7 @@ class History:
             self._applied.discard(last.number or 0)
             both = zip(last.edits, step.edits, strict=True)
             edits = tuple(replace(a, redo=b.redo) for a, b in both)
-            step = _Step(edits, step.merge_keys, step.gesture, number)
+            step = replace(step, edits=edits)
         history.undone.clear()
         history.done.append(step)
         if number is not None:
@@ -254,20 +271,25 @@ class History:
 
     # Undoing
 
-    def undo(self, client_id: int) -> str | None:
+    def undo(self, client_id: int, *, may_edit: bool = True) -> str | None:
         """Undo the last edit of a client.
+
+        Args:
+            client_id: the client.
+            may_edit: whether it has control; others undo what they did as viewers.
 
         Returns:
             What was undone; None when there is nothing to undo.
 
         Raises:
-            UsageError: it cannot be undone any more, because of what was done since;
-                it is forgotten.
+            UsageError: it needs control, or cannot be undone any more, because of
+                what was done since; then it is forgotten.
         """
         with self._change.lock:
             history = self._steps_of(client_id)
             if not history.done:
                 return None
+            _check(history.done[-1], may_edit)
             step = history.done.pop()
             edits = step.edits[::-1]
             self._run("undone", history, step, [(e.undo, e.redo) for e in edits])
@@ -277,19 +299,25 @@ class History:
             self._tell_modified()
             return step.edits[0].label
 
-    def redo(self, client_id: int) -> str | None:
+    def redo(self, client_id: int, *, may_edit: bool = True) -> str | None:
         """Do again what a client has undone last.
+
+        Args:
+            client_id: the client.
+            may_edit: as for `undo`.
 
         Returns:
             What was done again; None when there is nothing.
 
         Raises:
-            UsageError: it cannot be done again; it is forgotten.
+            UsageError: it needs control, or cannot be done again; then it is
+                forgotten.
         """
         with self._change.lock:
             history = self._steps_of(client_id)
             if not history.undone:
                 return None
+            _check(history.undone[-1], may_edit)
             step = history.undone.pop()
             actions = [(e.redo, e.undo) for e in step.edits]
             self._run("done again", history, step, actions)

@@ -91,7 +91,7 @@ class Roles:
             name: what the presenter is to read; empty keeps "Guest 3".
 
         Raises:
-            UsageError: the name is too long, or sounds like a presenter's.
+            UsageError: the name is too long, another's, or sounds like a presenter's.
         """
         person = self._people[client_id]
         if len(name) > LONGEST_NAME:
@@ -99,6 +99,9 @@ class Roles:
         name = name.strip()
         if not person.presenter and name.casefold().startswith("presenter"):
             raise UsageError("names that begin with 'Presenter' are the presenter's")
+        others = (p.name for id, p in self._people.items() if id != client_id)
+        if name.casefold() in map(str.casefold, others):
+            raise UsageError(f"someone here is called '{name}' already")
         person.name = name or person.name
         person.requests = not person.has_control
         self.changed.touch()
