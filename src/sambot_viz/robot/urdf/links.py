@@ -48,9 +48,9 @@ class LinkReader:
     def read(self, element: Element, name: str) -> Link:
         """Read the link as ROS would keep it, and report what is wrong in it."""
         inertial, complete = self._inertial(element, name)
-        visuals, complete = self._visuals(element, name, complete)
+        visuals, complete = self._shapes(element, name, "visual", complete)
         current = next((v.material for v in reversed(visuals) if v.material), None)
-        collisions = self._collisions(element, name, complete, current)
+        collisions, _ = self._shapes(element, name, "collision", complete, current)
         return Link(name, tuple(visuals), tuple(collisions), inertial, element.place)
 
     def _inertial(self, link: Element, name: str) -> tuple[Inertial | None, bool]:
@@ -101,38 +101,31 @@ class LinkReader:
             )
         return child
 
-    def _visuals(
-        self, link: Element, name: str, complete: bool
+    def _shapes(
+        self,
+        link: Element,
+        name: str,
+        tag: str,
+        complete: bool,
+        current: Material | None = None,
     ) -> tuple[list[Shape], bool]:
-        visuals: list[Shape] = []
-        current: Material | None = None
-        for element in link.find_all("visual"):
-            loss = self._loss(link, name, element)
-            try:
-                shape = self._shape(element, f"a visual of link {name}", loss)
-                own = self._material(element, name, loss)
-            except Unreadable:
-                complete = False
-                continue
-            current = own or current
-            if complete:
-                visuals.append(dataclasses.replace(shape, material=current))
-        return visuals, complete
+        """Read all visuals or collisions; those after a wrong one are only checked.
 
-    def _collisions(
-        self, link: Element, name: str, complete: bool, material: Material | None
-    ) -> list[Shape]:
-        collisions: list[Shape] = []
-        for element in link.find_all("collision"):
+        Each has the last material before it, or the `current` one.
+        """
+        shapes: list[Shape] = []
+        for element in link.find_all(tag):
             loss = self._loss(link, name, element)
             try:
-                shape = self._shape(element, f"a collision of link {name}", loss)
+                shape = self._shape(element, f"a {tag} of link {name}", loss)
+                if tag == "visual":
+                    current = self._material(element, name, loss) or current
             except Unreadable:
                 complete = False
                 continue
             if complete:
-                collisions.append(dataclasses.replace(shape, material=material))
-        return collisions
+                shapes.append(dataclasses.replace(shape, material=current))
+        return shapes, complete
 
     def _loss(self, link: Element, name: str, element: Element) -> str:
         later = _later_shapes(link, element)
