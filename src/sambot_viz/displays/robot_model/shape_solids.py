@@ -8,10 +8,11 @@ import numpy as np
 import viser
 
 from sambot_viz.displays.scene.nodes import Handle
-from sambot_viz.displays.scene.solids import Rgb, opacity_of, sphere
+from sambot_viz.displays.scene.solids import Rgb, sphere
 from sambot_viz.displays.triangle_display import Triangles
 from sambot_viz.geometry import Matrix, Rgba, Vector3
 from sambot_viz.meshes.cache import Content
+from sambot_viz.meshes.glb import OPAQUE_FROM
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.parts import (
@@ -85,8 +86,13 @@ class ShapePiece:
         if before is None or look.error != before.error:
             self.handle.color = ERROR_WHITE if look.error else self.color
             self.handle.material = UNLIT if look.error else "standard"
-        opacity = None if look.error else opacity_of(look.alpha * self.alpha)
+        opacity = None if look.error else _opacity_of(look.alpha * self.alpha)
         self.handle.opacity = opacity
+
+
+def _opacity_of(alpha: float) -> float | None:
+    """Return an alpha as viser's opacity: None (no blending) from `OPAQUE_FROM` on."""
+    return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
 
 
 def rgb255(rgba: Rgba) -> Rgb:

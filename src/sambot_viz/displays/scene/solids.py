@@ -16,7 +16,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.geometry import Vector3, Wxyz, rotation_from_xyzw, wxyz_from_z
-from sambot_viz.meshes.glb import OPAQUE_FROM, srgb_to_linear
+from sambot_viz.meshes.glb import srgb_to_linear
 from sambot_viz.meshes.primitives import (
     Primitive,
     unit_cone,
@@ -38,11 +38,6 @@ _AXIS_COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 def linear(channel: int) -> float:
     """Return an 8-bit sRGB channel in linear colour space, 0 to 1."""
     return srgb_to_linear(channel / 255)
-
-
-def opacity_of(alpha: float) -> float | None:
-    """Return an alpha as viser's opacity: None (no blending) from `OPAQUE_FROM` on."""
-    return None if alpha >= OPAQUE_FROM else max(0.0, alpha)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
