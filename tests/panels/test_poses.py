@@ -12,7 +12,7 @@ from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import JointError, UsageError
-from sambot_viz.panels.joints.joints import PosesPanel
+from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session

@@ -11,7 +11,8 @@ from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.drive import DrivePanel
 from sambot_viz.panels.files import Files
-from sambot_viz.panels.joints.joints import JointsPanel, PosesPanel
+from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import PeoplePanel
 from sambot_viz.panels.pictures import AskPage

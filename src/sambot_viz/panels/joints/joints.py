@@ -1,4 +1,4 @@
-"""The Joints panel: a slider for every joint that can be set, and named poses."""
+"""The Joints panel: a slider for every joint that can be set."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any
 
 from sambot_viz.errors import UsageError
 from sambot_viz.joints import JointState
-from sambot_viz.joints.presets import Presets
 from sambot_viz.joints.values import (
     as_arguments,
     as_launch_parameters,
@@ -22,7 +21,6 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.robot.parts import Joint
-from sambot_viz.session.limits import MOST_POSES, require_room
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
@@ -31,8 +29,6 @@ from sambot_viz.session.undo import History
 
 FASTEST = 100.0
 """Of a wheel that keeps turning [rad/s]."""
-LONGEST_POSE_NAME = 60
-"""Of a pose [characters]."""
 
 _FORMS: dict[str, tuple[str, Callable[[dict[str, float]], str]]] = {
     "yaml": ("yaml of a sensor_msgs/JointState", as_yaml),
@@ -242,88 +238,6 @@ class JointsPanel(Panel):
         if joints is None or name not in joints.positions:
             raise UsageError(f"there is no joint '{name}' that can be set")
         return joints.positions[name]
-
-
-class PosesPanel(Panel):
-    """The poses that have a name, and the file they are kept in.
-
-    Args:
-        robot: its joints take them.
-        history: records that one is removed.
-        remake: called when the poses have changed.
-    """
-
-    name = "poses"
-
-    def __init__(
-        self,
-        poses: Presets,
-        robot: RobotState,
-        history: History,
-        remake: Callable[[Panel], None],
-    ) -> None:
-        self.remade_by = (robot.changed,)
-        self._poses = poses
-        self._robot = robot
-        self._history = history
-        self._remake = remake
-
-    def data(self) -> Sequence[Data]:
-        """Return the names of the poses, and where they are kept."""
-        if not self.offers("poses/use"):
-            return ()
-        names = list(self._poses.names)
-        return [
-            Data("poses/names", names),
-            Data("poses/place", f"Kept {self._place()}."),
-        ]
-
-    def _place(self) -> str:
-        path = self._poses.path
-        return "in memory only" if path is None else f"in {path.absolute()}"
-
-    def offers(self, command_id: str) -> bool:
-        """Tell whether there are joints to pose."""
-        joints = self._robot.joints
-        return joints is not None and bool(joints.sliders)
-
-    @command("poses/use", TEXT)
-    def _use(self, name: str) -> Answer | None:
-        left_out = self._robot.take_pose(name, self._poses.get(name))
-        if left_out:
-            return Answer(f"Without {', '.join(left_out)}, which cannot be set")
-        return None
-
-    @command("poses/save", TEXT)
-    def _save(self, name: str) -> Answer:
-        name, joints = name.strip(), self._robot.joints
-        if joints is None:
-            raise UsageError("there is no robot to save a pose of")
-        if len(name) > LONGEST_POSE_NAME:
-            raise UsageError(
-                f"a pose's name has at most {LONGEST_POSE_NAME} characters"
-            )
-        poses = self._poses
-        require_room(len({*poses.names, name}), MOST_POSES, "named poses")
-        poses.save(name, joints.positions)
-        self._remake(self)
-        return Answer(f"Saved pose '{name}' {self._place()}")
-
-    @command("poses/remove", TEXT)
-    def _delete(self, name: str) -> Answer:
-        poses = self._poses
-        pose = poses.get(name)
-
-        def change(action: Callable[[], None]) -> None:
-            action()
-            self._remake(self)
-
-        save = partial(change, partial(poses.save, name, pose))
-        remove = partial(change, partial(poses.remove, name))
-        remove()
-        label = f"Remove pose {name}"
-        self._history.record(label, save, remove, of_document=False)
-        return Answer(f"Removed pose '{name}'; Undo brings it back")
 
 
 _NO_ROBOT = "There is no robot yet; Problems says why, if its file has a mistake."

@@ -7,8 +7,7 @@ of the mouse moves the camera. What tools draw is drawn for their own client alo
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import viser
@@ -16,7 +15,7 @@ import viser
 from sambot_viz.displays.picking.pick_geometry import Array, Hit, RayGrid, Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.session.clients.client_view import ClientView
-from sambot_viz.session.clients.pointer_events import click_of, pointed_at, rays_of
+from sambot_viz.session.clients.pointer_events import listen, pointed_at
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
@@ -29,8 +28,6 @@ from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
-
-MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
 
 
 class ClientTools:
@@ -282,26 +279,9 @@ class ClientTools:
             self._listen()
 
     def _listen(self) -> None:
-        """Have viser send what the current tool uses, and nothing else."""
-        scene = self.scene
-        scene.remove_click_callback()  # pyright: ignore[reportUnknownMemberType]
-        scene.remove_rect_select_callback()  # pyright: ignore[reportUnknownMemberType]
-        tool = self.current
-        for modifier in MODIFIERS if tool.rectangles else (None,):
-            if tool.clicks:
-                scene.on_click(modifier=modifier)(self._on_click(tool))
-            if tool.rectangles:
-                scene.on_rect_select(modifier=modifier)(self._on_rectangle(tool))
-
-    def _on_click(self, tool: Tool) -> Callable[[viser.SceneClickEvent], Any]:
-        worker, client_id = self._worker, self._client.client_id
-
-        async def clicked(event: viser.SceneClickEvent) -> None:
-            click = click_of(event)
-            if click is not None:
-                worker.post(partial(self._click, tool, click), client=client_id)
-
-        return clicked
+        """Get what the current tool uses of the mouse, and nothing else."""
+        client, tool = self._client, self.current
+        listen(client, tool, self._worker, self._click, self._rectangle)
 
     def _click(self, tool: Tool, click: Click) -> None:
         def then(hit: Hit) -> None:
@@ -311,19 +291,6 @@ class ClientTools:
                     tool.click(click, hit)
 
         self._follow("click", click, then)
-
-    def _on_rectangle(self, tool: Tool) -> Callable[[viser.SceneRectSelectEvent], Any]:
-        worker, client_id = self._worker, self._client.client_id
-
-        async def drawn(event: viser.SceneRectSelectEvent) -> None:
-            rays = rays_of(event)
-            if rays is not None:
-                worker.post(
-                    partial(self._rectangle, tool, rays, event.modifier),
-                    client=client_id,
-                )
-
-        return drawn
 
     def _rectangle(self, tool: Tool, rays: RayGrid, modifier: str | None) -> None:
         def then(items: set[Selectable]) -> None:

@@ -1,17 +1,62 @@
-"""Clicks and rectangles as browsers report them, as rays of the fixed frame."""
+"""Clicks and rectangles that a tool uses, as rays of the fixed frame."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, Literal, cast
 
 import numpy as np
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Array, RayGrid
+from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.picture import Picture, ScreenPoint
-from sambot_viz.tools.tool import Click
+from sambot_viz.tools.tool import Click, Tool
+
+MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")
+
+
+def listen(
+    client: viser.ClientHandle,
+    tool: Tool,
+    worker: Worker,
+    clicked: Callable[[Tool, Click], None],
+    drawn: Callable[[Tool, RayGrid, str | None], None],
+) -> None:
+    """Have viser send what a tool uses, and nothing else.
+
+    Args:
+        client: who uses the tool.
+        tool: the current one.
+        worker: acts on what is sent.
+        clicked: called with a click.
+        drawn: called with the rays of a rectangle, and a modifier.
+    """
+    scene, client_id = client.scene, client.client_id
+
+    async def on_click(event: viser.SceneClickEvent) -> None:
+        click = click_of(event)
+        if click is not None:
+            worker.post(partial(clicked, tool, click), client=client_id)
+
+    async def on_rectangle(event: viser.SceneRectSelectEvent) -> None:
+        rays = rays_of(event)
+        if rays is not None:
+            worker.post(partial(drawn, tool, rays, event.modifier), client=client_id)
+
+    # viser runs coroutines too, on its loop; its types do not say so.
+    scene.remove_click_callback()  # pyright: ignore[reportUnknownMemberType]
+    scene.remove_rect_select_callback()  # pyright: ignore[reportUnknownMemberType]
+    for modifier in MODIFIERS if tool.rectangles else (None,):
+        if tool.clicks:
+            scene.on_click(modifier=modifier)(cast(Any, on_click))
+        if tool.rectangles:
+            scene.on_rect_select(modifier=modifier)(cast(Any, on_rectangle))
 
 
 def click_of(event: viser.SceneClickEvent) -> Click | None:
-    """A click as a browser reports it; None when they are not a ray."""
+    """Return a click as a browser reports it; None when it is not a ray."""
     origin, direction = _numbers(event.ray_origin), _numbers(event.ray_direction)
     if origin.shape != (3,) or direction.shape != (3,):
         return None
