@@ -80,12 +80,3 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
         elsewhere.user.until(
             lambda: dict(other.joint_positions) == {LEFT: 0.75, RIGHT: 0.0}
         )
-
-
-def test_a_link_that_was_cut_is_refused_in_one_sentence(open_viewer: Open) -> None:
-    with Visualizer(port=0) as viz:
-        viewer = open_viewer(f"{viz.url}/#view=Orbit&view.Distance=3&j.{LEFT}=0.")
-        viewer.expects_errors = True
-        viewer.user.reads("This link is incomplete and was not opened: copy it again")
-        assert viz.joint_positions[LEFT] == 0.0
-        assert viewer.page.evaluate("location.hash") == ""
