@@ -158,7 +158,6 @@ def test_the_config_and_a_picture_are_downloaded_at_once(
     assert load_config(config).displays
     # Lines of a coarse view are wide in a fine picture of it.
     viewer.set_resolution(1.0)
-    viewer.wait_for_frames()
     choose(user, "File", "Save Image")
     user.find("dialog", "Save Image")
     user.type("800")

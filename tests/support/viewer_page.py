@@ -69,8 +69,9 @@ _TWO_FRAMES = """new Promise(done => {
 })"""
 _SET_RESOLUTION = """(() => {
   const { viewport, setDpr } = __viserMutable.scene.__r3f.root.getState();
-  if (viewport.dpr !== WANTED) setDpr(WANTED);
-  return viewport.dpr;
+  const before = viewport.dpr;
+  if (before !== WANTED) setDpr(WANTED);
+  return before;
 })()"""
 _PICTURE = """(() => {
   const shown = __viserMutable.canvas;
@@ -206,8 +207,11 @@ class ViewerPage:
         Returns:
             How many it were before.
         """
-        script = _SET_RESOLUTION.replace("WANTED", str(resolution))
-        return float(cast("float", self.page.evaluate(script)))
+        before = self._change_resolution(resolution)
+        if before != resolution:
+            # The size of letters on the screen follows that of the picture.
+            self.wait_for_frames()
+        return before
 
     def pixels(self) -> Pixels:
         """The 3D view alone, without panels: (height, width, 4), RGBA, 0 to 255.
@@ -217,7 +221,7 @@ class ViewerPage:
         before = self.set_resolution(1.0)
         self.wait_for_frames()
         png = base64.b64decode(str(self.page.evaluate(_PICTURE)))
-        self.set_resolution(before)
+        self._change_resolution(before)
         return _decode(png)
 
     def screenshot(self) -> Pixels:
@@ -267,6 +271,10 @@ class ViewerPage:
         """The addresses asked for that are not on the viewer's own server."""
         own = urlsplit(self.url).netloc
         return [url for url in self.page.requests if urlsplit(url).netloc != own]
+
+    def _change_resolution(self, resolution: float) -> float:
+        script = _SET_RESOLUTION.replace("WANTED", str(resolution))
+        return float(cast("float", self.page.evaluate(script)))
 
     def _pose_script(self, name: str, parent: str) -> str:
         script = _POSE.replace("PARENT", json.dumps(parent))

@@ -38,7 +38,6 @@ def is_near(desk: Desk, name: str, value: float, within: float = 0.01) -> bool:
 def test_task_39_look_exactly_from_above(s: Desk) -> None:
     # The scale of an orthographic view is in pixels of the drawn picture.
     s.viewer.set_resolution(1.0)
-    s.viewer.wait_for_frames()
     views = ("region", "Views")
     s.user.choose(s.user.find("combobox", "Type", views), "TopDownOrtho")
     s.user.row("Views", "Current View", "Scale")
