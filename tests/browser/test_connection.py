@@ -63,6 +63,21 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
         assert dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5}
 
 
+def test_a_page_whose_link_has_changed_says_so(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    with Visualizer(port=0, token="the-first-lesson") as first:
+        port = first.viser.get_port()
+        viewer = open_viewer(first.url)
+        viewer.expects_errors = True
+        viewer.user.row("Joints", LEFT)
+    viewer.user.reads("Connection lost. Trying again…")
+    with Visualizer(port=port, token="the-second-lesson"):
+        viewer.user.reads("Ask for the new one.", 20.0)
+    with Visualizer(port=port, token="the-first-lesson"):
+        viewer.user.reads("The connection is back.", 30.0)
+
+
 CAMERA = "__viserMutable.camera.position.toArray()"
 WITHOUT_FOCUS = """(() => {
   Document.prototype.hasFocus = () => false;

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
+from protocol_client import ProtocolClient
 from user import User
 from viewer_page import ViewerPage
 
@@ -112,3 +113,28 @@ def test_a_private_copy_and_back(
     user.reads("Presenter is in control, 1 viewer")
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     assert viz.joint_positions[LEFT] == 1.0
+
+
+def test_many_requests_leave_the_view_free(
+    viz: Visualizer, teacher: ViewerPage, protocol: Callable[..., ProtocolClient]
+) -> None:
+    user = teacher.user
+    for number in range(12):
+        client = protocol(viz.viser.get_port())
+        client.wait_until(lambda c=client: "role/request" in c.rows)
+        client.act("role/request", f"Pupil {number}")
+    user.reads("11 more request control")
+    covered = teacher.page.evaluate(
+        "[...document.querySelectorAll('.asking .ask')].map(e => e.clientHeight)"
+        ".reduce((a, b) => a + b)"
+    )
+    assert covered < 120
+    people(user, "Give control to Pupil 7")
+    user.reads("You and Pupil 7 are in control")
+    user.keys("Escape")
+    user.click("button", "Not now, these 10")
+    user.until(lambda: "more request" not in user.see().text)
+    user.click("button", "Not now, Pupil 0")
+    user.until(lambda: "requests control" not in user.see().text)
+    people(user, "Take back control")
+    user.keys("Escape")

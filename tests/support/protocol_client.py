@@ -472,11 +472,26 @@ def wait_for_workers(timeout: float = 10.0) -> None:
         for thread in threading.enumerate():
             if isinstance(thread, Worker):
                 done = threading.Event()
-                thread.post_later(delay, partial(thread.post, done.set))
+                thread.post_later(delay, partial(_behind_all, thread, done.set))
                 end = time.monotonic() + patience(timeout)
                 # A worker that is closed meanwhile drops what was posted to it.
                 while not done.wait(0.02) and thread.is_alive():
                     assert time.monotonic() < end, "a session hangs"
+
+
+def _behind_all(worker: Worker, action: Callable[[], None]) -> None:
+    """Run an action when what waits now is done, for whichever client it waits."""
+    with worker._changed:  # pyright: ignore[reportPrivateUsage]
+        clients = {*worker._inbox, None}  # pyright: ignore[reportPrivateUsage]
+        left = set(clients)
+
+        def done(client: int | None) -> None:
+            left.discard(client)
+            if not left:
+                action()
+
+        for client in clients:
+            worker.post(partial(done, client), client=client)
 
 
 class _Fence:

@@ -89,7 +89,7 @@ function Control({ state, me, close }) {
   /** @type {Ref<HTMLInputElement>} */
   const name = useRef(null);
   if (me.presenter) {
-    return html`<${AskList} requests=${state.requests} />
+    return html`<div class="requests"><${AskList} requests=${state.requests} /></div>
       ${
         state.given &&
         html`<button
@@ -128,10 +128,21 @@ function AskList({ requests }) {
   )}`;
 }
 
-/** Over the view of a presenter: the requests for control. */
+/** How many requests are shown over the view, each with its buttons. */
+const OVER_VIEW = 2;
+
+/** Over the view of a presenter: the requests for control, all but the first in one line. */
 export function Asking() {
   const now = usePeople();
   const asks = now?.me.presenter ? now.state.requests : [];
-  return html`<div class="asking" role="status" aria-live="polite"><${AskList} requests=${asks} />
-    </div>`;
+  const many = asks.length > OVER_VIEW,
+    rest = many ? asks.slice(1) : [];
+  const decline = () => rest.forEach(([id]) => act("role/decline", [id]));
+  return html`<div class="asking" role="status" aria-live="polite">
+    <${AskList} requests=${many ? asks.slice(0, 1) : asks} />
+    ${
+      many &&
+      html`<p class="ask">${`${rest.length} more request control; all are in the list below.`}
+      <button onClick=${decline} aria-label=${`Not now, these ${rest.length}`}>Not now</button></p>`
+    }</div>`;
 }

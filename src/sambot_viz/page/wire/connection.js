@@ -43,8 +43,9 @@ const KEPT = "sambot-viz-again";
 /** How long the page says that the connection is back [ms]. */
 const BACK = 8000;
 
-/** What is said over the view: that the connection is lost, or what came back.
- * @type {Cell<"lost" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
+/** What is said over the view: that the connection is lost, that the server does not let this
+ * page in any more, or what came back.
+ * @type {Cell<"lost" | "refused" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
 const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
@@ -62,7 +63,7 @@ export function followConnection() {
     before = remember();
     goOffline();
     said.set("lost");
-    startAgainWhenStuck(
+    watchServer(
       () => lost,
       () => {
         stuck = true;
@@ -154,16 +155,18 @@ function keep(kept) {
   }
 }
 
-/** @param {() => boolean} lost @param {() => void} startAgain loads the page again */
-function startAgainWhenStuck(lost, startAgain) {
+/** Look whether the server answers, and whether it still knows the token of this page.
+ * @param {() => boolean} lost @param {() => void} startAgain loads the page again */
+function watchServer(lost, startAgain) {
   let answered = 0;
   const look = setInterval(async () => {
     if (!lost()) return clearInterval(look);
-    const there = await fetch("./", { cache: "no-cache" }).then(
-      (answer) => answer.ok,
-      () => false,
+    const status = await fetch("./", { cache: "no-cache" }).then(
+      (answer) => answer.status,
+      () => 0,
     );
-    if (!there) answered = 0;
+    if (lost()) said.set(status === 401 ? "refused" : "lost");
+    if (status !== 200) answered = 0;
     else if (!answered) answered = Date.now();
     else if (lost() && Date.now() - answered > STUCK) startAgain();
   }, STUCK / 3);
@@ -202,11 +205,15 @@ function openAgain(before) {
 export function Connection() {
   const now = said.use();
   return html`<div class="connection" role="status" aria-live="assertive">
-    ${now === "lost" ? html`<${Lost} />` : now && html`<${Back} ...${now} />`}</div>`;
+    ${typeof now === "string" ? html`<${Lost} refused=${now === "refused"} />` : now && html`<${Back} ...${now} />`}</div>`;
 }
 
-function Lost() {
+/** @param {{refused: boolean}} props */
+function Lost({ refused }) {
   useRow(WAITING);
+  if (refused)
+    return html`<p class="l-error">The program was started again with another link.
+      Ask for the new one.</p>`;
   const count = heldBack().length;
   const waits =
     count > 1
