@@ -220,6 +220,9 @@ class ViewerPage:
         """
         before = self.set_resolution(1.0)
         self.wait_for_frames()
+        # A view that changes its size meanwhile is coarse again.
+        while self.set_resolution(1.0) != 1.0:
+            self.wait_for_frames()
         png = base64.b64decode(str(self.page.evaluate(_PICTURE)))
         self._change_resolution(before)
         return _decode(png)
