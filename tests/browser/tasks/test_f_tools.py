@@ -136,6 +136,12 @@ def test_task_50_letters_of_tool_keys_in_text_fields(t: Desk) -> None:
         user.type(letters)
         user.until(lambda f=field: f().value == letters)
         user.keys("Escape")
+    # One click on a number selects its row: what is typed then replaces the number.
+    pitch = ("Views", "Current View", "Pitch")
+    user.click_on(user.row(*pitch).one("textbox"))
+    user.type(letters)
+    user.until(lambda: user.row(*pitch).one("textbox").value == letters)
+    user.keys("Escape")
     user.click_on(user.row("Displays", "Grid").all("gridcell")[0])
     user.keys("F2")
     user.type(letters)

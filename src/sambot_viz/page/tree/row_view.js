@@ -31,8 +31,9 @@ export function edits(row, key) {
   if (row.fixed || row.off) return false;
   if (key === "Delete" || key === "Backspace") return NUMBERS.has(row.kind) || TEXTS.has(row.kind);
   if (key.length !== 1) return false;
-  if (NUMBERS.has(row.kind)) return /[\d.,+\-(]/.test(key);
-  return key !== " " && (TEXTS.has(row.kind) || Boolean(row.kind === "enum" && row.editable));
+  // A number may begin with a letter, as in "pi/2": a key of a tool would not be meant.
+  const typed = NUMBERS.has(row.kind) || TEXTS.has(row.kind);
+  return key !== " " && (typed || Boolean(row.kind === "enum" && row.editable));
 }
 
 /**
