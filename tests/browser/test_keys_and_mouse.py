@@ -97,6 +97,31 @@ def test_a_click_into_the_view_takes_the_keys_from_a_field(
     pressed(user, "Measure")
 
 
+def test_digits_drive_only_where_the_hand_is_in_the_drive_panel(
+    user: User, viewer: ViewerPage, desk: Desk
+) -> None:
+    drive = desk.session.drive
+    viewer.page.mouse.click(*middle(viewer))
+    user.keys("8", "4")
+    user.click("button", "Center")
+    user.keys("8")
+    user.tab("Drive")
+    viewer.page.mouse.click(*middle(viewer))
+    user.keys("8")
+    user.click("tab", "Drive")
+    user.keys("4")
+    user.until(lambda: (drive.v, drive.w) == (0.0, 0.25))
+    left, top, width, _ = user.box(user.find("group", "Drive"))
+    viewer.page.mouse.click(left + width - 3, top + 3)
+    user.keys("8")
+    user.until(lambda: (drive.v, drive.w) == (0.1, 0.25))
+    viewer.page.mouse.click(*middle(viewer))
+    user.keys("5")
+    user.until(lambda: not drive.moving)
+    user.click("button", "Reset", ("group", "Drive"))
+    user.until(lambda: desk.fixed_frame == "base_link")
+
+
 def test_h_and_a_button_hide_the_panels_and_a_button_brings_them_back(
     user: User, viewer: ViewerPage
 ) -> None:

@@ -35,10 +35,18 @@ test("f, z, r, h and Esc act on the view and the window", () => {
   assert.equal(press("h"), "hide");
 });
 
-test("the digits of a number pad drive the robot", () => {
-  assert.deepEqual(press("8"), { act: "drive/press", with: ["8"] });
+test("the digits of a number pad drive the robot, in the Drive panel only", () => {
+  const pad = (key) => meaning({ key }, TOOLS, undefined, true);
+  for (const key of "2468") {
+    assert.deepEqual(pad(key), { act: "drive/press", with: [key] });
+    assert.equal(press(key), undefined, key);
+  }
+  assert.equal(pad("7"), undefined);
+  assert.equal(pad("F8"), undefined);
+});
+
+test("5 stops the robot from anywhere", () => {
   assert.deepEqual(press("5"), { act: "drive/press", with: ["5"] });
-  assert.equal(press("7"), undefined);
   assert.equal(press("F5"), undefined);
 });
 

@@ -19,6 +19,7 @@ from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.robot.drive import Drive
+from sambot_viz.views.camera import vector
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 IN_ODOM = Answer("The fixed frame is odom now, to show the motion; Undo puts it back")
@@ -134,11 +135,53 @@ def test_driving_fixes_a_frame_that_the_robot_moves_in(
     with session.history.acting(client.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) == IN_ODOM
     assert session.scene.context.fixed_frame == "odom"
-    assert client.view.values["Distance"] > 2
+    assert client.view.values["Distance"] == 2
     with session.history.acting(client.client_id):
         assert send(panel, "drive/hold", [0.5, 0]) is None
     session.history.undo(client.client_id)
     assert session.scene.context.fixed_frame == "base_link"
+
+
+def test_starting_to_drive_keeps_the_camera_and_reset_brings_it_back(
+    panel: DrivePanel, session: Session, client: Client
+) -> None:
+    client.view.set("Distance", 1.0)
+    before = dict(client.view.values)
+    with session.history.acting(client.client_id):
+        edit(panel, "drive/linear", 1.0)
+        assert dict(client.view.values) == before
+        for _ in range(20):
+            session.motion.advance(0.2)
+            session.follow_view.follow(vector(session.drive.pose.x, 0.0, 0.1))
+        assert session.drive.pose.x == pytest.approx(4)
+        assert client.view.camera.look_at[0] > 2
+        assert client.view.values["Distance"] == pytest.approx(1.0)
+        edit(panel, "drive/reset", None)
+    assert session.scene.context.fixed_frame == "base_link"
+    assert client.view.camera.look_at == pytest.approx((0, 0, 0), abs=1e-6)
+    assert client.view.values["Distance"] == pytest.approx(1.0)
+
+
+def test_a_robot_that_drove_before_is_where_it_was_in_the_picture(
+    panel: DrivePanel, session: Session, client: Client
+) -> None:
+    with session.history.acting(client.client_id):
+        edit(panel, "drive/linear", 1.0)
+        session.motion.advance(2.0)
+        edit(panel, "drive/stop", None)
+        session.document.set_option("Fixed Frame", "base_link")
+        edit(panel, "drive/linear", 1.0)
+    assert client.view.camera.look_at[0] == pytest.approx(2.0)
+
+
+def test_reset_leaves_a_fixed_frame_that_was_chosen_alone(
+    panel: DrivePanel, session: Session, client: Client
+) -> None:
+    with session.history.acting(client.client_id):
+        edit(panel, "drive/linear", 1.0)
+        session.document.set_option("Fixed Frame", "drivewhl_l_link")
+        edit(panel, "drive/reset", None)
+        assert session.scene.context.fixed_frame == "drivewhl_l_link"
 
 
 def test_a_fixed_frame_in_the_world_stays(panel: DrivePanel, session: Session) -> None:

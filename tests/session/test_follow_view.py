@@ -80,24 +80,24 @@ def test_the_cameras_of_others_stay(
     seen: FollowView, driver: Client, join: Callable[[], Client]
 ) -> None:
     other = join()
-    seen.make_room()
     seen.follow(START)
     seen.follow(AWAY)
     assert looks_at(other) == (0, 0)
     assert other.view.values["Distance"] == 2.0
 
 
-def test_there_is_room_to_drive_in_the_picture_at_the_start(
+def test_the_view_goes_back_by_the_way_that_it_was_panned(
     seen: FollowView, driver: Client
 ) -> None:
-    seen.make_room()
-    distance = driver.view.values["Distance"]
-    assert distance > 3
-    seen.make_room()
-    assert driver.view.values["Distance"] == distance
-    driver.view.set("Distance", 10.0)
-    seen.make_room()
-    assert driver.view.values["Distance"] == 10
+    seen.follow(START)
+    seen.follow(AWAY)
+    driver.view.pan(vector(-1, 0, 0))
+    seen.follow(vector(9, 2, 0.1))
+    assert looks_at(driver) == (9, 2)
+    seen.put_back()
+    assert looks_at(driver) == (-1, 0)
+    seen.follow(AWAY)
+    assert looks_at(driver) == (-1, 0)
 
 
 def test_a_program_that_drives_moves_no_camera(
@@ -105,7 +105,6 @@ def test_a_program_that_drives_moves_no_camera(
 ) -> None:
     seen = session.follow_view
     seen.begin()
-    seen.make_room()
     seen.follow(START)
     seen.follow(AWAY)
     seen.follow(None)

@@ -34,7 +34,7 @@ class DrivePanel(Panel):
     """Drives a robot with two wheels; without them the panel is empty.
 
     Args:
-        follow_view: shows the motion when it starts.
+        follow_view: shows the motion, and puts the view back at Reset.
     """
 
     name = "drive"
@@ -146,6 +146,7 @@ class DrivePanel(Panel):
     @command("drive/reset")
     def _reset(self) -> None:
         self._drive.reset()
+        self._follow_view.put_back()
 
     def _go(self, v: float, w: float, **how_long: float) -> Answer | None:
         """Drive; from rest, see to it that the motion can be seen."""

@@ -114,7 +114,7 @@ class Session:
             document, scene, robot, picker, history, self.roles, change, worker
         )
         self.follow_view = FollowView(
-            self.drive, document, scene, picker, self.clients, history, worker
+            self.drive, document, scene, self.clients, history, worker
         )
 
         self._open = threading.Semaphore()

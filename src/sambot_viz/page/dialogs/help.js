@@ -19,7 +19,8 @@ const KEYS = [
       ["R", "reload meshes and redraw"],
       ["H", "hide or show all panels"],
       ["Esc", "back to the first tool"],
-      ["8 2 4 6, 5", "drive, stop"],
+      ["8 2 4 6 in Drive", "drive"],
+      ["5", "stop driving"],
     ],
   ],
   [

@@ -59,14 +59,15 @@ export function DrivePanel() {
     there.set(true);
     return () => there.set(false);
   }, []);
-  return html`<div class="drive">
+  // A click beside its buttons gives it the keys too.
+  return html`<div class="drive" tabindex="-1">
     <div class="pad" role="group" aria-label="Drive">
       ${Object.keys(WAYS).map((name) => html`<${HoldButton} key=${name} name=${name} />`)}
       <${Stop} />
       <button class="home needs-control"
-        title="Move the robot back to the start, and reset its wheels and path"
+        title="Move the robot back to the start, and reset wheels, path, fixed frame and view"
           onClick=${() => act("drive/reset")}>Reset</button>
-      <p class="keys">Hold a button, or press 8 2 4 6; 5 stops</p>
+      <p class="keys">Hold a button, or press 8 2 4 6 in this panel; 5 stops</p>
     </div>
     <${Tree} panel="drive" label="Drive" split=${false} />
   </div>`;

@@ -38,9 +38,10 @@ function letter({ key, code = "" }) {
  * @param {Key} event
  * @param {{name: string, key: string}[]} tools
  * @param {[number | null, number | null]} mouse where it is in the view, for Focus
+ * @param {boolean} drives whether the hand is in the Drive panel
  * @returns {Meaning | undefined}
  */
-export function meaning(event, tools, mouse = [null, null]) {
+export function meaning(event, tools, mouse = [null, null], drives = false) {
   const key = letter(event);
   if (event.altKey) return undefined;
   if (event.ctrlKey || event.metaKey) {
@@ -55,10 +56,14 @@ export function meaning(event, tools, mouse = [null, null]) {
   if (key === "f") return { act: "tools/focus", with: mouse };
   if (key === "z") return { act: "tools/zero" };
   if (key === "r") return { act: "tools/reset" };
-  // A number pad drives the robot: 8 and 2 forwards and back, 4 and 6 turn, 5 stops.
-  if ("24568".includes(key)) return { act: "drive/press", with: [key] };
+  // A number pad drives the robot: 8 and 2 forwards and back, 4 and 6 turn, 5 stops. A digit
+  // that was meant for a field must not: only stopping is always safe.
+  if (key === "5" || (drives && "2468".includes(key))) return { act: "drive/press", with: [key] };
   return key === "h" ? "hide" : undefined;
 }
+
+/** Where digits drive the robot. */
+const DRIVE = ".drive, [data-tab=drive]";
 
 /** What keeps the keys of the window for itself. */
 const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
@@ -71,7 +76,8 @@ const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
 export function listenToKeys({ tools, mouse, act, hide, cancelPress }) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
-    const does = meaning(event, tools(), mouse());
+    const drives = event.target instanceof Element && Boolean(event.target.closest(DRIVE));
+    const does = meaning(event, tools(), mouse(), drives);
     if (!does) return;
     if (event.key === "Escape") cancelPress();
     if (does === "hide") hide();

@@ -2,40 +2,34 @@
 
 from __future__ import annotations
 
-from itertools import product
-
-import numpy as np
-
+from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.drive import ODOM, Drive
-from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Listening
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Vector, vector
 
-ROOM = 0.9
-"""So much of the floor round the robot is in the picture when it starts [m]."""
 PERIOD = 0.2
 """The robot is looked after at most this often [s]."""
 MIDDLE = 0.8
 """A robot that leaves this part of the picture is brought back to its middle."""
+_NOWHERE = vector(0.0, 0.0, 0.0)
 
 
 class FollowView:
     """Follows the robot with the view of the client that drives.
 
     The camera stays where its user has put it, and moves only when the robot drives out
-    of the picture.
+    of the picture; it never goes nearer or farther.
 
     Args:
         drive: the robot that is driven.
         document: has the fixed frame.
         scene: where the robot is.
-        picker: finds how large it is.
         clients: one of them drives.
         history: knows who acts.
         worker: looks after the robot.
@@ -46,7 +40,6 @@ class FollowView:
         drive: Drive,
         document: ShownDocument,
         scene: Scene,
-        picker: Picker,
         clients: Clients,
         history: History,
         worker: Worker,
@@ -54,11 +47,12 @@ class FollowView:
         self._drive = drive
         self._document = document
         self._context = scene.context
-        self._picker = picker
         self._clients = clients
         self._history = history
         self._driver: int | None = None
         self._before: Vector | None = None
+        self._panned = _NOWHERE
+        self._fixed_before: tuple[RvizConfig, str] | None = None
         self._looking = Throttle(worker, PERIOD, self._look_after)
         self._lock = worker.lock
         self._frames = scene.frames
@@ -89,26 +83,38 @@ class FollowView:
             fixed = self._context.fixed_frame
             if fixed not in self._context.tree.frames or not self._drive.carries(fixed):
                 return False
+            before = self._aside()
             self._document.set_option("Fixed Frame", ODOM)
-            self.make_room()
+            self._fixed_before = (self._document.config, fixed)
+            after = self._aside()
+            if before is not None and after is not None:
+                # A robot that drove before is elsewhere in odom.
+                self._pan(after - before)
+            self._before = self._place()
             return True
 
     def begin(self) -> None:
         """Follow the robot with the view of the client that acts now."""
+        if self._driver != self._history.actor:
+            self._panned = _NOWHERE
         self._driver = self._history.actor
         self._before = self._place()
         self._driving.to(self._drive.pose_changed, self._frames)
 
-    def make_room(self) -> None:
-        """Show the floor round the robot, as RViz's user would do by the wheel."""
-        client, box = self._client, self._picker.robot_box()
-        if client is None or box is None:
-            return
-        aside = vector(ROOM, ROOM, 0.0)
-        low, high = box[0] - aside, box[1] + aside
-        corners = (np.where(upper, high, low) for upper in product((0, 1), repeat=3))
-        if not all(_shows(client, corner) for corner in corners):
-            client.view.fit((low, high))
+    def put_back(self) -> None:
+        """Undo what driving has changed: the fixed frame, and the way of the camera.
+
+        The fixed frame goes back by an edit that can be undone.
+        """
+        with self._lock:
+            self._driving.to()
+            self._pan(-self._panned)
+            self._driver, self._panned = None, _NOWHERE
+            before, self._fixed_before = self._fixed_before, None
+            if before is not None and self._context.fixed_frame == ODOM:
+                config, fixed = before
+                if config is self._document.config:
+                    self._document.set_option("Fixed Frame", fixed)
 
     def follow(self, place: Vector | None) -> None:
         """Bring the robot back when it leaves the picture by its own motion.
@@ -121,8 +127,21 @@ class FollowView:
         if client is None or before is None or place is None:
             return
         if _shows(client, before, MIDDLE) and not _shows(client, place, MIDDLE):
-            away = place - client.view.camera.look_at
-            client.view.pan(vector(away[0], away[1], 0.0))
+            self._pan(place - client.view.camera.look_at)
+
+    def _pan(self, away: Vector) -> None:
+        """Move the camera of the client that drives along the floor [m]."""
+        client, level = self._client, vector(away[0], away[1], 0.0)
+        if client is not None and level.any():
+            client.view.pan(level)
+            self._panned = self._panned + level
+
+    def _aside(self) -> Vector | None:
+        """Return where the root link is, from what the driver's camera looks at [m]."""
+        place, client = self._place(), self._client
+        if place is None or client is None:
+            return None
+        return place - client.view.camera.look_at
 
     def _look_after(self) -> None:
         with self._lock:
