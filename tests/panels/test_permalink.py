@@ -173,6 +173,14 @@ def test_a_link_that_was_cut_changes_nothing(
     assert state(links) == before
 
 
+def test_a_link_without_a_view_leaves_the_view(links: Links) -> None:
+    links.client.view.set("Distance", 2.5)
+    before = state(links)
+    assert links.open([[f"j.{LEFT}", "0.5"], *END]) == "Opened the link"
+    joints = {**before["joints"], LEFT: 0.5}
+    assert state(links) == {**before, "joints": joints}
+
+
 def test_values_that_cannot_be_are_named_and_the_rest_is_shown(links: Links) -> None:
     said = links.open(
         [

@@ -6,10 +6,13 @@ import { act, rows } from "./channel.js";
 import { copy } from "../window/clipboard.js";
 import { hasJoints } from "./reconnect.js";
 
-/** What the part after the "#" of a link begins with. */
-const BEGIN = "view=";
+/** What is in the part after the "#" of a link, which a hand may have written. */
+const PART = /[#&](view|robot|fixed|select|v|(view|j|show)\.[^=&]*)=/;
 /** A robot that is not there after this time [ms] is not waited for. */
 const PATIENCE = 15_000;
+
+/** Whether the end of an address is for this program. @param {string} hash */
+export const isPermalink = (hash) => PART.test(hash);
 
 /** What a permalink says, from the address. @param {string} hash @returns {[string[], string[]]} */
 export function partsOf(hash) {
@@ -49,7 +52,7 @@ export function followPermalinks() {
   const take = () => {
     const hash = window.sambotPermalink || location.hash;
     window.sambotPermalink = undefined;
-    if (!hash.startsWith(`#${BEGIN}`)) return;
+    if (!isPermalink(hash)) return;
     waiting = hash;
     // A page that is loaded again shows what is there then.
     if (location.hash) history.replaceState(null, "", location.pathname + location.search);

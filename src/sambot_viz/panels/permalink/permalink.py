@@ -148,6 +148,9 @@ class PermalinkPanel(Panel):
             self._document.set_option("Fixed Frame", frame)
 
     def _look(self, link: PermalinkParts) -> None:
+        if not link.kind and not link.view:
+            # Who has written it by hand wants the view as it is.
+            return
         kinds = {kind.rpartition("/")[2]: kind for kind in VIEWS}
         if link.kind not in kinds:
             link.missing["view"] += [link.kind]
