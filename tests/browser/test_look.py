@@ -7,9 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from recorded_page import open_page
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled, load_config
+from sambot_viz.export.chromium import Chromium
 
 pytestmark = pytest.mark.browser
 
@@ -65,3 +67,38 @@ def test_the_script_names_nothing_of_any_model_and_fetches_nothing(
     script = (repository / "src/sambot_viz/page/view/rviz_look.js").read_text("utf-8")
     for forbidden in ("http", "fetch(", "XMLHttpRequest", "import(", "eval("):
         assert forbidden not in script
+
+
+_WIDTH = "__viserMutable.canvas.width"
+_LOWER = """(() => {
+  const { setDpr } = __viserMutable.scene.__r3f.root.getState();
+  setDpr(0.75);
+  __viserMutable.requestRender();
+})()"""
+_MOVE = """new Promise(done => {
+  const timer = setInterval(() => __viserMutable.requestRender(), 20);
+  setTimeout(() => { clearInterval(timer); done(__viserMutable.canvas.width); }, 900);
+})"""
+
+
+def test_the_picture_is_sharp_at_rest_and_motions_have_visers_choice(
+    viz: Visualizer, chromium: Chromium
+) -> None:
+    page = open_page(chromium, 800, 600)
+    try:
+        page.goto(viz.url)
+        page.wait_for("__viserMutable.scene && window.sambotVizLook?.labels === 5", 30)
+        full = page.evaluate("__viserMutable.canvas.clientWidth")
+        page.evaluate(_LOWER)
+        page.wait_for(f"Math.abs({_WIDTH} - 0.75 * {full}) < 2")
+        page.wait_for(f"{_WIDTH} === {full}")
+        page.evaluate("new Promise(done => setTimeout(done, 500))")
+        assert page.evaluate(_MOVE) == pytest.approx(0.75 * full, abs=2)
+        page.wait_for(f"{_WIDTH} === {full}")
+        # From then on only viser's own picture a second is drawn.
+        page.evaluate("new Promise(done => setTimeout(done, 700))")
+        drawn = page.evaluate("sambotVizLook.frames")
+        page.evaluate("new Promise(done => setTimeout(done, 1500))")
+        assert page.evaluate("sambotVizLook.frames") - drawn <= 2
+    finally:
+        page.close()

@@ -13,6 +13,8 @@
  * transform).
  */
 
+import { keepSharp } from "./sharp.js";
+
 const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0, backgrounds: 0 };
 window.sambotVizLook = look;
 
@@ -166,6 +168,7 @@ let hooked = null;
 const hook = () => {
   const mutable = window.__viserMutable;
   const scene = mutable && mutable.scene;
+  keepSharp(mutable);
   if (!scene || scene === hooked) return;
   hooked = scene;
   scene.onBeforeRender = (
