@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from protocol_client import ProtocolClient, wait_for_workers
 
-from sambot_viz import Visualizer, load_robot
+from sambot_viz import Problem, Visualizer, checks, load_robot
 from sambot_viz.session import Session
 
 MODEL = """\
@@ -119,3 +120,32 @@ def test_a_mesh_in_millimetres_is_reported_when_the_picture_has_read_it(
         assert session_of(viz).scene.context.assets.wait(20)
         wait_for_workers()
         assert codes(viz) == ["mesh-size"]
+
+
+def test_what_was_checked_late_does_not_replace_what_is_newer(
+    model: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, newer = threading.Event(), threading.Event()
+    old, new = (Problem("warning", code, code) for code in ("old", "new"))
+
+    def check_robot(*_: object, **__: object) -> list[Problem]:
+        if begun.is_set():
+            return [new]
+        begun.set()
+        assert newer.wait(10)
+        return [old]
+
+    with Visualizer(model, port=0) as viz:
+        wait_for_workers()
+        session = session_of(viz)
+        monkeypatch.setattr(checks, "check_robot", check_robot)
+        session.show_robot(load_robot(model))
+        thread = threading.Thread(target=session.checks.run)
+        thread.start()
+        assert begun.wait(10)
+        # A mesh has been read meanwhile.
+        session.scene.context.assets.read_count += 1
+        session.checks.run()
+        newer.set()
+        thread.join(10)
+        assert codes(viz) == ["new"]

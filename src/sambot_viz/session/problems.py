@@ -187,16 +187,23 @@ class Checks:
             robot, joints = self._robot.model, self._robot.joints
             if robot is None or joints is None:
                 return
-            before, self._checked = self._checked, self._state()
+            before, state = self._checked, self._state()
+            self._checked = state
             of_joints, of_config = joints.problems, self._of_config(robot)
-        if before != self._checked:
+        of_robot: tuple[Problem, ...] | None = None
+        if before != state:
             # The import is late so that the first page does not wait for the rules.
             from sambot_viz.checks import check_robot
 
-            self._of_robot = tuple(check_robot(robot, mesh=self._mesh))
-        found = (*self._of_robot, *of_joints, *of_config)
+            of_robot = tuple(check_robot(robot, mesh=self._mesh))
         with self._change.lock:
-            if self._robot.model is robot and self._problems.of_model != found:
+            if self._checked != state:
+                # Meanwhile another thread has begun to check what is newer.
+                return
+            if of_robot is not None:
+                self._of_robot = of_robot
+            found = (*self._of_robot, *of_joints, *of_config)
+            if self._problems.of_model != found:
                 self._problems.set_model(found)
 
     def _mesh(self, path: Path) -> Mesh | None:

@@ -55,6 +55,7 @@ class _Scene:
         self.source = source
         self.unit = _unit(document, source)
         self._geometries: dict[int, Geometry] = {}
+        self._locals: dict[int, Matrix] = {}
 
     def pieces(self) -> Iterator[Submesh]:
         """Yield what the scene shows."""
@@ -92,7 +93,10 @@ class _Scene:
             return
         # A node has a few transforms, and may be named again and again.
         self.source.budget.spend_nodes(1 + len(node) // FEW_CHILDREN)
-        T_root_node = T @ _local_transform(node)
+        local = self._locals.get(id(node))
+        if local is None:
+            local = self._locals[id(node)] = _local_transform(node)
+        T_root_node = T @ local
         for child in node:
             if child.tag == "node":
                 yield from self._node(child, T_root_node, depth + 1)
