@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 from pathlib import Path
+from typing import Any
 
 import pytest
 from command_line_page import PAGE, page, parser_of
@@ -15,7 +16,7 @@ from sambot_viz.options import Options
 from sambot_viz.visualizer import Visualizer
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ("README.md", "docs/guide.md")
+PAGES = ("README.md", "docs/guide.md", "docs/python.md")
 
 
 def written_commands() -> list[str]:
@@ -48,6 +49,23 @@ def test_every_option_is_documented_for_python_users() -> None:
     for option in declared(Options):
         assert f"    {option.name}: " in doc
         assert flag_of(option).help
+
+
+def test_the_examples_for_python_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = (ROOT / "docs" / "python.md").read_text("utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert len(blocks) >= 5
+    (tmp_path / "assets").symlink_to(ROOT / "assets")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    try:
+        exec(compile("\n".join(blocks), "docs/python.md", "exec"), names)
+    finally:
+        if "viz" in names:
+            names["viz"].stop()
+    assert (tmp_path / "robot.html").stat().st_size > 100_000
 
 
 def test_links_of_the_documents_lead_to_files() -> None:

@@ -126,6 +126,16 @@ def test_a_yourdfpy_model_is_shown_like_the_robot_it_came_from(
         }
 
 
+def test_a_configuration_of_yourdfpy_is_the_start_pose(sam_bot: Robot) -> None:
+    model = sam_bot.to_yourdfpy()
+    model.update_cfg({"drivewhl_l_joint": 0.5, "drivewhl_r_joint": 0.25})
+    with Visualizer(model, port=0, joint_positions={"drivewhl_r_joint": 1.0}) as viz:
+        assert dict(viz.joint_positions) == {
+            "drivewhl_l_joint": 0.5,
+            "drivewhl_r_joint": 1.0,
+        }
+
+
 def test_an_object_that_is_not_a_model_is_refused_with_what_can_be_given() -> None:
     wrong: Any = 5
     with pytest.raises(UsageError) as refused:

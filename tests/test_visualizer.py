@@ -7,6 +7,7 @@ import socket
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,8 +15,10 @@ from protocol_client import ProtocolClient, Received
 
 from sambot_viz import (
     JointError,
+    Robot,
     RobotError,
     ServerError,
+    Transform,
     UsageError,
     Visualizer,
     load_robot,
@@ -300,3 +303,50 @@ def test_private_sessions_have_a_robot_each(protocol: Connect) -> None:
         first.settle(viz.viser)
         second.settle(viz.viser)
         assert second.since(mark) == []
+
+
+def test_a_vector_moves_all_joints_in_the_order_of_the_robot(
+    viz: Visualizer, sam_bot: Robot
+) -> None:
+    assert sam_bot.joint_names == (LEFT, RIGHT)
+    for vector in ([0.1, 0.2], (0.1, 0.2), np.array([0.1, 0.2])):
+        viz.set_joint_positions({LEFT: 0.0, RIGHT: 0.0})
+        viz.set_joint_positions(vector)
+        assert list(viz.joint_positions.values()) == [0.1, 0.2]
+        T = sam_bot.forward_kinematics(vector)
+        named = sam_bot.forward_kinematics({LEFT: 0.1, RIGHT: 0.2})
+        assert all(np.array_equal(T[link], named[link]) for link in T)
+    viz.set_joint_positions({LEFT: np.array(0.3), RIGHT: np.float32(0.5)})
+    assert list(viz.joint_positions.values()) == [0.3, 0.5]
+    for wrong in ([0.1], [0.1, 0.2, 0.3], np.zeros((2, 1)), 0.1):
+        with pytest.raises(JointError, match="needs 2 numbers, in the order"):
+            viz.set_joint_positions(wrong)  # type: ignore[arg-type]
+    with pytest.raises(JointError, match="not a finite number"):
+        viz.set_joint_positions([0.1, math.nan])
+
+
+def test_a_frame_is_hung_by_whatever_describes_its_pose(viz: Visualizer) -> None:
+    quarter = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+    wanted = Transform.from_xyz_rpy((1.0, 2.0, 3.0), (0.0, 0.0, math.pi / 2))
+    viz.set_static_transform("base_link", "a", (1, 2, 3), rpy=(0, 0, math.pi / 2))
+    viz.set_static_transform("base_link", "b", np.array([1, 2, 3]), quarter)
+    viz.set_static_transform("base_link", "c", wanted)
+    viz.set_static_transform("base_link", "d", wanted.matrix)
+    viz.set_static_transform("base_link", "e", wanted.matrix.tolist())
+    viz.set_static_transform("base_link", "f", viz.frames.lookup("base_link", "a"))
+    for child in "abcdef":
+        found = viz.frames.lookup("base_link", child).matrix
+        assert found == pytest.approx(wanted.matrix, abs=1e-12)
+    wrong: list[Any] = [np.eye(3), np.ones((4, 4)), "base", [1, 2], [[1], [2, 3]]]
+    for pose in wrong:
+        with pytest.raises(FrameError):
+            viz.set_static_transform("base_link", "g", pose)
+    with pytest.raises(FrameError, match="has its rotation already"):
+        viz.set_static_transform("base_link", "g", np.eye(4), (0, 0, 1))
+    assert "g" not in viz.frames.frames
+
+
+def test_an_option_that_does_not_exist_is_named_with_the_nearest() -> None:
+    wrong: Any = {"prt": 1}
+    with pytest.raises(TypeError, match=r"has no option 'prt'; did you mean 'port'\?"):
+        Visualizer(**wrong)

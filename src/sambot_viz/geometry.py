@@ -24,7 +24,13 @@ Rgba = tuple[float, float, float, float]
 
 
 def finite(value: Any) -> float | None:
-    """Return a value as a finite float, None when it is not one (text, bool, NaN)."""
+    """Return a value as a finite float, None when it is not one (text, bool, NaN).
+
+    Arrays without dimensions are numbers too.
+    """
+    if isinstance(value, np.ndarray):
+        array = cast("npt.NDArray[Any]", value)
+        value = array[()] if array.ndim == 0 else None
     if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
         return None
     try:

@@ -7,10 +7,11 @@ import os.path
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, InvalidStateError, wait
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from threading import Thread
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, Problem, RobotError, UsageError
@@ -111,7 +112,11 @@ class Inputs:
             self._open_model(found.model)
         else:
             self.model, self._may_be_broken = None, False
-            self._robot.set_result(_robot_of(model))
+            robot, positions = _robot_of(model)
+            self._robot.set_result(robot)
+            if positions:
+                positions.update(options.joint_positions)
+                self._options = replace(options, joint_positions=positions)
         self.poses = self._poses_file()
         self._presets: Presets | None = None
 
@@ -259,12 +264,15 @@ class Inputs:
         return None if self.model is None else bundled.poses_beside(self.model)
 
 
-def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
-    """Return the robot of an object from Python."""
+def _robot_of(model: Robot | yourdfpy.URDF) -> tuple[Robot, dict[str, float]]:
+    """Return the robot of an object from Python, and where its joints are [rad or m].
+
+    Joints that are at 0 are left out: they start as the robot's own do.
+    """
     from sambot_viz.robot.model import Robot
 
     if isinstance(model, Robot):
-        return model
+        return model, {}
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
     # Scripts that no type checker has read can give anything.
@@ -273,7 +281,10 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> Robot:
             f"model is of type {type(model).__name__}; give a file name, a Robot or a "
             "yourdfpy.URDF"
         )
-    return Robot.from_yourdfpy(model)
+    untyped: Any = model
+    names, values = untyped.actuated_joint_names, untyped.cfg.tolist()
+    positions = {name: q for name, q in zip(names, values, strict=True) if q}
+    return Robot.from_yourdfpy(model), positions
 
 
 def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:

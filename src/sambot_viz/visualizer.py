@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
@@ -12,17 +12,17 @@ from typing import Any, Concatenate, ParamSpec
 
 import viser
 
-from sambot_viz.errors import RobotError, ServerError
+from sambot_viz.errors import JointError, RobotError, ServerError, did_you_mean
 from sambot_viz.export.page_file import ViewState, ask_page, page_file
 from sambot_viz.files import write_atomically
 from sambot_viz.flags import keyword_help
 from sambot_viz.frames import Transform
-from sambot_viz.geometry import Vector3
+from sambot_viz.frames.transform import Pose
 from sambot_viz.inputs import Inputs
 from sambot_viz.jupyter.notebook import notebook as here
 from sambot_viz.jupyter.notebook import remember, stop_former
 from sambot_viz.options import Options
-from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
@@ -49,10 +49,16 @@ def _takes_the_keywords_of(
     ) -> Callable[Concatenate[Any, _P], None]:
         @functools.wraps(construct)
         def with_keywords(self: Any, /, *args: _P.args, **kwargs: _P.kwargs) -> None:
+            for name in kwargs.keys() - known:
+                raise TypeError(
+                    f"{type(self).__name__}() has no option '{name}'; "
+                    f"{did_you_mean(name, known)}"
+                )
             construct(self, options(*args, **kwargs))
 
         own = inspect.signature(construct).parameters["self"]
-        given = inspect.signature(options).parameters.values()
+        parameters = inspect.signature(options).parameters
+        known, given = list(parameters), parameters.values()
         with_keywords.__signature__ = inspect.Signature([own, *given])  # type: ignore[attr-defined]
         return with_keywords
 
@@ -237,15 +243,22 @@ class Visualizer:
         session = self._first()
         return FrameView(session.frames.tree, session.lock)
 
-    def set_joint_positions(self, positions: Mapping[str, float]) -> None:
+    def set_joint_positions(self, positions: Positions) -> None:
         """Move some joints, in every browser.
 
         Args:
-            positions: joint → position [rad or m].
+            positions: joint → position [rad or m], or a vector of all joints that take
+                one, in the order of `Robot.joint_names`.
 
         Raises:
-            JointError: an unknown joint, a mimic joint, or no finite number.
+            JointError: an unknown joint, a mimic joint, no finite number, or a vector
+                of another length.
         """
+        robot = self._server.sessions.robot
+        if robot is not None:
+            positions = robot.named_positions(positions)
+        elif not isinstance(positions, Mapping):
+            raise JointError("there is no robot yet whose joints a vector could move")
         for session in self._server.sessions.all(copies=False):
             session.robot.set_positions(positions)
 
@@ -253,21 +266,24 @@ class Visualizer:
         self,
         parent: str,
         child: str,
-        xyz: Vector3 = (0.0, 0.0, 0.0),
-        rpy: Vector3 = (0.0, 0.0, 0.0),
+        xyz: Pose = (0.0, 0.0, 0.0),
+        rpy: Sequence[float] = (0.0, 0.0, 0.0),
     ) -> None:
         """Hang a frame on another, as static_transform_publisher does.
 
         Args:
             parent: the frame in which the pose is given.
             child: the frame whose pose it is.
-            xyz: where the child is in the parent [m].
-            rpy: its roll, pitch and yaw about fixed axes [rad].
+            xyz: where the child is in the parent [m]; or its whole pose, as a
+                `Transform` or a (4, 4) matrix.
+            rpy: its roll, pitch and yaw about fixed axes [rad], or a quaternion
+                (x, y, z, w).
 
         Raises:
-            FrameError: a ring, the same name twice, an empty name, or NaN.
+            FrameError: a ring, the same name twice, an empty name, NaN, or what is no
+                pose.
         """
-        transform = Transform.from_xyz_rpy(xyz, rpy)
+        transform = Transform.of(xyz, rpy)
         for session in self._server.sessions.all(copies=False):
             session.frames.add(parent, child, transform)
 

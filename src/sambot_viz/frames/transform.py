@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,9 @@ from sambot_viz.robot.parts import Origin
 
 if TYPE_CHECKING:
     from typing_extensions import Self
+
+Pose = Union["Transform", Sequence[float], Sequence[Sequence[float]], npt.NDArray[Any]]
+"""A transform, a (4, 4) matrix, or a translation x, y, z [m]."""
 
 _LENGTH_TOLERANCE = 0.01
 """tf2 refuses quaternions whose squared length differs from 1 by more."""
@@ -104,6 +107,33 @@ class Transform:
         roll, pitch, yaw = _finite(rpy, 3, "rpy")
         matrix = Origin((x, y, z), (roll, pitch, yaw)).matrix
         return cls.trusted(matrix, xyzw_from_rpy(roll, pitch, yaw))
+
+    @classmethod
+    def of(cls, pose: Pose, rpy: Sequence[float] = (0, 0, 0)) -> Transform:
+        """Make one from whatever describes a pose.
+
+        Args:
+            pose: a transform, a (4, 4) matrix, or a translation x, y, z [m].
+            rpy: with a translation, roll, pitch and yaw about fixed axes [rad], or a
+                quaternion (x, y, z, w).
+
+        Raises:
+            TransformRefused: as for the other ways to make one.
+            FrameError: not of these shapes, or an angle beside a whole pose.
+        """
+        if isinstance(pose, Transform):
+            array = pose.matrix
+        else:
+            try:
+                array = np.asarray(pose, np.float64)
+            except (TypeError, ValueError) as error:
+                raise FrameError(f"{pose!r} is no pose") from error
+        if array.ndim != 2:
+            make = cls.from_xyz_xyzw if len(rpy) == 4 else cls.from_xyz_rpy
+            return make(array.tolist(), rpy)
+        if any(rpy):
+            raise FrameError("a transform or a matrix has its rotation already")
+        return pose if isinstance(pose, Transform) else cls(array)
 
     @classmethod
     def from_xyz_xyzw(

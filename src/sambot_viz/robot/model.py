@@ -11,7 +11,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sambot_viz.errors import Problem
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.errors import JointError, Problem
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.robot.kinematics import Kinematics
@@ -21,6 +24,10 @@ if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
     from sambot_viz.robot.model_source import OpenedModel, PathLike
+
+
+Positions = Mapping[str, float] | Sequence[float] | npt.NDArray[np.floating]
+"""Joint name → position [rad or m], or a vector in the order of the joints."""
 
 
 @dataclass(frozen=True)
@@ -48,14 +55,45 @@ class Robot:
     files: tuple[Path, ...] = field(default=(), compare=False, repr=False)
     file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
 
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The joints that take a position, in document order: the order of vectors.
+
+        Fixed, floating, planar and mimic joints are left out.
+        """
+        joints = self.joints.values()
+        return tuple(j.name for j in joints if j.movable and j.mimic is None)
+
+    def named_positions(self, positions: Positions) -> Mapping[str, float]:
+        """Return positions by the names of their joints.
+
+        Args:
+            positions: joint name → position [rad or m], or a vector in the order of
+                `joint_names`.
+
+        Raises:
+            JointError: the vector has another length.
+        """
+        if isinstance(positions, Mapping):
+            return positions
+        names, vector = self.joint_names, np.asarray(positions)
+        if vector.shape != (len(names),):
+            listed = ", ".join(names[:8]) + (", …" if len(names) > 8 else "")
+            raise JointError(
+                f"a vector of positions needs {len(names)} numbers, in the order of "
+                f"joint_names ({listed}), not the shape {vector.shape}"
+            )
+        return dict(zip(names, vector.tolist(), strict=True))
+
     def forward_kinematics(
-        self, positions: Mapping[str, float] | None = None
+        self, positions: Positions | None = None
     ) -> dict[str, Matrix]:
         """Return the poses of all links in the root link.
 
         Args:
-            positions: joint name → position [rad or m]. A joint that is not given
-                has its start value; mimic joints follow unless given.
+            positions: joint name → position [rad or m], or a vector in the order of
+                `joint_names`. A joint that is not given has its start value; mimic
+                joints follow unless given.
 
         A caller that asks more than once keeps a `Kinematics` instead.
 
@@ -64,9 +102,12 @@ class Robot:
             is at the joint's origin (ROS publishes no transform for it).
 
         Raises:
-            JointError: an unknown joint name, or a value that is not finite.
+            JointError: an unknown joint name, a value that is not finite, or a vector
+                of another length.
         """
-        return Kinematics(self).forward(positions or {})
+        none: Mapping[str, float] = {}
+        named = none if positions is None else self.named_positions(positions)
+        return Kinematics(self).forward(named)
 
     def to_yourdfpy(self) -> yourdfpy.URDF:
         """Return the same robot as a `yourdfpy.URDF`, meshes not loaded."""
