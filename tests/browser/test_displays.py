@@ -152,9 +152,19 @@ def test_a_refusal_moves_no_row_and_goes_with_the_next_edit(user: User) -> None:
     user.enter(colour.one("textbox"), "300; 0; 0")
     user.reads("three whole numbers from 0 to 255")
     assert user.box(user.row("Displays", "Grid")) == box
+    # It is over the view, where it covers no control and nothing cuts it off.
+    left, _, width, _ = user.box(user.find("treegrid", "Displays"))
+    said = user.box(user.row("Displays", "Background Color").one("alert"))
+    assert left + width <= said[0] and said[0] + said[2] < 1280 and said[3] < 90
     assert user.row("Displays", "Background Color").one("textbox").value == "48; 48; 48"
     user.click_on(user.row("Displays", "TF").one("checkbox"))
     user.until(lambda: "three whole numbers" not in user.see().text)
+    # So it does with Tab, and of what is empty there is a reason too.
+    user.unfold("Displays", "Grid")
+    user.enter(user.row("Displays", "Grid", "Alpha").one("textbox"), "")
+    user.until(lambda: "Enter a number" in user.row("Displays", "Grid", "Alpha").text)
+    user.keys("Tab")
+    user.until(lambda: "Enter a number" not in user.see().text)
 
 
 def test_the_first_click_selects_and_the_next_one_edits(

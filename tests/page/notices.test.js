@@ -3,13 +3,12 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { EDITED, rows } from "../../src/sambot_viz/page/wire/channel.js";
-import {
-  notice,
-  refusals,
-  refuse,
-  sayRefused,
-  tell,
-} from "../../src/sambot_viz/page/window/notices.js";
+
+// A page hears of keys at its window.
+const page = new EventTarget();
+globalThis.addEventListener = page.addEventListener.bind(page);
+const { notice, refusals, refuse, sayRefused, tell } =
+  await import("../../src/sambot_viz/page/window/notices.js");
 
 beforeEach(() => {
   notice.set(null);
@@ -28,6 +27,21 @@ test("what is refused in the page takes away what the server has refused", () =>
   refuse("joint/a", "4 rad is outside -1 … 1 rad");
   assert.equal(notice.value, null);
   assert.equal(refusals.get("joint/a"), "4 rad is outside -1 … 1 rad");
+});
+
+test("Tab, Escape and typing anywhere end a refusal, other keys do not", () => {
+  const end = (type, key) => page.dispatchEvent(Object.assign(new Event(type), { key }));
+  for (const [type, key] of [
+    ["keydown", "Tab"],
+    ["keydown", "Escape"],
+    ["input", undefined],
+  ]) {
+    refuse("joint/a", "'abc' is not a number");
+    end("keydown", "Enter");
+    assert.equal(refusals.size, 1);
+    end(type, key);
+    assert.equal(refusals.size, 0, type);
+  }
 });
 
 test("typing again, or the next edit, ends a refusal; other sentences stay", () => {

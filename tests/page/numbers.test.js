@@ -103,8 +103,8 @@ test("what is no number is refused with a reason", () => {
   ]) {
     refuses(typed, /is not a number/);
   }
-  refuses("", /type a number/);
-  refuses("   ", /type a number/);
+  refuses("", /Enter a number/);
+  refuses("   ", /Enter a number/);
   refuses("3 m", /'m' does not fit: the unit is rad/);
   refuses("90deg", /'deg' does not fit: the unit is m/, "m");
   refuses("5 mm", /the unit is none/, "");

@@ -8,7 +8,7 @@ import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
 import { degrees, useData } from "../state.js";
-import { formula, outside, shownUnit } from "./units.js";
+import { formula, outside, shownUnit, withinTurn } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -92,7 +92,7 @@ function NumberField({ row, tab, held, room }) {
   const accept = (typed) => {
     const read = parseNumber(typed, unit);
     if ("error" in read) return read.error;
-    const value = row.kind === "int" ? Math.round(read.value) : read.value;
+    const value = withinTurn(row, row.kind === "int" ? Math.round(read.value) : read.value);
     const why = outside(row, value);
     if (!why) held.put(clamped(value, row));
     return why;

@@ -31,7 +31,7 @@ const SUFFIX = /^(.*?)\s*(°|deg|degrees?|rad|radians?|[ckm]?m)?\s*(\/\s*s)?$/s;
  */
 export function parseNumber(typed, unit = "") {
   const text = typed.trim().toLowerCase().replace(/−/g, "-").replace(/π/g, "pi");
-  if (!text) return { error: "type a number" };
+  if (!text) return { error: "Enter a number" };
   const [, expression = "", named = "", perSecond = ""] = text.match(SUFFIX) || [];
   const value = evaluate(expression);
   if (value === undefined || !Number.isFinite(value)) {

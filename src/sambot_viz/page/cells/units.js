@@ -19,6 +19,13 @@ export function shownUnit(row, inDegrees = degrees.value) {
   return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
 }
 
+/** A typed value; of a joint that turns without limits, the same angle from −π to π.
+ * @param {Row} row @param {number} value */
+export function withinTurn(row, value) {
+  const turns = Math.round(value / (2 * Math.PI));
+  return row.wheel && Math.abs(value) > Math.PI ? value - turns * 2 * Math.PI : value;
+}
+
 /** Why a number is outside the limits of its row. @param {Row} row @param {number} value */
 export function outside(row, value) {
   const { unit, factor } = shownUnit(row);

@@ -202,6 +202,6 @@ function Help() {
     html`<b>${row.name}</b><br />
     ${row.help}<br />
     ${row.follows ? `position ${formula(row)}; ` : ""}
-      ${row.wheel ? "turns without limits" : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
+      ${row.wheel ? `turns without limits, shown as ${limits(row)}` : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
   }</div>`;
 }

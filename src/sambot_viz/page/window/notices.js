@@ -47,6 +47,16 @@ export function sayRefused(id, why) {
   refuse(id, why);
 }
 
+/** Typing, Tab and Escape end a refusal too. @param {Event & {key?: string}} event */
+const ended = (event) => {
+  if (event.type !== "input" && event.key !== "Tab" && event.key !== "Escape") return;
+  for (const id of [...refusals.keys()]) refuse(id);
+};
+// A field that Tab leaves may refuse what was typed: that comes after this. A field that is typed
+// into hears of it first, or it would put its old text back.
+globalThis.addEventListener?.("keydown", ended, true);
+globalThis.addEventListener?.("input", ended);
+
 // The next edit is the answer to a refusal; if it is refused too, the server says so again.
 rows.listen(EDITED, () => {
   const refused = notice.value?.row || [...refusals.keys()][0];

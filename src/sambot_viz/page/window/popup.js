@@ -29,7 +29,10 @@ export function Popup({ label, name, role, title, children }) {
   usePressOutside([panel, button], () => setOpen(false), open);
   useLayoutEffect(() => {
     if (!open) return undefined;
-    (panel.current.querySelector("button, input") || panel.current).focus();
+    // In a form a text is to be typed; a finger would get a keyboard over the list.
+    const typed = role === "dialog" && !matchMedia("(pointer: coarse)").matches;
+    const first = typed && panel.current.querySelector("input");
+    (first || panel.current.querySelector("button, input") || panel.current).focus();
     /** What had the focus may be gone. @param {KeyboardEvent} event */
     const lost = (event) => {
       if (event.key === "Escape" && document.activeElement === document.body) close();

@@ -1,0 +1,29 @@
+// Numbers with their units and limits.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { outside, withinTurn } from "../../src/sambot_viz/page/cells/units.js";
+
+const LIMITED = { id: "a", in: "", kind: "slider", unit: "rad", min: -1, max: 1 };
+const WHEEL = { ...LIMITED, min: -Math.PI, max: Math.PI, wheel: true };
+
+test("a joint that turns without limits takes the same angle within a turn", () => {
+  for (const [typed, shown] of [
+    [9, 9 - 2 * Math.PI],
+    [-9, 2 * Math.PI - 9],
+    [100, 100 - 32 * Math.PI],
+    [Math.PI, Math.PI],
+    [-2, -2],
+  ]) {
+    const value = withinTurn(WHEEL, typed);
+    assert.ok(Math.abs(value - shown) < 1e-12, `${typed}: ${value}`);
+    assert.equal(outside(WHEEL, value), "");
+  }
+});
+
+test("a joint with limits does not turn round, and says which they are", () => {
+  assert.equal(withinTurn(LIMITED, 9), 9);
+  assert.equal(outside(LIMITED, 9), "9 rad is outside −1 … 1 rad");
+  assert.equal(outside(LIMITED, 1.00001), "");
+});
