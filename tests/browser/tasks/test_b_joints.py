@@ -260,7 +260,7 @@ def test_task_19_a_saved_pose_is_there_after_a_restart(own: Desk) -> None:
         "half way": {LEFT: 0.75, RIGHT: 0.0}
     }
     user.keys("Escape")
-    # With a pose there the cursor is in the field too: a name and Enter save another one.
+    # With a pose there, too, the cursor is in the field: Enter saves another one.
     enter(own, LEFT, "0.5")
     user.click("button", "Poses")
     user.type("reach")

@@ -6,8 +6,10 @@ import { act, rows } from "../wire/channel.js";
 import { Combo } from "../cells/combo.js";
 import { refusals, refuse, sayRefused } from "../window/notices.js";
 import { parseNumber } from "../cells/numbers.js";
+import { workedOut } from "../cells/pasted.js";
 import { degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
+import { ValidationMessage } from "../cells/validation_message.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -86,7 +88,7 @@ function Form() {
     event.preventDefault();
     begin();
     wanted.current = count;
-    if (typed("pasted").trim()) return act("frames/paste", [typed("pasted")]);
+    if (typed("pasted").trim()) return act("frames/paste", [workedOut(typed("pasted"))]);
     /** @type {number[]} */
     const numbers = [];
     for (const name of [...LENGTHS, ...ANGLES]) {
@@ -116,7 +118,7 @@ function Form() {
         title="The arguments of static_transform_publisher, a command or a line of a launch file" />
           </label>
     <button class="wide" type="submit">Add</button>
-    <p class=${why ? "wide refused" : "wide"} role=${why ? "alert" : undefined}>
-    ${why || "Numbers may be pi/2, 90deg or 5cm; an empty field is 0."}</p>
+    <p class="wide">Numbers may be pi/2, 90deg or 5cm; an empty field is 0.</p>
+    ${why && html`<${ValidationMessage} text=${why} />`}
   </form>`;
 }
