@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import socket
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -323,6 +323,49 @@ def test_a_vector_moves_all_joints_in_the_order_of_the_robot(
             viz.set_joint_positions(wrong)  # type: ignore[arg-type]
     with pytest.raises(JointError, match="not a finite number"):
         viz.set_joint_positions([0.1, math.nan])
+
+
+def test_a_callback_hears_of_every_move_whoever_makes_it(
+    viz: Visualizer, client: ProtocolClient, caplog: pytest.LogCaptureFixture
+) -> None:
+    heard: list[dict[str, float]] = []
+
+    @viz.on_joint_positions
+    def moved(positions: Mapping[str, float]) -> None:
+        heard.append(dict(positions))
+        if positions[LEFT] == 0.75:
+            raise ZeroDivisionError("in a user's program")
+
+    viz.set_joint_positions([0.25, 0.5])
+    client.settle(viz.viser)
+    assert heard == [{LEFT: 0.25, RIGHT: 0.5}]
+    viz.set_joint_positions([0.25, 0.5])
+    viz.set_static_transform("base_link", "camera")
+    client.settle(viz.viser)
+    assert len(heard) == 1
+    client.edit(client.row_named("joints", LEFT)["id"], 0.75)
+    client.settle(viz.viser)
+    assert heard[1:] == [{LEFT: 0.75, RIGHT: 0.5}]
+    assert [record.message for record in caplog.records] == [
+        "error in a callback of on_joint_positions"
+    ]
+    viz.set_joint_positions({LEFT: 0.0})
+    client.settle(viz.viser)
+    assert heard[-1] == {LEFT: 0.0, RIGHT: 0.5}
+
+
+def test_a_callback_hears_of_private_sessions_that_come_later(
+    make_viz: Callable[..., Visualizer], protocol: Connect
+) -> None:
+    viz = make_viz(session="private")
+    heard: list[float] = []
+    viz.on_joint_positions(lambda positions: heard.append(positions[LEFT]))
+    for value in (0.25, 0.5):
+        one = protocol(port_of(viz))
+        one.wait_until(lambda one=one: f"j/{LEFT}" in one.rows)
+        one.edit(f"j/{LEFT}", value)
+        one.settle(viz.viser)
+    assert heard == [0.0, 0.25, 0.0, 0.5] or heard == [0.25, 0.5]
 
 
 def test_a_frame_is_hung_by_whatever_describes_its_pose(viz: Visualizer) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import functools
 import inspect
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
-from typing import Any, Concatenate, ParamSpec
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import viser
 
@@ -32,8 +33,11 @@ from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 from sambot_viz.session.config_file import take_root
 from sambot_viz.session.robot.frames import FrameView
+from sambot_viz.session.signals import connect
 
 _P = ParamSpec("_P")
+_F = TypeVar("_F", bound=Callable[[Mapping[str, float]], object])
+_log = logging.getLogger(__name__)
 
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
@@ -261,6 +265,44 @@ class Visualizer:
             raise JointError("there is no robot yet whose joints a vector could move")
         for session in self._server.sessions.all(copies=False):
             session.robot.set_positions(positions)
+
+    def on_joint_positions(self, callback: _F) -> _F:
+        """Call a function whenever joints have moved, whoever has moved them.
+
+        It can be used as a decorator. With private sessions it is called for each of
+        them. An error that it raises is logged.
+
+        Args:
+            callback: takes joint → position [rad or m], mimic joints included. It is
+                called after the browsers were told, at most at the Frame Rate of the
+                config, in a thread of the session, which waits for it.
+
+        Returns:
+            The callback.
+        """
+
+        def follow(session: Session) -> None:
+            told: dict[str, float] = {}
+
+            def moved() -> None:
+                joints = session.robot.joints
+                now = {} if joints is None else joints.all_positions()
+                if now == told:
+                    return
+                told.clear()
+                told.update(now)
+                try:
+                    callback(MappingProxyType(now))
+                except Exception:
+                    _log.exception("error in a callback of on_joint_positions")
+
+            with session.lock:
+                if session.robot.joints is not None:
+                    told.update(session.robot.joints.all_positions())
+                connect([session.robot.positions], moved)
+
+        self._server.sessions.follow(follow)
+        return callback
 
     def set_static_transform(
         self,

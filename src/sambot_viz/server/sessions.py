@@ -96,6 +96,7 @@ class Sessions:
         self._lock = threading.RLock()
         self._joined = threading.Condition()
         self._closed = False
+        self._followers: list[Callable[[Session], object]] = []
         self.on_joined: Callable[[], object] = lambda: None
 
     @property
@@ -134,6 +135,12 @@ class Sessions:
         with self._lock:
             places = list(self._places.values())
         return [place.session for place in places if place.session is not None]
+
+    def follow(self, action: Callable[[Session], object]) -> None:
+        """Call an action with every session, present and to come, but not copies."""
+        with self._lock:
+            self._followers.append(action)
+        self.for_each(action, copies=False)
 
     def for_each(
         self, action: Callable[[Session], object], *, copies: bool = True
@@ -261,6 +268,9 @@ class Sessions:
         connect([session.scene.statuses], self._tell_files)
         if copy is not None:
             session.trust(copy)
+        else:
+            for action in self._followers:
+                action(session)
         session.document.show()
         own = copy is not None and copy.own_model
         robot = copy.robot if copy is not None and own else self.robot
