@@ -213,8 +213,14 @@ def test_a_fixed_frame_that_is_missing_is_taken_and_every_status_says_which_ther
         assert displays.named(name, "Status").expanded
         assert displays.named(name, "Status", "Fixed Frame").value == sentence
     assert displays.named("Robot", "Status", "base").level == "error"
-    displays.change("Global Options", "Fixed Frame", to="base")
+    # A button sets the root of what there is.
+    for status in (("Global Status",), ("Robot", "Status")):
+        assert displays.named(*status, "Fixed Frame").extra == {
+            "repair": ["Use base", "options/Fixed Frame", "base"]
+        }
+    displays.set("options/Fixed Frame", "base")
     assert displays.named("Global Status", "Fixed Frame").value == "OK"
+    assert displays.named("Global Status", "Fixed Frame").extra is None
 
 
 def test_bad_rows_of_a_status_come_first(displays: Displays) -> None:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 
 from sambot_viz.displays.display import Display
 from sambot_viz.errors import Problem
-from sambot_viz.panels.row import Level, Row
+from sambot_viz.panels.row import Json, Level, Row
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.text import text
 
 LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
 MOST_NAMES = 12
+FIXED_FRAME = "options/Fixed Frame"
+"""The id of the row that sets it."""
 _STATUS = "status"
 _LONGEST_FILE = 60
 
@@ -29,6 +32,7 @@ def global_status_rows(scene: Scene) -> Iterator[Row]:
         "Fixed Frame",
         value=there or status.text,
         level=LEVELS[status.level],
+        extra=_other_fixed_frame(scene) if there else None,
     )
 
 
@@ -60,7 +64,15 @@ def status_rows(
     if missing and status.level != "Ok":
         level = LEVELS[status.level]
         fixed = f"{row_id}/:fixed"
-        yield Row(fixed, row_id, "status", "Fixed Frame", missing, level=level)
+        yield Row(
+            fixed,
+            row_id,
+            "status",
+            "Fixed Frame",
+            missing,
+            level=level,
+            extra=_other_fixed_frame(scene),
+        )
     own_robot = display.robot_display and display.robot_display.own_robot
     if own_robot is None and status.level != "Ok":
         yield from _why_no_robot(mistakes, row_id)
@@ -106,6 +118,21 @@ def fixed_frame_missing(scene: Scene) -> str:
     if fixed in frames or not frames:
         return ""
     return f"Frame [{fixed}] does not exist. There are: {listed(sorted(frames))}"
+
+
+def _other_fixed_frame(scene: Scene) -> dict[str, Json]:
+    """Offer the root of the largest tree of frames: the page sets it by a button."""
+    tree = scene.context.tree
+    roots: dict[str, str] = {}
+    for frame in sorted(tree.frames):
+        below: list[str] = []
+        root = frame
+        while root not in roots and (above := tree.parent(root)) is not None:
+            below.append(root)
+            root = above
+        roots |= dict.fromkeys((*below, root), roots.get(root, root))
+    most = Counter(roots.values()).most_common(1)[0][0]
+    return {"repair": [f"Use {most}", FIXED_FRAME, most]}
 
 
 def listed(names: Sequence[str], most: int = MOST_NAMES) -> str:

@@ -242,6 +242,9 @@ def test_task_30_a_fixed_frame_that_does_not_exist(s: Desk) -> None:
         s.user.unfold("Displays", display, "Status")
         s.user.until(lambda d=display: "map" in row(s, d, "Status", "base_link").text)
     assert row(s, "Global Options", "Fixed Frame").one("combobox").value == "map"
+    s.user.click_on(row(s, "Global Status", "Fixed Frame").one("button"))
+    s.user.until(lambda: option(s, "Fixed Frame") == "base_link")
+    s.user.until(lambda: "Ok" in row(s, "Global Status").text)
 
 
 def test_task_31_change_ten_times_and_undo_ten_times(s: Desk) -> None:

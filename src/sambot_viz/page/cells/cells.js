@@ -122,7 +122,15 @@ function ComboCell({ row, tab, options }) {
 function FactCell({ row, tab }) {
   return html`<span class="fact" title=${row.kind === "readonly" ? String(row.value) : undefined}>
     ${row.value}</span>
+    ${row.repair && html`<${RepairButton} row=${row} tab=${tab} />`}
     ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;
+}
+
+/** Sets another row so that what a status says is over. @param {{row: Row, tab: number}} props */
+function RepairButton({ row, tab }) {
+  const [label, id, value] = row.repair;
+  return html`<button class="repair needs-control" tabindex=${tab}
+    onClick=${() => send(id, value)}>${label}</button>`;
 }
 
 /** @param {{row: Row, tab: number}} props */
