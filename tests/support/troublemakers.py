@@ -119,7 +119,8 @@ async def _read_nothing(port: int) -> None:
 async def _rave(port: int) -> None:
     chance = random.Random(0)
     while True:
-        with suppress(ConnectionClosed):
+        # websockets aborts a transport that has lost its loop with an AttributeError.
+        with suppress(ConnectionClosed, AttributeError):
             async with _connect(port) as socket:
                 await socket.send(FIRST)
                 reading = asyncio.create_task(_read(socket))
