@@ -36,6 +36,9 @@ def running(*words: str, cwd: Path | None = None) -> Iterator[subprocess.Popen[s
 
 
 def address(process: subprocess.Popen[str]) -> str:
-    """The address that the program prints when its page can be opened."""
+    """The address that the program prints when its page can be opened.
+
+    With a presenter, each comes behind the word for whom it is.
+    """
     assert process.stdout is not None
-    return process.stdout.readline().strip()
+    return process.stdout.readline().rpartition(" ")[2].strip()

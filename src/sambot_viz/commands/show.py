@@ -43,10 +43,6 @@ move its joints; --token restricts access to those who have the link
 """
 
 
-_PRESENTED = """\
-sambot-viz: first link: viewers; second link: presenter
-"""
-
 _WAITING = """\
 sambot-viz: note: the page is open and will load the file once its errors are fixed
 """
@@ -79,10 +75,12 @@ def run(words: list[str]) -> int:
     try:
         _refuse_early(inputs)
         presented, link = options.presenter is not None, listener.url
-        _announce(link(), given.open and not presented)
         if presented:
-            _announce(link(presenter=True), given.open)
-            sys.stderr.write(_PRESENTED)
+            # The wrong link in a chat would give the class thirty presenters.
+            _announce(link(), False, "viewers:   ")
+            _announce(link(presenter=True), given.open, "presenter: ")
+        else:
+            _announce(link(), given.open)
         if not only_this_machine(options.host):
             here = reachable_at(options.host)
             _invite(link(here), link(here, presenter=True) if presented else None)
@@ -166,8 +164,8 @@ class _Reports:
             sys.stderr.write("sambot-viz: all problems are fixed\n")
 
 
-def _announce(url: str, open_it: bool) -> None:
-    print(url, flush=True)
+def _announce(url: str, open_it: bool, whose: str = "") -> None:
+    print(f"{whose}{url}", flush=True)
     if open_it:
         import webbrowser
 
@@ -176,9 +174,12 @@ def _announce(url: str, open_it: bool) -> None:
 
 def _invite(url: str, presenter_url: str | None) -> None:
     """Write the links for other machines, and draw one for the camera of a phone."""
-    sys.stderr.write(f"sambot-viz: from other machines: {url}\n")
+    viewers = "" if presenter_url is None else ", viewers"
+    sys.stderr.write(f"sambot-viz: from other machines{viewers}: {url}\n")
     if presenter_url is not None:
-        sys.stderr.write(f"sambot-viz: for the presenter there: {presenter_url}\n")
+        sys.stderr.write(
+            f"sambot-viz: from other machines, presenter: {presenter_url}\n"
+        )
     if sys.stderr.isatty():
         import segno
 
