@@ -10,7 +10,6 @@ import pytest
 
 from sambot_viz import Visualizer
 from sambot_viz.displays.robot_display import ModelRequest
-from sambot_viz.displays.robot_model.robot_source import OUTSIDE
 from sambot_viz.errors import RobotError, UsageError
 from sambot_viz.inputs import declarations
 from sambot_viz.options import Options
@@ -150,9 +149,11 @@ def test_a_browser_cannot_name_a_file_outside_and_learns_nothing(
     before = case.session.document.config.to_yaml()
     with pytest.raises(UsageError) as refused:
         case.set("Description File", name.format(outside=package.parent))
-    assert str(refused.value) == OUTSIDE
+    # One sentence for a file that is elsewhere and one that is nowhere, without a path.
+    said = "There is no such file in or below the folders that were opened: pkg, urdf"
+    assert str(refused.value) == said
     assert case.session.document.config.to_yaml() == before
-    assert case.display.status.rows["Description File"].text == OUTSIDE
+    assert case.display.status.rows["Description File"].text == said
     assert loader.asked == []
 
 

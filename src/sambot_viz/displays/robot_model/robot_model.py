@@ -23,7 +23,6 @@ from sambot_viz.displays.robot_model.robot_entries import (
 )
 from sambot_viz.displays.robot_model.robot_source import (
     FILE,
-    OUTSIDE,
     RobotSource,
     publish_frames,
 )
@@ -153,8 +152,9 @@ class RobotModelDisplay(TriangleDisplay):
             return None
         if self._source.may_name(value):
             return None
-        self.status.set(FILE, "Error", OUTSIDE)
-        return OUTSIDE
+        why = self._source.why_not()
+        self.status.set(FILE, "Error", why)
+        return why
 
     @property
     def own_robot(self) -> Robot | None:

@@ -25,8 +25,6 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig
 
 FILE = "Description File"
-OUTSIDE = "The model file must lie below the folders that were opened"
-"""All that is said: a browser learns nothing about other files."""
 
 Change = Literal["none", "edited", "other"]
 
@@ -103,6 +101,13 @@ class RobotSource:
         trusted = name in self._context.trusted_files
         return trusted or self._find(name, trusted=False) is not None
 
+    def why_not(self) -> str:
+        """Say where a file may be: nothing about others, so it fits both cases."""
+        names = ", ".join(dict.fromkeys(folder.name for folder in self._opened()))
+        return (
+            f"There is no such file in or below the folders that were opened: {names}"
+        )
+
     def _named_file(self) -> tuple[str, bool, Path | None]:
         """Return what "Description File" says, whether it is trusted, and its file.
 
@@ -136,7 +141,7 @@ class RobotSource:
         if not name or models is None:
             return
         if path is None:
-            text = f"URDF is empty: no file '{name}'" if trusted else OUTSIDE
+            text = f"URDF is empty: no file '{name}'" if trusted else self.why_not()
             self.status = Status("Error", text)
             return
         if self.robot is None:
