@@ -93,6 +93,9 @@ def test_a_click_into_the_view_takes_the_keys_from_a_field(
     user.click_on(user.row("Displays", "Fixed Frame").one("combobox"))
     viewer.page.mouse.click(*middle(viewer))
     viewer.wait_for(f"{FOCUSED} === __viserMutable.canvas")
+    # It marks no text of the page either.
+    user.keys("Control+a")
+    assert "Global Options" not in viewer.page.evaluate("String(getSelection())")
     user.keys("n")
     pressed(user, "Measure")
 

@@ -83,6 +83,8 @@ def test_a_viewer_turns_the_view_and_is_told_what_needs_control(
 ) -> None:
     user = guest.user
     user.until(lambda: slider_is_off(user))
+    guest.page.mouse.move(*user.go_to(user.row("Joints", LEFT).one("slider")))
+    assert user.tip_under_the_mouse().startswith("View only: request control")
     yaw = user.row("Views", "Yaw").text
     guest.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
     user.until(lambda: user.row("Views", "Yaw").text != yaw)

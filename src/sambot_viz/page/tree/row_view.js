@@ -5,6 +5,7 @@ import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
 import { CopyButton, ValueCell } from "../cells/cells.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
+import { rows } from "../wire/channel.js";
 import { fold, select, useRow } from "../state.js";
 import { ValidationMessage } from "../cells/validation_message.js";
 
@@ -17,6 +18,8 @@ import { ValidationMessage } from "../cells/validation_message.js";
  *   drag: (event: Press, row: Row) => void}} TreeApi
  */
 
+/** Why a viewer's controls are grey. */
+const VIEW_ONLY = "View only: request control to change it";
 /** A status that is longer is below its name, over the whole width. */
 const BESIDE = 24;
 const NUMBERS = new Set(["int", "float", "slider", "vector"]);
@@ -67,8 +70,9 @@ export function RowView({ id, depth, opens, open, current, chosen, renaming, api
         html`<span class="value" role="gridcell" onDblClick=${twice}>
         <${ValueCell} row=${row} tab=${tab} /></span>`
       }`;
+  const locked = row.off && rows.watching ? VIEW_ONLY : undefined;
   const help = api.current.hover && !wide && row.kind !== "slider" ? row.help : undefined;
-  return html`<div class=${rowClass(row)} role="row" data-row=${id} tabindex=${tab} title=${help}
+  return html`<div class=${rowClass(row)} role="row" data-row=${id} tabindex=${tab} title=${locked || help}
       aria-level=${depth + 1} aria-expanded=${opens ? String(open) : undefined}
       aria-selected=${chosen ? "true" : "false"} style=${`--depth: ${depth}`} ...${mouse}
       onfocusin=${() => select(api.current.panel, id)}>

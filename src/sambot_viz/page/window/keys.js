@@ -76,6 +76,8 @@ const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
 export function listenToKeys({ tools, mouse, act, hide, cancelPress }) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
+    // The text of the whole page is never meant.
+    if ((event.ctrlKey || event.metaKey) && letter(event) === "a") return event.preventDefault();
     const drives = event.target instanceof Element && Boolean(event.target.closest(DRIVE));
     const does = meaning(event, tools(), mouse(), drives);
     if (!does) return;

@@ -258,7 +258,7 @@ function Tabs({ names, of, current }) {
         aria-selected=${String(name === current)}
       aria-controls=${name === current ? "panel-right" : undefined}
         tabindex=${name === current ? 0 : -1}
-      aria-label=${of[name].title} onClick=${() => tab.set(name)}>
+      aria-label=${of[name].title} title=${of[name].title} onClick=${() => tab.set(name)}>
         ${(of !== TABS && of[name].short) || of[name].title}</button>`,
     )}
   </div>`;
