@@ -163,6 +163,7 @@ test("the view comes back with all its numbers, or with what the camera does not
     views: [
       { id: "view/type", in: "", kind: "enum", value: type },
       ...more.map(([id, kind, value]) => ({ id, in: "view", kind, value })),
+      { id: "view/:lead", in: "view", kind: "bool", value: true },
       { id: "view/:follow", in: "view", kind: "bool", value: true },
       { id: "views/restore", in: "", kind: "command" },
     ],

@@ -143,7 +143,7 @@ def test_with_follow_the_presenter_the_others_see_what_one_does(
     other = panel_of(ViewsPanel, session, join())
     edit(panel, "view/Distance", 5.0)
     assert rows_of(other)["view/Distance"].value != 5.0
-    edit(other, "view/:follow", True)
-    assert rows_of(panel)["view/:follow"].value is True
+    edit(other, "view/:lead", True)
+    assert rows_of(panel)["view/:lead"].value is True
     edit(panel, "view/Distance", 4.0)
     assert rows_of(other)["view/Distance"].value == 4.0

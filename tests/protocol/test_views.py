@@ -132,9 +132,11 @@ def test_each_browser_has_its_own_camera_unless_all_follow_the_presenter(
     first.settle(viser_server(viz))
     second.settle(viser_server(viz))
     assert told(second) == []
-    session_of(viz).clients.follow_presenter.set(True)
-    report(first, (0.0, 3.0, 0.0))
+    first.edit("view/:lead", True)
     second.wait_until(lambda: told(second) != [])
+    assert told(second)[-1] == pytest.approx([0, 2, 0], abs=1e-5)
+    report(first, (0.0, 3.0, 0.0))
+    second.wait_until(lambda: len(told(second)) > 1)
     assert told(second)[-1] == pytest.approx([0, 3, 0], abs=1e-5)
     assert told(first) == []
     one, other = views_of(viz)

@@ -63,7 +63,7 @@ def everything(viz: Visualizer, session: Session) -> object:
         sorted(session.frames.tree.frames),
         dict(session.frames.added),
         session.poses.names,
-        session.clients.follow_presenter.value,
+        session.clients.leading.value,
         session.motion.turning.value,
         session.history.modified.value,
     )
@@ -327,6 +327,41 @@ def test_a_viewer_undoes_what_it_did_as_a_viewer_and_nothing_else(
     settle(guest)
     assert guest.row(distance)["value"] == 7.5
     assert everything(viz, session) == before
+
+
+def test_a_presenter_leads_all_views_at_once_and_a_viewer_may_leave(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    protocol: Protocol,
+    viz: Visualizer,
+    settle: Callable[..., None],
+) -> None:
+    def distance(client: ProtocolClient) -> float:
+        settle(teacher, guest, client)
+        return client.row("view/Distance")["value"]
+
+    teacher.edit("view/Distance", 7.0)
+    settle(teacher)
+    assert distance(guest) != 7.0 and "view/:follow" not in guest.rows
+    teacher.edit("view/:lead", True)
+    assert distance(guest) == 7.0
+    assert "leads your view" in guest.row("notice")["value"]["text"]
+    late = protocol(viz.viser.get_port())
+    late.wait_until(lambda: "view/:follow" in late.rows)
+    assert distance(late) == 7.0
+    guest.edit("view/:follow", False)
+    settle(guest)
+    teacher.edit("view/Distance", 3.0)
+    settle(teacher)
+    assert (distance(guest), distance(late)) == (7.0, 3.0)
+    guest.edit("view/:follow", True)
+    assert distance(guest) == 3.0
+    guest.edit("view/:lead", False)
+    settle(guest)
+    teacher.edit("view/:lead", False)
+    settle(teacher)
+    teacher.edit("view/Distance", 9.0)
+    assert distance(guest) == 3.0 and "view/:follow" not in guest.rows
 
 
 def test_private_sessions_know_nothing_of_people(protocol: Protocol) -> None:

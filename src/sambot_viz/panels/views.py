@@ -11,7 +11,7 @@ from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Data, Json, Row
+from sambot_viz.panels.row import Data, Json, Level, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import row_text
@@ -38,6 +38,7 @@ class ViewsPanel(Panel):
         clients: may all follow the presenter.
         roles: tells whether there is one.
         history: does not record what a page restores.
+        say: tells the user that the presenter leads the view.
     """
 
     name = "views"
@@ -49,10 +50,17 @@ class ViewsPanel(Panel):
         clients: Clients,
         roles: Roles,
         history: History,
+        say: Callable[[str, Level], None],
     ) -> None:
-        self._follow = clients.follow_presenter
-        self.remade_by = (document.views, self._follow, client.view.changed)
-        self._client = client
+        self._clients, self._client = clients, client
+        self._say, self._led = say, clients.leading.value
+        self.remade_by = (
+            document.views,
+            clients.leading,
+            clients.free,
+            roles.changed,
+            client.view.changed,
+        )
         self._document = document
         self._roles = roles
         self._history = history
@@ -63,7 +71,7 @@ class ViewsPanel(Panel):
         return [
             self._type(),
             *self._current(),
-            self._follow_row(),
+            *self._follow_rows(),
             *map(self._saved, self._document.config.saved_views),
         ]
 
@@ -103,19 +111,36 @@ class ViewsPanel(Panel):
         change = self._client.view.set
         yield from property_rows(view.config, CURRENT, change, client_local=True)
 
-    def _follow_row(self) -> Row:
-        camera = "the presenter's camera shows"
-        if not self._roles.presented:
-            camera = "the camera shows that moved last"
-        return Row(
-            "view/:follow",
-            CURRENT,
-            "bool",
-            "Follow the presenter",
-            value=self._follow.value,
-            help=f"All browsers show what {camera}.",
-            set=self._follow.set,
-        )
+    def _follow_rows(self) -> Iterator[Row]:
+        clients, client_id = self._clients, self._client.client_id
+        led = clients.leading.value and not self._roles.may_edit(client_id)
+        if led and not self._led:
+            self._say("The presenter leads your view; Views can turn that off", "ok")
+        self._led = led
+        if self._roles.may_edit(client_id):
+            camera = "you show, while you have control"
+            if not self._roles.presented:
+                camera = "the camera shows that moved last"
+            yield Row(
+                "view/:lead",
+                CURRENT,
+                "bool",
+                "Lead all views",
+                value=clients.leading.value,
+                help=f"All browsers show what {camera}.",
+                set=lambda on: clients.lead(client_id, on),
+            )
+        elif led:
+            yield Row(
+                "view/:follow",
+                CURRENT,
+                "bool",
+                "Follow the presenter",
+                value=client_id not in clients.free.value,
+                help="The presenter leads all views. Untick this to look around.",
+                client_local=True,
+                set=lambda on: clients.follow(client_id, on),
+            )
 
     @command("views/restore", TEXT, TEXT, client_local=True)
     def _restore(self, label: str, sent: str) -> None:

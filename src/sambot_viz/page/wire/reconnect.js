@@ -115,7 +115,7 @@ function view() {
         row?.id.startsWith("view/") &&
         !row.fixed &&
         row.part === undefined &&
-        row.id !== "view/:follow",
+        !["view/:lead", "view/:follow"].includes(row.id),
     );
   return Object.fromEntries(set.map((row) => [row?.id, row?.value]));
 }

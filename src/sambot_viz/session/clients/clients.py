@@ -34,8 +34,9 @@ class Clients:
         worker: acts on what clients send.
 
     Attributes:
-        follow_presenter: whether all clients show what the client shows whose camera
-            moved last, of those that may change the session.
+        leading: whether all clients show what the client shows whose camera moved
+            last, of those that may change the session.
+        free: the clients that do not follow then.
         listeners: called with a client that joined (True) or left (False), with the
             session locked.
     """
@@ -51,7 +52,9 @@ class Clients:
         change: Change,
         worker: Worker,
     ) -> None:
-        self.follow_presenter = Signal(change, False)
+        self.leading = Signal(change, False)
+        self.free: Signal[frozenset[int]] = Signal(change, frozenset())
+        self._leader: ClientView | None = None
         self.listeners: list[Callable[[Client, bool], None]] = []
         self._document = document
         self._scene = scene
@@ -96,12 +99,16 @@ class Clients:
         client = self._clients[handle.client_id] = Client(handle, change, view, tools)
         for listener in tuple(self.listeners):
             listener(client, True)
+        if self.leading.value and self._leader is not None:
+            view.follow(self._leader)
         return client
 
     def leave(self, client_id: int) -> None:
         """Forget what belongs to a client that has closed the page."""
         client = self._clients.pop(client_id, None)
         if client is not None:
+            if self._leader is client.view:
+                self._leader = None
             client.close()
             self._history.leave(client_id)
             for listener in tuple(self.listeners):
@@ -117,9 +124,24 @@ class Clients:
         for client in self._clients.values():
             client.close()
 
+    def lead(self, client_id: int, on: bool) -> None:
+        """Show all clients what this one shows, now and from now on; or no longer."""
+        self.leading.set(on)
+        self.free.set(frozenset())
+        if on:
+            self._lead(self._clients[client_id].view)
+
+    def follow(self, client_id: int, on: bool) -> None:
+        """Let a client follow, while all are led, or look where it likes."""
+        free = self.free.value
+        self.free.set(free - {client_id} if on else free | {client_id})
+        if on and self.leading.value and self._leader is not None:
+            self._clients[client_id].view.follow(self._leader)
+
     def _lead(self, view: ClientView) -> None:
         """Show others the same, where they are to follow."""
-        if self.follow_presenter.value and self._roles.may_edit(view.client_id):
+        if self.leading.value and self._roles.may_edit(view.client_id):
+            self._leader = view
             for other in tuple(self._clients.values()):
-                if other.view is not view:
+                if other.view is not view and other.client_id not in self.free.value:
                     other.view.follow(view)
