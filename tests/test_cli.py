@@ -39,6 +39,40 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
         assert time.monotonic() - started < patience(10.0)
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["exprt", "x.urdf"], "did you mean 'export'?"),
+        (["chek"], "did you mean 'check'?"),
+        (["--prot", "80"], "did you mean --port?"),
+        (["check", "--formt=json"], "did you mean --format?"),
+        (["--zzz"], "unrecognized arguments: --zzz; see sambot-viz --help"),
+    ],
+)
+def test_a_mistyped_word_is_answered_with_the_nearest(
+    words: list[str],
+    said: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    try:
+        code: object = main(words)
+    except SystemExit as end:
+        code = end.code
+    assert code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_model_whose_name_is_nearly_a_command_is_a_model(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "exports").write_text('<robot name="r"><link name="a"/></robot>')
+    with running("exports", "--port", "0", cwd=tmp_path) as process:
+        assert address(process).startswith("http://")
+
+
 def test_the_secrets_may_come_from_variables(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

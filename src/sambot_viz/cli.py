@@ -8,6 +8,7 @@ error, 130 ended by Ctrl-C (which ends a server with 0). The commands are files 
 from __future__ import annotations
 
 import contextlib
+import difflib
 import importlib
 import os
 import sys
@@ -41,6 +42,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     name = words.pop(0) if words and words[0] in COMMANDS else "show"
     try:
+        if name == "show" and words:
+            _refuse_mistyped(words[0])
         command = importlib.import_module(f"sambot_viz.commands.{name}")
         return int(command.run(words))
     except (RobotError, ConfigError) as error:
@@ -58,6 +61,15 @@ def _run(words: list[str]) -> int:
         return OK
     except Exception as error:
         return _internal_error(error, "--debug" in words)
+
+
+def _refuse_mistyped(word: str) -> None:
+    """Raise UsageError for a word that is no file, and nearly a command."""
+    near = difflib.get_close_matches(word, COMMANDS, n=1, cutoff=0.7)
+    if near and not os.path.exists(word):
+        raise UsageError(
+            f"'{word}' is neither a model nor a command; did you mean '{near[0]}'?"
+        )
 
 
 class _StandardError:

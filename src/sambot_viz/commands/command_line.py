@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import os
 import re
 import sys
@@ -75,8 +76,13 @@ class Parser(argparse.ArgumentParser):
         )
 
     def error(self, message: str) -> NoReturn:
-        """Exit with the message and where the help is."""
-        self.exit(2, f"{self.prog}: error: {message}; see {self.prog} --help\n")
+        """Exit with the message, the flag that was meant, and where the help is."""
+        unknown = re.match(r"unrecognized arguments: (--[\w-]+)", message)
+        flags = [name for action in self._actions for name in action.option_strings]
+        near = difflib.get_close_matches(unknown[1], flags, n=1) if unknown else []
+        meant = f"; did you mean {near[0]}?" if near else ""
+        help_is = f"{' ' if meant else '; '}see {self.prog} --help"
+        self.exit(2, f"{self.prog}: error: {message}{meant}{help_is}\n")
 
 
 def parse(
