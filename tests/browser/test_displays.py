@@ -161,8 +161,10 @@ def test_a_refusal_moves_no_row_and_goes_with_the_next_edit(user: User) -> None:
     user.until(lambda: "three whole numbers" not in user.see().text)
     # So it does with Tab, and of what is empty there is a reason too.
     user.unfold("Displays", "Grid")
-    user.enter(user.row("Displays", "Grid", "Alpha").one("textbox"), "")
-    user.until(lambda: "Enter a number" in user.row("Displays", "Grid", "Alpha").text)
+    user.enter(user.row("Displays", "Grid", "Cell Size").one("textbox"), "")
+    user.until(
+        lambda: "Enter a number" in user.row("Displays", "Grid", "Cell Size").text
+    )
     user.keys("Tab")
     user.until(lambda: "Enter a number" not in user.see().text)
 
