@@ -137,10 +137,13 @@ class Sessions:
         return [place.session for place in places if place.session is not None]
 
     def follow(self, action: Callable[[Session], object]) -> None:
-        """Call an action with every session, present and to come, but not copies."""
+        """Call an action once with every session, present and to come; not copies."""
+        # A session that opens meanwhile is in one of both, and in no more.
         with self._lock:
             self._followers.append(action)
-        self.for_each(action, copies=False)
+            present = self.all(copies=False)
+        for session in present:
+            action(session)
 
     def for_each(
         self, action: Callable[[Session], object], *, copies: bool = True
@@ -268,9 +271,6 @@ class Sessions:
         connect([session.scene.statuses], self._tell_files)
         if copy is not None:
             session.trust(copy)
-        else:
-            for action in self._followers:
-                action(session)
         session.document.show()
         own = copy is not None and copy.own_model
         robot = copy.robot if copy is not None and own else self.robot
@@ -370,7 +370,10 @@ class Sessions:
         session = self._open(client, place.worker, copy)
         with self._lock:
             place.session = session
+            followers = () if copy is not None else tuple(self._followers)
             robot, problems = self.robot, dict(self._reload_problems)
+        for action in followers:
+            action(session)
         self.on_files()
         if robot is not None and robot is not session.robot.model:
             session.show_robot(robot)
