@@ -55,6 +55,19 @@ def me(client: ProtocolClient) -> Any:
     return client.row("role/me")["value"]
 
 
+def give_control(
+    teacher: ProtocolClient,
+    client: ProtocolClient,
+    name: str,
+    settle: Callable[..., None],
+) -> None:
+    """Let a viewer request control under a name, and the presenter give it."""
+    client.act("role/request", name)
+    settle(client, teacher)
+    ((number, _),) = teacher.row("people/state")["value"]["requests"]
+    teacher.act("role/give", number)
+
+
 def everything(viz: Visualizer, session: Session) -> object:
     """All that the browsers of a session have in common."""
     return (
@@ -281,10 +294,7 @@ def test_who_loses_control_hears_who_has_it(
     other = protocol(viz.viser.get_port())
     for client, name in ((guest, "Ann"), (other, "Ben")):
         settle(client)
-        client.act("role/request", name)
-        settle(client, teacher)
-        ((number, _),) = teacher.row("people/state")["value"]["requests"]
-        teacher.act("role/give", number)
+        give_control(teacher, client, name, settle)
     settle(teacher, guest)
     assert guest.row("notice")["value"]["text"] == "View only: Ben is now in control"
     guest.act("role/request", "ben")
@@ -305,10 +315,7 @@ def test_a_viewer_undoes_what_it_did_as_a_viewer_and_nothing_else(
     settle: Callable[..., None],
     session: Session,
 ) -> None:
-    guest.act("role/request", "Ann")
-    settle(guest, teacher)
-    ((number, _),) = teacher.row("people/state")["value"]["requests"]
-    teacher.act("role/give", number)
+    give_control(teacher, guest, "Ann", settle)
     settle(teacher)
     guest.edit(joint(guest), 1.0)
     settle(guest)
