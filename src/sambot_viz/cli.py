@@ -8,7 +8,6 @@ error, 130 ended by Ctrl-C (which ends a server with 0). The commands are files 
 from __future__ import annotations
 
 import contextlib
-import difflib
 import importlib
 import os
 import sys
@@ -16,7 +15,13 @@ import traceback
 from collections.abc import Sequence
 from typing import Any, TextIO, cast
 
-from sambot_viz.errors import ConfigError, RobotError, SambotVizError, UsageError
+from sambot_viz.errors import (
+    ConfigError,
+    RobotError,
+    SambotVizError,
+    UsageError,
+    nearest,
+)
 from sambot_viz.problems import write_problems
 
 OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
@@ -65,10 +70,10 @@ def _run(words: list[str]) -> int:
 
 def _refuse_mistyped(word: str) -> None:
     """Raise UsageError for a word that is no file, and nearly a command."""
-    near = difflib.get_close_matches(word, COMMANDS, n=1, cutoff=0.7)
-    if near and not os.path.exists(word):
+    near = nearest(word, COMMANDS, likeness=0.7)
+    if near is not None and not os.path.exists(word):
         raise UsageError(
-            f"'{word}' is neither a model nor a command; did you mean '{near[0]}'?"
+            f"'{word}' is neither a model nor a command; did you mean '{near}'?"
         )
 
 

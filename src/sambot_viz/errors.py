@@ -209,6 +209,12 @@ class UsageError(SambotVizError):
     """The caller asked for something that makes no sense."""
 
 
+def nearest(name: str, names: Iterable[str], likeness: float = 0.6) -> str | None:
+    """Return the name that is most like another, if it is as like as that (0 to 1)."""
+    near = difflib.get_close_matches(name, list(names), n=1, cutoff=likeness)
+    return near[0] if near else None
+
+
 def did_you_mean(name: str, names: Iterable[str]) -> str:
     """Return a sentence that offers the nearest valid names.
 
@@ -222,8 +228,7 @@ def did_you_mean(name: str, names: Iterable[str]) -> str:
     known: Sequence[str] = list(names)
     if not known:
         return "there are none"
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
-    if near:
-        return f"did you mean '{near[0]}'?"
+    if near := nearest(name, known):
+        return f"did you mean '{near}'?"
     shown = ", ".join(f"'{n}'" for n in known[:8])
     return f"known: {shown}" + (", …" if len(known) > 8 else "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import os
 import re
 import sys
@@ -12,7 +11,7 @@ from dataclasses import Field
 from pathlib import Path
 from typing import Any, NoReturn
 
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import UsageError, nearest
 from sambot_viz.flags import Flag, Group, declared, flag_of
 from sambot_viz.frames import FrameTree
 from sambot_viz.frames.robot_frames import robot_frames
@@ -79,8 +78,8 @@ class Parser(argparse.ArgumentParser):
         """Exit with the message, the flag that was meant, and where the help is."""
         unknown = re.match(r"unrecognized arguments: (--[\w-]+)", message)
         flags = [name for action in self._actions for name in action.option_strings]
-        near = difflib.get_close_matches(unknown[1], flags, n=1) if unknown else []
-        meant = f"; did you mean {near[0]}?" if near else ""
+        near = nearest(unknown[1], flags) if unknown else None
+        meant = f"; did you mean {near}?" if near else ""
         help_is = f"{' ' if meant else '; '}see {self.prog} --help"
         self.exit(2, f"{self.prog}: error: {message}{meant}{help_is}\n")
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 
-from sambot_viz.errors import Place, Problem, did_you_mean
+from sambot_viz.errors import Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
     line_in,
@@ -69,12 +68,12 @@ def _near_name(failed: FailedExpansion, name: str) -> str:
     for macro in failed.named("macro"):
         if any(macro.name == running for running, _ in failed.failure.macros):
             things.update({p: macro.place for p in parameters(macro.params)})
-    near = difflib.get_close_matches(name, [*things, *_BUILT_IN], n=1, cutoff=0.6)
-    if near and near[0] in things:
-        where = line_in(things[near[0]], failed.at)
-        return f"did you mean {near[0]} (defined on {where})?"
+    near = nearest(name, [*things, *_BUILT_IN])
+    if near in things:
+        where = line_in(things[near], failed.at)
+        return f"did you mean {near} (defined on {where})?"
     if near:
-        return f"did you mean {near[0]}?"
+        return f"did you mean {near}?"
     return f'add <xacro:property name="{name}" value="…"/> before it' + (
         f"; {did_you_mean(name, things)}" if things else ""
     )
@@ -146,13 +145,13 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
 
 
 def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str:
-    own = difflib.get_close_matches(name, _OWN_TAGS, n=1, cutoff=0.75)
+    own = nearest(name, _OWN_TAGS, likeness=0.75)
     places = {m.name: m.place for m in macros if m.prefixed}
-    near = difflib.get_close_matches(name, list(places), n=1, cutoff=0.6)
+    near = nearest(name, places)
     if near:
-        return f"did you mean {near[0]} ({line_in(places[near[0]], at)})?"
+        return f"did you mean {near} ({line_in(places[near], at)})?"
     if own:
-        return f"did you mean <xacro:{own[0]}>?"
+        return f"did you mean <xacro:{own}>?"
     if not places:
         return (
             f"no macro is defined in the files that were read: include the file with "
