@@ -130,7 +130,9 @@ def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
         # Until the page has answered a camera, no other is taken from it.
         viewer.user.until(lambda: has_answered(session_of(viz)))
         viewer.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
+        still = viewer.pose(wheel)
         viz.set_joint_positions({"drivewhl_l_joint": 1.0})
+        viewer.user.until(lambda: np.abs(viewer.pose(wheel) - still).max() > 0.5)
         viewer.wait_until_drawn()
         turned = viewer.pose(wheel)
         camera = viewer.page.evaluate(CAMERA)
