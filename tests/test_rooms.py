@@ -118,6 +118,8 @@ ROOMS: Mapping[str, Row] = {
         "numpy viser websockets",
         "asyncio concurrent signal subprocess threading",
     ),
+    # What programs and people start it with.
+    "scripting": Row("displays frames robot rviz server session views", "numpy viser"),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints options "
         "problems robot rviz server session visualizer",
@@ -144,8 +146,8 @@ ROOMS: Mapping[str, Row] = {
     "problems": Row(),
     "text": Row(),
     "visualizer": Row(
-        "displays export flags frames inputs joints jupyter options robot rviz server "
-        "session",
+        "displays export flags frames inputs joints jupyter options robot rviz "
+        "scripting server session",
         "viser",
     ),
 }
@@ -383,13 +385,16 @@ HOLDERS = {
     "export/recorded_scene.py",
     "panels/browser.py",
     "panels/window.py",
+    "scripting/camera.py",
+    "scripting/events.py",
     "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",
     "visualizer.py",
 }
 """Modules that may name `Session`: they build one, find that of a client or make its
-panels; all others get the parts that they use."""
+panels; what programs do is done
+in all of them; all others get the parts that they use."""
 
 
 def test_only_few_modules_take_a_whole_session(repository: Path) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import logging
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -25,6 +24,8 @@ from sambot_viz.jupyter.notebook import remember, stop_former
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.scripting.camera import CameraControl
+from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.model_thread import ModelThread
@@ -33,11 +34,9 @@ from sambot_viz.server.server import Server
 from sambot_viz.session import Session
 from sambot_viz.session.config_file import take_root
 from sambot_viz.session.robot.frames import FrameView
-from sambot_viz.session.signals import connect
 
 _P = ParamSpec("_P")
-_F = TypeVar("_F", bound=Callable[[Mapping[str, float]], object])
-_log = logging.getLogger(__name__)
+_F = TypeVar("_F", bound=Moved)
 
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
@@ -151,6 +150,7 @@ class Visualizer:
             self._configs,
             ask_page,
         )
+        self._camera = CameraControl(self._server.sessions)
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
                 self._server.sessions.show_panels()
@@ -247,6 +247,11 @@ class Visualizer:
         session = self._first()
         return FrameView(session.frames.tree, session.lock)
 
+    @property
+    def camera(self) -> CameraControl:
+        """The camera of all pages: ``viz.camera.look_at("base_link", (2, 1, 1))``."""
+        return self._camera
+
     def set_joint_positions(self, positions: Positions) -> None:
         """Move some joints, in every browser.
 
@@ -280,28 +285,7 @@ class Visualizer:
         Returns:
             The callback.
         """
-
-        def follow(session: Session) -> None:
-            told: dict[str, float] = {}
-
-            def moved() -> None:
-                joints = session.robot.joints
-                now = {} if joints is None else joints.all_positions()
-                if now == told:
-                    return
-                told.clear()
-                told.update(now)
-                try:
-                    callback(MappingProxyType(now))
-                except Exception:
-                    _log.exception("error in a callback of on_joint_positions")
-
-            with session.lock:
-                if session.robot.joints is not None:
-                    told.update(session.robot.joints.all_positions())
-                connect([session.robot.positions], moved)
-
-        self._server.sessions.follow(follow)
+        self._server.sessions.follow(partial(tell_moves, callback=callback))
         return callback
 
     def set_static_transform(

@@ -20,7 +20,11 @@ from sambot_viz.joints.animation import sweep
 from sambot_viz.server.page_files import page_of_viser
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.robot_framing import Size, window_of
-from sambot_viz.session.document.document_view import DocumentView, mouse_facts
+from sambot_viz.session.document.document_view import (
+    USUAL_SIZE,
+    DocumentView,
+    mouse_facts,
+)
 from sambot_viz.session.robot.motion_recorder import MotionSample, Past
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.text import text
@@ -31,8 +35,6 @@ PERIOD = 1.0 / 30.0
 """Time between two steps of a motion [s]."""
 REST = 0.5
 """Time for which the end of a motion is shown [s]."""
-USUAL_SIZE = (1280, 720)
-"""Size of a page that no browser shows yet [pixels]."""
 STEP = 90
 """Width decrement when searching for the narrowest view [pixels]."""
 LONGEST_NAME = 200

@@ -37,6 +37,8 @@ Values = Mapping[str, Any]
 
 STEEPEST = math.pi / 2 - 0.001
 """Largest pitch of all views [rad]."""
+DIGITS = 7
+"""Decimals that are kept of numbers that are read from a camera [m, rad]."""
 SMALLEST_SIZE = 0.01
 """What is smaller is shown as if it had this size [m]."""
 
@@ -237,3 +239,15 @@ def to_target(camera: Camera, target: Target) -> Camera:
         turned(camera.look_at - target.position, -target.yaw),
         turned(camera.up, -target.yaw),
     )
+
+
+def rounded(values: Values) -> Values:
+    """Return values without their last digits, which a page changes at random."""
+    return {path: _round(value) for path, value in values.items()}
+
+
+def _round(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, DIGITS)
+    x, y, z = value
+    return (round(x, DIGITS), round(y, DIGITS), round(z, DIGITS))

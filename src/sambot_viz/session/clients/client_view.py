@@ -23,7 +23,13 @@ from sambot_viz.rviz.declarations import short_name
 from sambot_viz.session.clients.camera import ClientCamera, same_picture
 from sambot_viz.session.clients.robot_framing import RobotFraming, window_of
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.document.document_view import has_target, target_of, view_of
+from sambot_viz.session.document.document_view import (
+    as_kind,
+    has_target,
+    require_kind,
+    target_of,
+    view_of,
+)
 from sambot_viz.session.document.saved_views import SavedViews
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
@@ -35,12 +41,10 @@ from sambot_viz.views.camera import Camera, Vector
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.top_down_ortho import TopDownOrthoView
-from sambot_viz.views.view import WORLD, Values, View
+from sambot_viz.views.view import WORLD, Values, View, rounded
 
 READ_PERIOD = 0.1
 """The numbers follow a moving camera this often [s]."""
-DIGITS = 7
-"""Decimals that are kept of what a mouse has moved [m, rad]."""
 
 
 class ClientView:
@@ -160,21 +164,10 @@ class ClientView:
         Raises:
             UsageError: an unknown type.
         """
-        if kind not in VIEWS:
-            known = ", ".join(VIEWS)
-            raise UsageError(f"there is no view type '{kind}'; there are {known}")
+        require_kind(kind)
         with self._edit(f"View: {short_name(kind)}"):
-            old = self.view
-            new = self._document.config.new_view(kind, old.config)
-            # As in RViz, all other values start at their defaults.
-            for path, declared in new.declared.items():
-                if path in new.properties and path != "Target Frame":
-                    new.set(path, declared.property.default)
-            new.set("Target Frame", old.config.get("Target Frame"))
-            self._take(new)
-            self._apply(self.view.mimic(old))
             _, height = window_of(self._client)
-            self._apply(_rounded(self.view.as_near_as(old, height)))
+            self._take(as_kind(self._document.config, self.view, kind, height))
 
     def zero(self) -> None:
         """Bring the view to where RViz's "Zero" brings it."""
@@ -305,7 +298,7 @@ class ClientView:
     def _take_camera(self) -> None:
         """The numbers take over the camera, unless they describe it already."""
         if not same_picture(self.camera, self.view.camera(self._target)):
-            self._apply(_rounded(self.view.read(self.camera, self._target)))
+            self._apply(rounded(self.view.read(self.camera, self._target)))
 
     def _moved(self) -> None:
         """The browser reports its camera; most reports are echoes of what we sent."""
@@ -347,15 +340,3 @@ class ClientView:
         if not now.same_as(before):
             self._target = now
             self._camera.point(self.view.moved(self.camera, before, now))
-
-
-def _rounded(values: Values) -> Values:
-    """Values without their last digits, which a page changes at random."""
-    return {path: _round(value) for path, value in values.items()}
-
-
-def _round(value: Any) -> Any:
-    if isinstance(value, float):
-        return round(value, DIGITS)
-    x, y, z = value
-    return (round(x, DIGITS), round(y, DIGITS), round(z, DIGITS))

@@ -119,6 +119,12 @@ class Clients:
         for client in self._clients.values():
             client.view.show()
 
+    def store_view(self) -> None:
+        """Let the document's view be that of the client that came first, if any did."""
+        first = next(iter(self._clients.values()), None)
+        if first is not None:
+            first.view.store()
+
     def close(self) -> None:
         """Follow nothing any more."""
         for client in self._clients.values():

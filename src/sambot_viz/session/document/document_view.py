@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
-from sambot_viz.rviz import FIXED_FRAME, ViewConfig
+from sambot_viz.errors import UsageError
+from sambot_viz.rviz import FIXED_FRAME, RvizConfig, ViewConfig
 from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import copied_map
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.views.camera import Camera
+from sambot_viz.views.camera import UP, Camera, Vector
 from sambot_viz.views.orbit import OrbitView
 from sambot_viz.views.registry import VIEWS
-from sambot_viz.views.view import WORLD, Target, View
+from sambot_viz.views.view import WORLD, Target, View, rounded
+
+USUAL_SIZE = (1280, 720)
+"""Size of a page that no browser shows yet [pixels]."""
 
 
 class DocumentView:
@@ -53,6 +58,117 @@ class DocumentView:
             for path, value in view.fit(*box, width, height, target).items():
                 view.config.set(path, value)
         return view.camera(target)
+
+    # Changing it, as a program does; clients take it with `Clients.show_view`.
+
+    def look_at(self, point: Vector, position: Vector | None = None) -> None:
+        """Look at a point of the fixed frame.
+
+        Args:
+            point: what is to be in the middle of the picture, (3,) [m].
+            position: where from, (3,) [m]; by default from where the camera is. A view
+                that looks straight down becomes one that can look from there.
+        """
+        view = self.view
+        if position is not None:
+            if view.orthographic:
+                view = view_of(self._as_kind(OrbitView.kind))
+            values = view.read(Camera(position, point, UP), self._target(view))
+        else:
+            if not view.gives_nearness:
+                # From where a page begins, and not from RViz's 10 m.
+                view = self._read(view, self.camera_on_robot(*USUAL_SIZE))
+            values = view.look_at(point, self._target(view))
+        self._store(view, rounded(values))
+
+    def set_kind(self, kind: str) -> None:
+        """Take another type of view, which takes over what the present one shows.
+
+        Raises:
+            UsageError: an unknown type.
+        """
+        require_kind(kind)
+        if kind != self.view.kind:
+            self._store(view_of(self._as_kind(kind)), {})
+
+    def set(self, values: Mapping[str, object]) -> None:
+        """Set some of its values, by their paths.
+
+        Raises:
+            UsageError: there is no such value, or it cannot be that.
+        """
+        self._store(self.view, values)
+
+    def use(self, saved: ViewConfig) -> None:
+        """Take a copy of a saved view."""
+        self._store(view_of(self._document.config.detached_view(saved)), {})
+
+    def follow(self, frame: str) -> None:
+        """Follow a frame; the picture stays, except for a turn of the frame."""
+        view = self.view
+        before = self._target(view)
+        given = view.gives_nearness
+        view.config.set("Target Frame", frame)
+        shift = before.position - self._target(view).position
+        self._store(view, rounded(view.shifted(shift)), placed=given)
+
+    def _target(self, view: View) -> Target:
+        return target_of(self._scene, view)
+
+    def _read(self, view: View, camera: Camera) -> View:
+        for path, value in view.read(camera, self._target(view)).items():
+            view.config.set(path, value)
+        return view
+
+    def _as_kind(self, kind: str) -> ViewConfig:
+        return as_kind(self._document.config, self.view, kind, USUAL_SIZE[1])
+
+    def _store(
+        self, view: View, values: Mapping[str, object], *, placed: bool = True
+    ) -> None:
+        """Write a view into the document.
+
+        Args:
+            view: a view that is not in the document.
+            values: what else it is to say.
+            placed: whether it says how near the camera is, also where that is RViz's
+                default; otherwise clients show the whole robot at first.
+        """
+        for path, value in values.items():
+            view.config.set(path, value)
+        config = self._document.config
+        config.store_view(view.config)
+        if placed:
+            config.view.fill()
+
+
+def require_kind(kind: str) -> None:
+    """Raise UsageError for an unknown type of view."""
+    if kind not in VIEWS:
+        known = ", ".join(VIEWS)
+        raise UsageError(f"there is no view type '{kind}'; there are {known}")
+
+
+def as_kind(config: RvizConfig, old: View, kind: str, height: int) -> ViewConfig:
+    """Return a view of another type that takes over what the old one showed.
+
+    Args:
+        config: the document; the view is not put into it.
+        old: the view before.
+        kind: the new type.
+        height: of the picture [pixels].
+    """
+    new = config.new_view(kind, old.config)
+    # As in RViz, all other values start at their defaults.
+    for path, declared in new.declared.items():
+        if path in new.properties and path != "Target Frame":
+            new.set(path, declared.property.default)
+    new.set("Target Frame", old.config.get("Target Frame"))
+    view = view_of(new)
+    for values in (view.mimic(old), rounded(view.as_near_as(old, height))):
+        for path, value in values.items():
+            new.set(path, value)
+    return new
 
 
 def view_of(config: ViewConfig) -> View:

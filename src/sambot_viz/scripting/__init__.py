@@ -1,0 +1,1 @@
+"""What a program asks of the sessions: camera, displays, links, events."""
