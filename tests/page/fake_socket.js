@@ -44,4 +44,6 @@ Object.assign(globalThis, {
   window: { sambotSocket: "ws://server/?ticket=1" },
   document: { addEventListener() {}, visibilityState: "visible" },
   addEventListener() {},
+  // The page asks whether the server is there.
+  fetch: async () => ({ status: 200 }),
 });

@@ -3,3 +3,4 @@
 
 import "./view/rviz_look.js";
 import "./view/rviz_mouse.js";
+import "./wire/retries.js";

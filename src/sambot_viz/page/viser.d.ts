@@ -17,6 +17,12 @@ interface Window {
   sambotPermalink?: string;
   /** The address of the page's own websocket. */
   sambotSocket?: string;
+  /** viser's connection: opened when `open` is called, and at first. */
+  sambotViser?: {
+    state: "opening" | "open" | "closed";
+    open(): void;
+    changed: (state: "open" | "closed") => void;
+  };
   sambotVizLook?: Record<string, number>;
   /** The type of view that rviz_mouse.js follows, for tests. */
   sambotVizMouse?: { kind: string };

@@ -1,7 +1,7 @@
 // @ts-check
 /* What the page says when it has lost its connection to the server, and when it is back.
- * Both connections are tried again once a second. A browser slows that down after some failures,
- * until viser never gets through: then the page is loaded again, with view and folds.
+ * Both connections are tried again as retries.js says. When the server answers and they do not
+ * get through all the same, the page is loaded again, with view and folds.
  * So it is when a user comes back to a page that the browser has kept while another address
  * was shown: it would stay connected, and count as one that is looked at. */
 
@@ -30,6 +30,7 @@ import {
   showView,
   withoutRobot,
 } from "./reconnect.js";
+import { retries } from "./retries.js";
 import { hasDisk } from "../window/files.js";
 import { Cell, folds, useData, useRow } from "../state.js";
 
@@ -43,9 +44,8 @@ const KEPT = "sambot-viz-again";
 /** How long the page says that the connection is back [ms]. */
 const BACK = 8000;
 
-/** What is said over the view: that the connection is lost, that the server does not let this
- * page in any more, or what came back.
- * @type {Cell<"lost" | "refused" | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
+/** What is said over the view: that there is no connection, or what came back.
+ * @type {Cell<import("./retries.js").State | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
 const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
@@ -62,18 +62,23 @@ export function followConnection() {
     lost = true;
     before = remember();
     goOffline();
-    said.set("lost");
-    watchServer(
-      () => lost,
-      () => {
-        stuck = true;
-        location.reload();
-      },
-    );
+    said.set({ tries: 0, status: 0, ended: false });
   };
   rows.listen(CUT, cut);
+  let answered = 0;
+  retries.listeners.push((state) => {
+    // A page that has just been opened may wait for its turn.
+    if (lost || state.tries > 2) said.set({ ...state });
+    if (state.status !== 200 || window.sambotViser?.state === "open") answered = 0;
+    else answered ||= Date.now();
+    if (lost && answered && Date.now() - answered > STUCK) {
+      stuck = true;
+      location.reload();
+    }
+  });
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
+    if (said.value && "tries" in said.value) said.set(null);
     if (!before || !(lost || kept)) return;
     const then = before,
       silent = kept && !kept.stuck,
@@ -155,23 +160,6 @@ function keep(kept) {
   }
 }
 
-/** Look whether the server answers, and whether it still knows the token of this page.
- * @param {() => boolean} lost @param {() => void} startAgain loads the page again */
-function watchServer(lost, startAgain) {
-  let answered = 0;
-  const look = setInterval(async () => {
-    if (!lost()) return clearInterval(look);
-    const status = await fetch("./", { cache: "no-cache" }).then(
-      (answer) => answer.status,
-      () => 0,
-    );
-    if (lost()) said.set(status === 401 ? "refused" : "lost");
-    if (status !== 200) answered = 0;
-    else if (!answered) answered = Date.now();
-    else if (lost() && Date.now() - answered > STUCK) startAgain();
-  }, STUCK / 3);
-}
-
 /** What the page has kept, once. @returns {Kept | null} */
 function takeKept() {
   try {
@@ -205,15 +193,15 @@ function openAgain(before) {
 export function Connection() {
   const now = said.use();
   return html`<div class="connection" role="status" aria-live="assertive">
-    ${typeof now === "string" ? html`<${Lost} refused=${now === "refused"} />` : now && html`<${Back} ...${now} />`}</div>`;
+    ${now && ("tries" in now ? html`<${Lost} ...${now} />` : html`<${Back} ...${now} />`)}</div>`;
 }
 
-/** @param {{refused: boolean}} props */
-function Lost({ refused }) {
+/** How often the page has tried when it offers to try at once. */
+const MANY = 3;
+
+/** @param {import("./retries.js").State} state */
+function Lost({ tries, status, ended }) {
   useRow(WAITING);
-  if (refused)
-    return html`<p class="l-error">The program was started again with another link.
-      Ask for the new one.</p>`;
   const count = heldBack().length;
   const waits =
     count > 1
@@ -221,7 +209,17 @@ function Lost({ refused }) {
       : count
         ? " A change waits and is sent then."
         : "";
-  return html`<p class="l-error">Connection lost. Trying again…${waits}</p>`;
+  const words =
+    status === 401
+      ? "The program was started again with another link. Ask for the new one."
+      : ended
+        ? "Connection lost. The program does not answer."
+        : `Connection lost. Trying again…${waits}`;
+  return html`<p class="l-error">${words}
+    ${
+      (ended || status === 401 || tries > MANY) &&
+      html`<button onClick=${() => retries.now()}>Try again</button>`
+    }</p>`;
 }
 
 /** @param {{text: string, lost: string[], other: Memory["file"] | null, before: Memory}} props */

@@ -5,9 +5,9 @@
  * knows that both belong to one client. The server closes it when viser's connection ends.
  */
 
+import { retries } from "./retries.js";
+
 const SUBPROTOCOL = "sambot-viz-1";
-/** How long after the end of a connection the page tries again, at first and later [ms]. */
-const RETRIES = [100, 1000];
 /** How often the page asks whether the server is there [ms]. */
 const HEARTBEAT = 10_000;
 /** How long it may take to answer [ms]. */
@@ -29,9 +29,9 @@ export class Socket {
     this.ready = false;
     /** When the server was heard last. */
     this.heard = 0;
-    this.failed = 0;
     /** @type {WebSocket | null} */
     this.socket = null;
+    retries.parts.push(this);
     this.open();
     setInterval(() => this.ask(), HEARTBEAT);
     // After a sleep or a change of networks the page need not wait for its turn.
@@ -41,7 +41,13 @@ export class Socket {
     });
   }
 
+  /** Whether there is a connection that may still bring the first message. */
+  get opening() {
+    return this.socket !== null && !this.ready;
+  }
+
   open() {
+    this.drop();
     const socket = new WebSocket(this.address, [SUBPROTOCOL]);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
@@ -65,18 +71,26 @@ export class Socket {
 
   /** @param {any} message */
   take(message) {
-    this.failed = 0;
-    this.ready = true;
+    if (!this.ready) {
+      this.ready = true;
+      retries.back();
+    }
     this.follower.take(message);
   }
 
-  /** The connection is lost: try again, until the page is closed. */
+  /** The connection is lost, or did not come. */
   end() {
+    this.drop();
+    retries.lost();
+  }
+
+  /** Have no connection. */
+  drop() {
     const was = this.ready;
+    this.socket?.close();
     this.socket = null;
     this.ready = false;
     if (was) this.follower.lost();
-    setTimeout(() => this.open(), RETRIES[Math.min(this.failed++, RETRIES.length - 1)]);
   }
 
   /** Ask whether the server is there, and give the connection up when it does not answer. */
@@ -89,7 +103,6 @@ export class Socket {
       if (this.socket !== socket || this.heard >= at) return;
       // This timer ran late, perhaps after a sleep: what has come meanwhile was not read yet.
       if (Date.now() - at > 2 * ANSWER) return this.ask();
-      socket.close();
       this.end();
     }, ANSWER);
   }
@@ -104,6 +117,7 @@ export class Socket {
     const { socket } = this;
     this.socket = null;
     this.ready = false;
+    retries.leave();
     socket?.close(PAGE_LEFT);
   }
 }
