@@ -386,6 +386,7 @@ HOLDERS = {
     "panels/browser.py",
     "panels/window.py",
     "scripting/camera.py",
+    "scripting/displays.py",
     "scripting/events.py",
     "server/reload.py",
     "server/sessions.py",

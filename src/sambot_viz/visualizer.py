@@ -12,7 +12,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import viser
 
-from sambot_viz.errors import JointError, RobotError, ServerError, did_you_mean
+from sambot_viz.errors import JointError, RobotError, did_you_mean
 from sambot_viz.export.page_file import ViewState, ask_page, page_file
 from sambot_viz.files import write_atomically
 from sambot_viz.flags import keyword_help
@@ -25,6 +25,7 @@ from sambot_viz.options import Options
 from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.scripting.camera import CameraControl
+from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
@@ -151,6 +152,7 @@ class Visualizer:
             ask_page,
         )
         self._camera = CameraControl(self._server.sessions)
+        self._displays = Displays(self._server.sessions)
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
                 self._server.sessions.show_panels()
@@ -251,6 +253,11 @@ class Visualizer:
     def camera(self) -> CameraControl:
         """The camera of all pages: ``viz.camera.look_at("base_link", (2, 1, 1))``."""
         return self._camera
+
+    @property
+    def displays(self) -> Displays:
+        """The displays: ``viz.displays["TF"].set("Show Names", False)``."""
+        return self._displays
 
     def set_joint_positions(self, positions: Positions) -> None:
         """Move some joints, in every browser.
@@ -360,10 +367,7 @@ class Visualizer:
         self.stop()
 
     def _first(self) -> Session:
-        sessions = self._server.sessions.all()
-        if not sessions:
-            raise ServerError("no browser has opened a private session yet")
-        return sessions[0]
+        return first(self._server.sessions)
 
 
 def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:

@@ -9,13 +9,13 @@ import numpy as np
 from sambot_viz.errors import (
     FrameError,
     SambotVizError,
-    ServerError,
     UsageError,
     did_you_mean,
 )
 from sambot_viz.geometry import finite
 from sambot_viz.rviz import FIXED_FRAME, ViewConfig
 from sambot_viz.rviz.declarations import short_name
+from sambot_viz.scripting.displays import first, for_all
 from sambot_viz.server.sessions import Sessions
 from sambot_viz.session import Session
 from sambot_viz.views.camera import Vector, length
@@ -112,21 +112,20 @@ class CameraControl:
 
     def _change(self, change: Callable[[Session], None]) -> None:
         """Change the view of every session; an error changes nothing in its session."""
-        sessions = self._sessions.all(copies=False)
-        if not sessions:
-            raise ServerError("no browser has opened a private session yet")
-        for session in sessions:
-            with session.change():
-                config = session.document.config
-                before = config.detached_view()
-                try:
-                    session.clients.store_view()
-                    change(session)
-                except SambotVizError:
-                    config.store_view(before)
-                    raise
-                session.clients.show_view()
-        self._first = sessions[0].document.config.detached_view()
+
+        def change_one(session: Session) -> None:
+            config = session.document.config
+            before = config.detached_view()
+            try:
+                session.clients.store_view()
+                change(session)
+            except SambotVizError:
+                config.store_view(before)
+                raise
+            session.clients.show_view()
+
+        for_all(self._sessions, change_one)
+        self._first = first(self._sessions).document.config.detached_view()
 
     def _begin(self, session: Session) -> None:
         """Let a private session that is opened now begin with the same view."""
