@@ -115,11 +115,13 @@ ROOMS: Mapping[str, Row] = {
     ),
     "export": Row(
         "displays frames joints meshes page robot server session views viser_private",
-        "numpy viser websockets",
+        "PIL numpy viser websockets",
         "asyncio concurrent signal subprocess threading",
     ),
     # What programs and people start it with.
-    "scripting": Row("displays frames robot rviz server session views", "numpy viser"),
+    "scripting": Row(
+        "displays export frames robot rviz server session views", "numpy viser"
+    ),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints options "
         "problems robot rviz server session visualizer",

@@ -27,6 +27,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.scripting.camera import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
+from sambot_viz.scripting.files import picture_of
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.model_thread import ModelThread
@@ -319,6 +320,26 @@ class Visualizer:
         transform = Transform.of(xyz, rpy)
         for session in self._server.sessions.all(copies=False):
             session.frames.add(parent, child, transform)
+
+    def snapshot(self, path: Path | str, *, size: tuple[int, int] = (800, 600)) -> None:
+        """Write the 3D view as a PNG, without a page that is open.
+
+        A Chromium or Chrome of this machine draws it, from where a page begins: see
+        `camera`. It takes some seconds, in which it is one of the viewers; the robot
+        has to be at rest. What a program has added to `viser` is in the picture.
+
+        Args:
+            path: the file, which is written whole or not at all.
+            size: width and height [pixels].
+
+        Raises:
+            BrowserError: no Chromium was found (the message says how to get one, or
+                to name it), or it ended.
+            ServerError: it did not show everything in time.
+            UsageError: the size makes no sense, or the sessions are private.
+            OSError: the file cannot be written.
+        """
+        write_atomically(Path(path), picture_of(self._server, size))
 
     def export(self, path: Path | str, *, sweep: bool = True) -> None:
         """Write what is shown as one HTML file that needs no server.

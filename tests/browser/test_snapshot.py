@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from sambot_viz import Visualizer
 from sambot_viz.cli import main
 
 BACKGROUND = (48, 48, 48)
@@ -42,3 +44,20 @@ def test_the_robot_is_10_m_away_as_in_rviz_unless_it_is_to_fit(tmp_path: Path) -
         heights.append(np.ptp(np.flatnonzero(body.any(axis=1))))
     assert heights[0] < 240 / 10
     assert 240 / 3 < heights[1] < 240 * 0.75
+
+
+def test_a_program_takes_a_picture_with_its_own_nodes_in_it(
+    make_viz: Callable[..., Visualizer], tmp_path: Path
+) -> None:
+    viz = make_viz(token="a-secret-word")
+    viz.viser.scene.add_box(
+        "/own", color=(255, 0, 255), dimensions=(0.2, 0.2, 0.2), position=(0, 0, 0.4)
+    )
+    viz.camera.look_at((0.0, 0.0, 0.4), (2.0, 0.0, 0.4))
+    file = tmp_path / "own.png"
+    viz.snapshot(file, size=(160, 120))
+    with Image.open(file) as image:
+        assert image.size == (160, 120)
+        pixels = np.asarray(image.convert("RGB")).astype(int)
+    red, green, blue = pixels[60, 80]
+    assert min(red, blue) > green + 100

@@ -366,7 +366,7 @@ def test_a_flood_is_slowed_down_and_its_rest_keeps_nobody_waiting(
     gone = threading.Event()
     with Visualizer(port=0) as viz:
         client = protocol(viz.viser.get_port())
-        viz.server.sessions.wait_for_browser(10.0)
+        client.wait_until(lambda: bool(viz.viser.get_clients()))
         viz.viser.on_client_disconnect(lambda _: gone.set())
         # So few that the end of the connection is read behind them.
         for _ in range(12):

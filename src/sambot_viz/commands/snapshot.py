@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 import signal
 import sys
@@ -20,6 +19,7 @@ from sambot_viz.commands.command_line import (
     warn,
 )
 from sambot_viz.errors import UsageError
+from sambot_viz.export import LARGEST_SIDE
 from sambot_viz.files import write_atomically
 from sambot_viz.inputs import Inputs
 from sambot_viz.problems import write_problems
@@ -27,9 +27,6 @@ from sambot_viz.problems import write_problems
 if TYPE_CHECKING:
     from sambot_viz.export.view_picture import Picture
     from sambot_viz.session.scene.scene import Scene
-
-LARGEST = 8192
-"""Longest side of a picture [pixels]: the limit of software WebGL."""
 
 
 def run(words: list[str]) -> int:
@@ -116,18 +113,16 @@ def _size(text: str) -> tuple[int, int]:
     if match is None:
         raise UsageError(f"--size {text} is not a size in pixels, such as 800x600")
     width, height = int(match[1]), int(match[2])
-    if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
-        raise UsageError(f"--size {text}: each side must be 1 to {LARGEST} pixels")
+    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
+        raise UsageError(f"--size {text}: each side must be 1 to {LARGEST_SIDE} pixels")
     return width, height
 
 
 def _write(path: Path, picture: Picture) -> None:
     """Write the file, whole or not at all."""
-    from PIL import Image
+    from sambot_viz.export.view_picture import png
 
-    encoded = io.BytesIO()
-    Image.fromarray(picture).save(encoded, format="PNG")
     try:
-        write_atomically(path, encoded.getvalue())
+        write_atomically(path, png(picture))
     except OSError as error:
         raise UsageError(f"cannot write '{path}': {error.strerror}") from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import time
 
 import numpy as np
@@ -20,6 +21,7 @@ Picture = npt.NDArray[np.uint8]
 LONGEST_WAIT = 60.0
 """For the page to show everything [s]; software rendering takes its time."""
 
+_TICKET = "new URL(sambotSocket).searchParams.get('ticket')"
 _EVERYTHING_IS_THERE = """(() => {
   const look = window.sambotVizLook, page = window.__viserMutable;
   if (!look || !page || !look.frames) return false;
@@ -53,9 +55,9 @@ def snapshot(
         ServerError: the page did not show everything in time.
     """
     end = time.monotonic() + LONGEST_WAIT
-    page = chromium.open(f"{server.url}/?fixedDpr=1", width=width, height=height)
+    page = chromium.open(_address(server.url), width=width, height=height)
     try:
-        client = server.sessions.wait_for_browser(LONGEST_WAIT)
+        client = server.sessions.wait_for_page(page.evaluate(_TICKET), LONGEST_WAIT)
         server.sessions.wait_for_meshes(max(1.0, end - time.monotonic()))
         nodes = server.node_count()
         page.wait_for(
@@ -88,6 +90,20 @@ def snapshot(
     finally:
         page.close()
     raise ServerError(f"the page did not show everything within {LONGEST_WAIT:g} s")
+
+
+def _address(url: str) -> str:
+    """Return the address of a page whose pixels are those of its picture."""
+    return f"{url}&fixedDpr=1" if "?" in url else f"{url}/?fixedDpr=1"
+
+
+def png(picture: Picture) -> bytes:
+    """Return a picture as the bytes of a PNG file."""
+    from PIL import Image
+
+    encoded = io.BytesIO()
+    Image.fromarray(picture).save(encoded, format="PNG")
+    return encoded.getvalue()
 
 
 def _place(client: viser.ClientHandle) -> tuple[float, ...]:

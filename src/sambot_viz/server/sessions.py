@@ -224,16 +224,29 @@ class Sessions:
             # What was saved is shown to the others all the same.
             _log.exception("a session could not show the problems of a save")
 
-    def wait_for_browser(self, timeout: float) -> viser.ClientHandle:
-        """The browser that came last, as soon as there is one.
+    def wait_for_page(self, ticket: str, timeout: float) -> viser.ClientHandle:
+        """The client of a page, as soon as it is there.
+
+        Args:
+            ticket: which page (see `ClientContext`).
+            timeout: how long to wait [s].
 
         Raises:
-            ServerError: none came in time.
+            ServerError: it did not come in time.
         """
+
+        def find() -> viser.ClientHandle | None:
+            clients = self._server.get_clients().values()
+            fitting = (
+                c for c in clients if self._context(c.client_id).ticket == ticket
+            )
+            return next(fitting, None)
+
         with self._joined:
-            if not self._joined.wait_for(self._server.get_clients, timeout):
-                raise ServerError(f"no browser opened the page within {timeout:g} s")
-            return list(self._server.get_clients().values())[-1]
+            found = self._joined.wait_for(find, timeout)
+        if found is None:
+            raise ServerError(f"no browser opened the page within {timeout:g} s")
+        return found
 
     def wait_for_meshes(self, timeout: float) -> None:
         """Return when every model, mesh file and texture is read and drawn.
