@@ -390,6 +390,7 @@ HOLDERS = {
     "scripting/camera.py",
     "scripting/displays.py",
     "scripting/events.py",
+    "scripting/links.py",
     "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",

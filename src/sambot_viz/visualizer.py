@@ -28,6 +28,7 @@ from sambot_viz.scripting.camera import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.scripting.files import picture_of
+from sambot_viz.scripting.links import FrameControl, LinkControl, Links
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.model_thread import ModelThread
@@ -154,6 +155,7 @@ class Visualizer:
         )
         self._camera = CameraControl(self._server.sessions)
         self._displays = Displays(self._server.sessions)
+        self._links = Links(self._server.sessions)
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
                 self._server.sessions.show_panels()
@@ -259,6 +261,28 @@ class Visualizer:
     def displays(self) -> Displays:
         """The displays: ``viz.displays["TF"].set("Show Names", False)``."""
         return self._displays
+
+    def link(self, name: str) -> LinkControl:
+        """Return a link of the robot, to colour it or to hang nodes of viser below it.
+
+        ::
+
+            viz.link("laser").color = (255, 0, 0)
+            viz.viser.scene.add_label(f"{viz.link('laser').node}/text", "laser")
+
+        Raises:
+            UsageError: the robot has no such link.
+        """
+        return self._links.link(name)
+
+    def frame(self, name: str) -> FrameControl:
+        """Return a frame, to hang nodes of viser below it: see `FrameControl.node`.
+
+        Raises:
+            FrameError: there is no such frame.
+            ServerError: no browser has opened a private session yet.
+        """
+        return self._links.frame(name)
 
     def set_joint_positions(self, positions: Positions) -> None:
         """Move some joints, in every browser.

@@ -21,11 +21,13 @@ from sambot_viz.displays.picking.pick_geometry import Corners, PickGeometry, Sel
 from sambot_viz.displays.robot_display import ModelReader, RobotDisplay
 from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
+from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, EntryItem, Property
 
+HIGHLIGHT: Rgb = (255, 224, 0)
 Level = Literal["Ok", "Warn", "Error"]
 _ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
 
@@ -124,6 +126,9 @@ class DisplayContext:
         models: reads other models, for a RobotModel from a file.
         config_file: the .rviz file that the command line opened, or None.
         trusted_files: the models that it named before a browser could change it.
+        link_colors: link of that robot → the colour that a program has given it, 0 to
+            255.
+        highlighted: links of that robot that a program highlights.
         apply: runs a function that draws, from any thread, and sends what it draws.
     """
 
@@ -138,7 +143,15 @@ class DisplayContext:
     models: ModelReader | None = None
     config_file: Path | None = None
     trusted_files: frozenset[str] = frozenset()
+    link_colors: dict[str, Rgb] = field(default_factory=dict[str, Rgb])
+    highlighted: set[str] = field(default_factory=set[str])
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
+
+    def color_of(self, link: str) -> Rgb | None:
+        """Return the colour in place of a link's own, if a program has set one."""
+        if link in self.highlighted:
+            return HIGHLIGHT
+        return self.link_colors.get(link)
 
     def frame(self, name: object) -> str:
         """Return the frame a Reference Frame property means."""

@@ -71,7 +71,7 @@ def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:
     models = None if scene.models is None else _Models(scene.models)
     worker, audience = _Nobody(cast(Any, None)), cast(Any, recorder)
     session = Session(audience, worker, scene.config, scene.meshes, models)
-    session.trust(scene)
+    session.prepare(scene)
     session.document.show()
     if scene.robot is not None:
         session.show_robot(scene.robot)

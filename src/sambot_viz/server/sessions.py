@@ -283,7 +283,7 @@ class Sessions:
         )
         connect([session.scene.statuses], self._tell_files)
         if copy is not None:
-            session.trust(copy)
+            session.prepare(copy)
         session.document.show()
         own = copy is not None and copy.own_model
         robot = copy.robot if copy is not None and own else self.robot

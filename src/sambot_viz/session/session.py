@@ -171,18 +171,24 @@ class Session:
                 trusted_files=context.trusted_files,
                 robot=self.robot.model,
                 own_model=self.own_model,
+                link_colors=dict(context.link_colors),
+                highlighted=frozenset(context.highlighted),
                 trail=self.drive.trail,
                 models=context.models,
                 meshes=context.assets.cache,
             )
 
-    def trust(self, copy: SessionCopy) -> None:
-        """Trust, before anything is drawn, the models that the copied session trusts.
+    def prepare(self, copy: SessionCopy) -> None:
+        """Take, before anything is drawn, what a program has set in a copied session.
 
-        Its document may name others, which a client has chosen.
+        The models that it trusts are trusted here; its document may name others, which
+        a client has chosen.
         """
-        self.scene.context.config_file = copy.config_file
-        self.scene.context.trusted_files = copy.trusted_files
+        context = self.scene.context
+        context.config_file = copy.config_file
+        context.trusted_files = copy.trusted_files
+        context.link_colors.update(copy.link_colors)
+        context.highlighted.update(copy.highlighted)
 
     def take(self, copy: SessionCopy) -> None:
         """Put joints and frames where they are in a copy."""

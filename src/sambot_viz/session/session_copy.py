@@ -29,6 +29,8 @@ class SessionCopy:
         trusted_files: the models that it named before a client could change it.
         robot: the robot, if there is one.
         own_model: whether it is the session's own, and not the server's.
+        link_colors: link → the colour that a program has given it, 0 to 255.
+        highlighted: the links that a program highlights.
         trail: where the robot was driven, x, y [m] in odom.
         models: reads further models.
         meshes: mesh files that are read already.
@@ -42,6 +44,8 @@ class SessionCopy:
     trusted_files: frozenset[str]
     robot: Robot | None
     own_model: bool
+    link_colors: Mapping[str, tuple[int, int, int]]
+    highlighted: frozenset[str]
     trail: tuple[tuple[float, float], ...]
     models: ModelReader | None
     meshes: MeshCache

@@ -85,11 +85,13 @@ class RobotModelDisplay(TriangleDisplay):
             above = self.context.nodes.path(frame) if connected else ""
             own = entries.link(link.name)
             opacity = alpha * own.get("Alpha") if connected else 1.0
+            color = None if self.own_robot else self.context.color_of(link.name)
             for kind, index, shape in _shapes_of(link):
                 key = (link.name, kind, index)
                 wanted.add(key)
                 node = self._node(key, above or "", shape)
-                node.draw(ShapeLook(on[kind] and own.get(BOX), opacity, not connected))
+                shown = on[kind] and own.get(BOX)
+                node.draw(ShapeLook(shown, opacity, not connected, color))
         for key in [key for key in self._shapes if key not in wanted]:
             self._shapes.pop(key)[1].remove()
         wanted_overlays = Wanted(

@@ -176,11 +176,17 @@ class ShapeNode:
 
     def _must_resend(self, look: ShapeLook) -> bool:
         before = self._look
-        same = before is not None and (before.alpha, before.error) == (
-            look.alpha,
-            look.error,
-        )
+        if before is None or before.textured != look.textured:
+            return self._has_texture
+        same = before.alpha == look.alpha
         return not same and any(piece.textured for piece in self._pieces)
+
+    @property
+    def _has_texture(self) -> bool:
+        content = self._content
+        if isinstance(content, Mesh):
+            return any(part.texture is not None for part in content.parts)
+        return isinstance(content, Texture)
 
     def _create(self, look: ShapeLook) -> None:
         pose = _placing(self._shape.origin.matrix)
@@ -189,7 +195,7 @@ class ShapeNode:
             self._create_mesh(geometry, look, pose)
             return
         part = None
-        if isinstance(self._content, Texture) and not look.error:
+        if isinstance(self._content, Texture) and look.textured:
             part = textured(geometry, self._content)
         if part is not None:
             self._add_part(self._name, part, WHITE, look, pose)
@@ -253,7 +259,7 @@ class ShapeNode:
     ) -> None:
         """A mesh of one colour, or a GLB when it has a texture."""
         color = rgb255(rgba)
-        textured = part.texture is not None and not look.error
+        textured = part.texture is not None and look.textured
         if textured:
             handle = self._scene.add_glb(
                 name, shared_glb(part, rgba, look.alpha), **pose

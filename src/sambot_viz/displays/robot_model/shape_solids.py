@@ -49,11 +49,18 @@ class ShapeLook:
         visible: drawn at all.
         alpha: display alpha times link alpha; the material's own comes on top.
         error: white, opaque and unlit, because its link has no transform.
+        color: in place of its own, 0 to 255; a program has chosen it for the link.
     """
 
     visible: bool
     alpha: float
     error: bool = False
+    color: Rgb | None = None
+
+    @property
+    def textured(self) -> bool:
+        """Return whether textures are drawn."""
+        return not self.error and self.color is None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +90,9 @@ class ShapePiece:
         if not isinstance(self.handle, Painted):
             return
         # viser sends no value twice, but takes longer to find that out than to send it.
-        if before is None or look.error != before.error:
-            self.handle.color = ERROR_WHITE if look.error else self.color
+        if before is None or (look.error, look.color) != (before.error, before.color):
+            own = self.color if look.color is None else look.color
+            self.handle.color = ERROR_WHITE if look.error else own
             self.handle.material = UNLIT if look.error else "standard"
         opacity = None if look.error else _opacity_of(look.alpha * self.alpha)
         self.handle.opacity = opacity

@@ -16,6 +16,7 @@ from sambot_viz.frames import FrameTree
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import ConfigItem, DisplayConfig
+from sambot_viz.session.scene.anchors import Anchors
 from sambot_viz.session.signals import Audience, Change, Signal, connect
 
 
@@ -32,6 +33,7 @@ class Scene:
 
     Attributes:
         context: what displays draw with.
+        anchors: nodes of a program that move with frames.
         displays: the supported displays of the document, in its order.
         statuses: what displays report, and what has been read for them.
         frames: the frames that are drawn, their parents and poses, and the fixed frame;
@@ -56,6 +58,7 @@ class Scene:
             models=models,
             apply=self._apply,
         )
+        self.anchors = Anchors(self.context)
         self.displays: list[Display] = []
         self.statuses = Signal(change, None)
         self.frames = Signal(change, None)
@@ -119,6 +122,7 @@ class Scene:
         """Draw after a change of frames or of the fixed frame."""
         self._tree_drawn = self.context.tree.version
         self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
+        self.anchors.place()
         self.redraw()
         self.frames.touch()
 
@@ -138,6 +142,7 @@ class Scene:
     def place(self, frames: Set[str]) -> None:
         """Send the poses of frames that moved."""
         self.context.nodes.place(self.context.tree, self.context.fixed_frame, frames)
+        self.anchors.place()
         for display in self.displays:
             display.frames_moved(frames)
 
