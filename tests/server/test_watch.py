@@ -256,10 +256,10 @@ def test_what_counts_is_asked_only_when_it_may_have_changed(
         assert next(asked) == 1
         # It was read, then saved, and only then it is told that it counts.
         files.append(later)
-        later.write_text("new", "utf-8")
+        replace(later, "new")
         watcher.ask_again()
         assert changes.get(timeout=10) == {later}
-        later.write_text("newer", "utf-8")
+        replace(later, "newer")
         assert changes.get(timeout=10) == {later}
         assert next(asked) == 3
     finally:
@@ -285,14 +285,14 @@ def test_what_a_callback_reads_counts_from_then_on_and_once(
     watcher = FileWatcher(lambda: Watched(frozenset(files)), changed, lambda _: None)
     watcher.start()
     try:
-        part.write_text("old", "utf-8")
+        replace(part, "old")
         # Times of files may be some milliseconds behind the clock.
         time.sleep(0.2)
-        first.write_text("new", "utf-8")
+        replace(first, "new")
         assert changes.get(timeout=10) == {first}
-        first.write_text("newer", "utf-8")
+        replace(first, "newer")
         assert changes.get(timeout=10) == {first}
-        part.write_text("newer", "utf-8")
+        replace(part, "newer")
         assert changes.get(timeout=10) == {part}
     finally:
         watcher.close()
@@ -490,7 +490,7 @@ def test_each_private_session_follows_and_a_later_one_shows_the_mistake(
     content = model.read_text("utf-8")
 
     def told(client: ProtocolClient) -> bool:
-        return any("last good version" in str(m.fields) for m in client.messages)
+        return any("last valid version" in str(m.fields) for m in client.messages)
 
     with Visualizer(model, watch=True, session="private") as viz:
         port = int(viz.url.rsplit(":", 1)[1])
@@ -557,7 +557,7 @@ def test_what_is_not_a_file_in_place_of_the_model_ends_nothing(
 def test_a_model_that_is_deleted_is_said_to_be_gone(sam_bot: Followed) -> None:
     content = sam_bot.model.read_text("utf-8")
     sam_bot.model.unlink()
-    gone = "Showing the last good version: sam_bot.urdf.xacro is gone."
+    gone = "Showing the last valid version: sam_bot.urdf.xacro is gone."
     sam_bot.wait_for(lambda: sam_bot.session.problems.shown.value.note == gone)
     replace(sam_bot.model, content)
     sam_bot.wait_for(lambda: sam_bot.session.problems.shown.value.note == "")
