@@ -177,9 +177,9 @@ class Options:
     presenter: str | None = option(
         None,
         "presenter mode: print a second, secret link; only its holder can change the "
-        "robot. Others watch, can request control, or open a private copy (the secret "
-        "is generated when no VALUE is given); by default the value of the variable "
-        "SAMBOT_VIZ_PRESENTER",
+        "robot. The others are viewers: they can request control, or open a private "
+        "copy (the secret is generated when no VALUE is given); by default the value "
+        "of the variable SAMBOT_VIZ_PRESENTER",
         "--presenter",
         metavar="=VALUE",
         optional_value="=",

@@ -50,7 +50,7 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
     user.reads("A change waits and is sent then.")
     user.unfold("Displays", "TF", "Frames")
     with Visualizer(port=port) as second:
-        user.reads("The connection is back. The program was started again.", 40.0)
+        user.reads("The connection is back. The server was restarted.", 40.0)
         user.reads("Lost: the static transform of added.")
         user.until(lambda: dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5})
         other.user.reads("The connection is back.", 40.0)

@@ -51,5 +51,5 @@ def test_a_joint_is_a_few_elements_and_a_folded_one_none(viewer: ViewerPage) -> 
         f"Math.max(...[...{ROWS}].map(row => row.querySelectorAll('*').length))"
     )
     assert most <= 12
-    viewer.user.click("button", "Fold all groups")
+    viewer.user.click("button", "Collapse all groups")
     viewer.wait_for(f"{ROWS}.length === 0")

@@ -18,7 +18,7 @@ from sambot_viz import Visualizer, bundled
 pytestmark = pytest.mark.browser
 
 LINK = "drivewhl_l_link"
-NOTE = "Showing the last good version"
+NOTE = "Showing the last valid version"
 
 
 @pytest.fixture

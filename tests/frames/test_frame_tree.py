@@ -143,7 +143,7 @@ def test_a_ring_is_refused_with_the_ring(tree: FrameTree) -> None:
     assert str(caught.value) == (
         "'base_laser' cannot be the parent of 'odom', because it is already below "
         "it and the frames would form a ring: base_laser → odom → base_link → "
-        "base_laser; turn the transform round or take the other one out"
+        "base_laser; turn the transform round or remove the other one"
     )
     assert caught.value.tf2_text == "The tf tree is invalid because it contains a loop."
     assert tree.frames == before

@@ -22,7 +22,7 @@ from sambot_viz.session.robot.drive import Drive
 from sambot_viz.views.camera import vector
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
-IN_ODOM = Answer("The fixed frame is odom now, to show the motion; Undo puts it back")
+IN_ODOM = Answer("Fixed Frame set to odom to show the motion; Undo or Reset reverts it")
 
 
 @pytest.fixture

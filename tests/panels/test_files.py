@@ -120,11 +120,11 @@ def test_an_existing_file_is_replaced_only_after_a_question(
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("", "give a name"),
-        (".rviz", "give a name"),
-        ("../up", "without folders"),
-        ("a\\b", "without folders"),
-        ("/etc/passwd", "without folders"),
+        ("", "enter a name"),
+        (".rviz", "enter a name"),
+        ("../up", "without a folder"),
+        ("a\\b", "without a folder"),
+        ("/etc/passwd", "without a folder"),
         ("CON", "Windows keeps"),
         ("lpt1.old", "Windows keeps"),
         ("what?", "cannot contain ?"),
@@ -286,8 +286,8 @@ def test_the_config_of_the_program_is_opened_again_and_fits_the_robot(
         assert (
             session_of(viz).document.config.global_options.get("Fixed Frame") == "trunk"
         )
-        assert page.sentences[-1] == "ok: Opened urdf_config.rviz of the program"
-        with pytest.raises(UsageError, match="save it as"):
+        assert page.sentences[-1] == "ok: Opened urdf_config.rviz from the program"
+        with pytest.raises(UsageError, match="save it under a name"):
             page.act("file/save", [])
 
 

@@ -122,7 +122,7 @@ def test_a_laser_is_hung_up_moved_and_removed(
     panel: FramesPanel, viz: Visualizer, said: list[tuple[str, Level]]
 ) -> None:
     edit(panel, "frames/add", [*LASER])
-    assert said == [("base_laser is set in base_link", "ok")]
+    assert said == [("Added base_laser (parent base_link)", "ok")]
     assert rows_of(panel)["static/base_laser"].value == "in base_link"
     edit(panel, "static/base_laser/xyz", [0.3, 0.0, 0.2])
     edit(panel, "static/base_laser/rpy", [0.0, 0.0, 1.0])

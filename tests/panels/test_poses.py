@@ -55,7 +55,7 @@ def test_a_pose_is_kept_in_the_file_that_is_named_when_it_is_saved(
     viz.set_joint_positions({LEFT: 1.25})
     assert send(panel, "poses/save", " half ") == Answer(f"Saved pose 'half' in {path}")
     assert names(panel) == ["half"] and remade == [panel]
-    assert data_of(panel)["poses/place"] == f"Kept in {path}."
+    assert data_of(panel)["poses/place"] == f"Saved in {path}."
     with Visualizer(port=0, poses=path) as again:
         other = panel_of(PosesPanel, session_of(again), remake=remade.append)
         send(other, "poses/use", "half")
@@ -124,7 +124,7 @@ def test_a_visitor_keeps_poses_in_memory_only(
 ) -> None:
     session.poses = session.poses.in_memory()
     panel = panel_of(PosesPanel, session)
-    assert data_of(panel)["poses/place"] == "Kept in memory only."
+    assert data_of(panel)["poses/place"] == "Saved in memory only."
     assert send(panel, "poses/save", "half") == Answer(
         "Saved pose 'half' in memory only"
     )

@@ -48,7 +48,7 @@ def test_a_link_has_its_facts(panel: SelectionPanel, client: Client) -> None:
     assert found["Joint"].startswith("drivewhl_l_joint (continuous)")
     assert found["Visual"].startswith("Cylinder of radius 0.1 m")
     assert found["Orientation"].endswith("(xyzw)")
-    assert ".xacro:" in found["Written at"]
+    assert ".xacro:" in found["Defined at"]
 
 
 def test_a_motion_changes_the_values_only(
@@ -111,4 +111,4 @@ def test_the_body_has_a_mass_and_children(
     assert found["Mass"] == "2.5 kg"
     assert found["Children"] == "post"
     assert found["Child joints"] == "stands"
-    assert found["Written at"] == "post.urdf:2"
+    assert found["Defined at"] == "post.urdf:2"

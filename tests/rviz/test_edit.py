@@ -128,7 +128,7 @@ def test_a_removed_display_is_put_back_where_it_was(parse: Parse) -> None:
         assert config.to_yaml() == TREE
     of_inner = config.remove(inner)
     config.remove(group)
-    with pytest.raises(UsageError, match="is not in this config any more"):
+    with pytest.raises(UsageError, match="is no longer in this config"):
         config.put_back(of_inner)
 
 

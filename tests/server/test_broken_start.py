@@ -122,7 +122,8 @@ def test_a_broken_model_is_shown_by_its_problem_and_by_its_robot_once_it_is_fixe
         assert code in shown.codes
         assert shown.session.robot.model is None
         assert (
-            "appears as soon as it is fixed" in shown.session.problems.shown.value.note
+            "The robot appears once it is fixed"
+            in shown.session.problems.shown.value.note
         )
 
         (tmp_path / fix).parent.mkdir(exist_ok=True)
@@ -225,7 +226,7 @@ def test_a_broken_config_gives_the_default_displays_and_cannot_be_written_over(
     with showing(model, config) as shown:
         session = shown.session
         assert shown.config_codes
-        assert "its displays appear as soon as" in session.problems.shown.value.note
+        assert "Its displays appear once" in session.problems.shown.value.note
         assert len(session.scene.displays) == 3
         assert session.scene.context.fixed_frame == "hull"
         assert session.document.config.file == str(bundled.config_path())

@@ -46,8 +46,10 @@ def test_while_a_save_has_a_mistake_all_else_stays_listed(session: Session) -> N
 def test_a_note_says_what_is_shown_instead(session: Session) -> None:
     assert session.problems.shown.value.note == ""
     session.problems.set_saves("model", [MISTAKE])
-    assert session.problems.shown.value.note.startswith("Showing the last good version")
+    assert session.problems.shown.value.note.startswith(
+        "Showing the last valid version"
+    )
     session.problems.set_saves("config", [MISTAKE])
-    assert "config has a mistake" in session.problems.shown.value.note
+    assert "config has an error" in session.problems.shown.value.note
     session.problems.set_saves("model", [])
-    assert session.problems.shown.value.note.startswith("The config has a mistake")
+    assert session.problems.shown.value.note.startswith("The config has an error")

@@ -26,13 +26,13 @@ class GroupDisplay(Display):
         """A group has no picture of its own."""
 
 
-REASON = "needs the data of a running robot, which this version does not receive"
+REASON = "needs live ROS data, which this version does not receive"
 
 NOT_SHOWN: dict[str, str] = {
     f"rviz_default_plugins/{name}": sentence
     for name, sentence in {
         "AccelStamped": "An acceleration as arrows.",
-        "Camera": "The picture of a camera with the scene over it.",
+        "Camera": "A camera image with the scene overlaid.",
         "CameraInfo": "What a camera sees, as a pyramid.",
         "DepthCloud": "The points of a depth image.",
         "Effort": "The efforts of the joints as arrows about their axes.",
@@ -41,19 +41,19 @@ NOT_SHOWN: dict[str, str] = {
         "Illuminance": "Brightnesses as coloured points.",
         "Image": "The picture of a camera in a window.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
-        "LaserScan": "The points that a laser scanner meets.",
+        "LaserScan": "The points that a laser scanner measures.",
         "Map": "An occupancy grid, such as a map or a costmap.",
         "Marker": "Shapes and texts that a program draws.",
         "MarkerArray": "Many shapes and texts that a program draws.",
-        "Odometry": "Where a robot was and is, as arrows or axes.",
-        "Path": "The line along which a robot is to drive.",
+        "Odometry": "Current and past robot poses, as arrows or axes.",
+        "Path": "The path that a robot is to follow.",
         "PointCloud": "Points, in the older kind of message.",
         "PointCloud2": "Points, such as those of a 3D scanner.",
         "PointStamped": "A single point.",
         "Polygon": "The outline of a polygon, such as a footprint.",
         "Pose": "A pose as an arrow or as axes.",
-        "PoseArray": "Many poses, such as the guesses of a localisation.",
-        "PoseWithCovariance": "A pose with how uncertain it is.",
+        "PoseArray": "Many poses, such as the particles of a localisation.",
+        "PoseWithCovariance": "A pose with its uncertainty.",
         "Range": "What an ultrasonic or infrared sensor measures, as a cone.",
         "RelativeHumidity": "Humidities as coloured points.",
         "Temperature": "Temperatures as coloured points.",

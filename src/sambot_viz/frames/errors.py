@@ -61,7 +61,7 @@ class FrameCycleError(FrameError):
         super().__init__(
             f"'{ring[0]}' cannot be the parent of '{ring[1]}', because it is "
             f"already below it and the frames would form a ring: {' → '.join(ring)}; "
-            "turn the transform round or take the other one out"
+            "turn the transform round or remove the other one"
         )
 
 

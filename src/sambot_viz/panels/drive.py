@@ -157,7 +157,7 @@ class DrivePanel(Panel):
         if not shown:
             return None
         return Answer(
-            f"The fixed frame is {ODOM} now, to show the motion; Undo puts it back"
+            f"Fixed Frame set to {ODOM} to show the motion; Undo or Reset reverts it"
         )
 
 

@@ -132,7 +132,7 @@ class FilesPanel(Panel):
     @property
     def _disk(self) -> Files:
         if self._files is None:
-            raise UsageError("visitors can only download")
+            raise UsageError("a private session can only download")
         return self._files
 
     def _reply(self, to: str, **content: Json) -> None:
@@ -182,7 +182,7 @@ class FilesPanel(Panel):
                 f"{path.name} cannot be opened: {place}{problem.message}"
             ) from error
         self._reply("open", done=path.name)
-        self._say(f"Opened {path.name} of {self._file.origin}", "ok")
+        self._say(f"Opened {path.name} from {self._file.origin}", "ok")
 
     # To the user's own computer
 

@@ -25,7 +25,7 @@ SHOWN = 30
 SHORT = 3
 """The rows of so many items, or more, come folded."""
 _FRAME = TfFrameProperty(
-    "Poses in", default=FIXED_FRAME, help="The frame in which poses are shown."
+    "Relative to", default=FIXED_FRAME, help="The frame in which poses are shown."
 )
 Fact = tuple[str, str]
 """A name and a text."""
@@ -201,7 +201,7 @@ def _link(link: Link) -> Iterator[Fact]:
     if link.inertial is not None:
         yield "Mass", f"{link.inertial.mass:.5g} kg"
     if link.place is not None:
-        yield "Written at", place_text(link.place)
+        yield "Defined at", place_text(link.place)
 
 
 def _joint(robot: RobotState, joint: Joint) -> Iterator[Fact]:

@@ -12,7 +12,7 @@ from sambot_viz.panels.row import Data
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.scene import Scene
 
-_STARTED_AGAIN, _PRIVATE = "The program was started again.", "The session was reset."
+_STARTED_AGAIN, _PRIVATE = "The server was restarted.", "The session was reset."
 
 
 class SessionInfoPanel(Panel):

@@ -114,11 +114,11 @@ class DisplayList(VisualizationManager):
         """Put a display that was taken out where it was.
 
         Raises:
-            UsageError: its group is not in this config any more.
+            UsageError: its group is no longer in this config.
         """
         group = removed.group
         if group is not None and not self.holds(group):
-            raise UsageError(f"{group.label} is not in this config any more")
+            raise UsageError(f"{group.label} is no longer in this config")
         removed.display.parent = group
         self._insert(removed.display, removed.entry, group, removed.index)
 

@@ -163,7 +163,7 @@ class InboundFilter:
             return "a value for a widget that is not there, hidden or disabled"
         if not self._may_set(message.uuid):
             viser_private.send_value(self._server, self._client_id, handle)
-            return "a value from a browser that only watches"
+            return "a value from a viewer"
         value = message.updates["value"]
         options: Sequence[str] | None = getattr(handle, "options", None)
         if fits(handle.value, value) and (options is None or value in options):

@@ -13,7 +13,7 @@ def unreadable(code: str, path: Path) -> Problem:
     return Problem(
         "error",
         code,
-        "the file cannot be read: it is not a regular file any more",
+        "the file cannot be read: it is no longer a regular file",
         "save it as a file again",
         str(path),
     )
@@ -66,7 +66,7 @@ def unwatched(reason: str) -> Problem:
     return Problem(
         "warning",
         "watch-limited",
-        f"file watching is not available ({reason}); the files are checked once a "
+        f"files cannot be followed ({reason}); the files are checked once a "
         "second instead",
         "raise fs.inotify.max_user_watches, or start with --no-watch",
     )

@@ -128,7 +128,7 @@ class TokenCheck:
             f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
         )
         more = {"Location": address, "Set-Cookie": cookie}
-        return plain_page(http.HTTPStatus.SEE_OTHER, "Come in", "", more)
+        return plain_page(http.HTTPStatus.SEE_OTHER, "See other", "", more)
 
     async def _wrong(self) -> Response:
         self._waiting += 1
@@ -138,7 +138,7 @@ class TokenCheck:
             self._waiting -= 1
         return plain_page(
             http.HTTPStatus.UNAUTHORIZED,
-            "This link is not valid (any more)",
+            "This link is no longer valid",
             "Its token is wrong. Ask for the link that the program has printed at its "
             "last start.",
         )

@@ -132,14 +132,14 @@ class ConfigFile:
         """The file that is shown under a name.
 
         Raises:
-            UsageError: there is no such file any more.
+            UsageError: there is no such file.
         """
         if name in _of_the_program():
             return bundled.config_path()
         for found in self.names():
             if text(found) == name:
                 return self.folder / found
-        raise UsageError(f"there is no file '{name}' in {self.folder} any more")
+        raise UsageError(f"there is no file '{name}' in {self.folder}")
 
     def path(self, name: str) -> Path:
         """The file that a name means, which may not exist yet.
@@ -183,7 +183,9 @@ class ConfigFile:
         """
         target = path or self.target
         if target is None:
-            raise UsageError("this config has no file of its own yet: save it as …")
+            raise UsageError(
+                "this config has no file of its own yet: save it under a name"
+            )
         if not os.path.lexists(target):
             what = f"configs in {target.absolute().parent}"
             require_room(len(self.names()), MOST_NAMES, what)
@@ -220,9 +222,9 @@ def _of_the_program() -> list[str]:
 def _refusal(name: str) -> str | None:
     """Why a name without its ending is not taken."""
     if not name:
-        return "give a name, such as my_robot"
+        return "enter a name, such as my_robot"
     if "/" in name or "\\" in name:
-        return "give a name without folders"
+        return "enter a name without a folder"
     if name.startswith("."):
         return "a name that begins with a dot would be hidden"
     bad = [
@@ -235,7 +237,7 @@ def _refusal(name: str) -> str | None:
     if _RESERVED.match(name):
         return f"Windows keeps the name {name} for a device"
     if len(f"{name}{ENDING}".encode(errors="replace")) > LONGEST_NAME:
-        return f"the name is too long: it may have {LONGEST_NAME} bytes"
+        return f"the name is too long ({LONGEST_NAME} bytes at most)"
     return None
 
 

@@ -139,13 +139,13 @@ class Problems:
         notes: list[str] = []
         if self._has_error("model"):
             notes.append(
-                "The model has a mistake: the robot appears as soon as it is fixed."
+                "The model has an error. The robot appears once it is fixed."
                 if self._robot.model is None
-                else f"Showing the last good version: {self._what_is_wrong()}."
+                else f"Showing the last valid version: {self._what_is_wrong()}."
             )
         if self._has_error("config"):
             notes.append(
-                "The config has a mistake: its displays appear as soon as it is fixed."
+                "The config has an error. Its displays appear once it is fixed."
             )
         return " ".join(notes)
 
@@ -154,7 +154,7 @@ class Problems:
         for fault in self.of_saves.get("model", ()):
             if fault.code == "model-not-found" and fault.file is not None:
                 return f"{Path(fault.file).name} is gone"
-        return "what was saved has a mistake"
+        return "the saved file has an error"
 
     def _has_error(self, of: Reloaded) -> bool:
         return any(fault.severity == "error" for fault in self.of_saves.get(of, ()))

@@ -28,7 +28,7 @@ class InteractTool(Tool):
         BoolProperty(
             "Hide Inactive Objects",
             default=True,
-            help="Concerns interactive markers, which need a ROS program.",
+            help="For interactive markers, which need live ROS data.",
             support="none",
         ),
     )

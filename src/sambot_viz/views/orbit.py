@@ -31,12 +31,12 @@ ORBIT_PROPERTIES: tuple[Property, ...] = (
         default=0.05,
         minimum=0.001,
         unit="m",
-        help="Size of the mark at the focal point while the mouse moves the view.",
+        help="Size of the disc at the focal point while the mouse moves the view.",
     ),
     BoolProperty(
         "Focal Shape Fixed Size",
         default=True,
-        help="Keep the size of that mark in metres, not on the screen.",
+        help="Keep the size of that disc in metres, not in pixels.",
     ),
     FloatProperty(
         "Yaw",

@@ -72,9 +72,9 @@ COMMON_PROPERTIES: tuple[Property, ...] = (
         minimum=0.001,
         maximum=10000.0,
         unit="m",
-        help="What is nearer to the camera is not drawn.",
+        help="Anything nearer than this is not drawn.",
     ),
-    BoolProperty("Invert Z Axis", default=False, help="Turn the picture upside down."),
+    BoolProperty("Invert Z Axis", default=False, help="Flip the view upside down."),
     TfFrameProperty(
         "Target Frame", default="<Fixed Frame>", help="The frame that the view follows."
     ),

@@ -14,7 +14,7 @@ class XYOrbitView(OrbitView):
     """Looks at a point of the ground."""
 
     kind = "rviz_default_plugins/XYOrbit"
-    help = "Moves around a point of the ground, which stays low in the picture."
+    help = "Moves around a point on the ground, low in the picture."
 
     def local_camera(self) -> Camera:
         """Return the camera of Orbit, moved up in its picture."""

@@ -80,7 +80,7 @@ def test_task_32_save_the_config_under_a_new_name(desk: Desk) -> None:
     assert size_in(other) == 0.75
     save_as(desk, "in/another/folder")
     desk.user.until(lambda: desk.user.find(*DIALOG).all("alert"))
-    desk.user.reads("Give a name without folders")
+    desk.user.reads("Enter a name without a folder")
     assert desk.user.find("textbox", "Name", DIALOG).value == "in/another/folder"
     desk.user.keys("Escape")
     desk.user.gone(*DIALOG)
@@ -144,7 +144,7 @@ def test_task_36_break_the_model_and_fix_it(desk: Desk) -> None:
     desk.model.write_text(good.replace("</robot>", "</rob>"), "utf-8")
     user.until(lambda: user.there("button", re.compile("Problems: 1 error")), AT_ONCE)
     user.reads(f"{desk.model.name}:")
-    user.reads("last good")
+    user.reads("last valid")
     assert drawn(desk) > 0.01
     extra = good.replace(
         "</robot>",
@@ -193,7 +193,7 @@ def test_task_37_open_a_config_of_a_navigation_robot(desk: Desk) -> None:
     for name in ("LaserScan 4", "Map 6", "PoseArray 12"):
         desk.user.row("Displays", name)
     desk.user.unfold("Displays", "LaserScan 4")
-    desk.user.reads("needs the data of a running robot")
+    desk.user.reads("needs live ROS data")
     desk.user.until(lambda: corner(desk) == (238, 238, 236), AT_ONCE)
     desk.user.until(lambda: drawn(desk) > 0.01)
     desk.user.menu("File", re.compile("^Open"))

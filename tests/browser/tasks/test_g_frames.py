@@ -28,7 +28,7 @@ def test_task_51_where_the_left_wheel_is(s: Desk) -> None:
         user.until(lambda n=name, s=shown: s in user.row("Frames", n).text)
     user.unfold("Frames", "Matrix 4×4")
     assert "0   0.18" in user.see().text
-    user.unfold("Frames", "To copy")
+    user.unfold("Frames", "Copy as")
     user.click("button", "Copy Launch file")
     wanted = '"--x", "-0.12", "--y", "0.18", "--z", "-0.05"'
     user.until(lambda: wanted in user.clipboard)

@@ -82,7 +82,7 @@ LINK_PROPERTIES: tuple[Property, ...] = (
         maximum=1.0,
         help="How opaque the link is, on top of the robot's own Alpha.",
     ),
-    BoolProperty("Show Trail", default=False, help="Draw the way the link took."),
+    BoolProperty("Show Trail", default=False, help="Draw the path of the link."),
     BoolProperty("Show Axes", default=False, help="Draw the axes of the link."),
 )
 JOINT_PROPERTIES: tuple[Property, ...] = (

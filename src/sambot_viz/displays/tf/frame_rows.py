@@ -69,7 +69,7 @@ TF_PROPERTIES: tuple[Property, ...] = (
         ),
         open_keys=True,
     ),
-    KeptProperty("Tree", note="RViz writes the tree of frames, and never reads it"),
+    KeptProperty("Tree", note="RViz writes the tree of frames but never reads it"),
     KeptProperty(
         "Marker Alpha", support="none", note="of ROS 1; RViz for ROS 2 ignores it"
     ),

@@ -50,7 +50,7 @@ const KEYS = [
     "Everywhere",
     [
       ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
-      ["Ctrl+S, Ctrl+Shift+S", "save the config, save it as …"],
+      ["Ctrl+S, Ctrl+Shift+S", "save the config, save it under a name"],
       ["Tab", "next field, button or panel"],
     ],
   ],

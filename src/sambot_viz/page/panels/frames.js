@@ -118,7 +118,7 @@ function Form() {
         title="The arguments of static_transform_publisher, a command or a line of a launch file" />
           </label>
     <button class="wide" type="submit">Add</button>
-    <p class="wide">Numbers may be pi/2, 90deg or 5cm; an empty field is 0.</p>
+    <p class="wide">You can enter pi/2, 90deg or 5cm; empty means 0.</p>
     ${why && html`<${ValidationMessage} text=${why} />`}
   </form>`;
 }

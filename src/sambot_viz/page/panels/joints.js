@@ -176,7 +176,7 @@ function FoldAll() {
   const groups = rows.children("panel:joints").filter((id) => rows.get(id)?.kind === "group");
   if (groups.length < 3) return null;
   const open = groups.some(isOpen);
-  const label = open ? "Fold all groups" : "Unfold all groups";
+  const label = open ? "Collapse all groups" : "Expand all groups";
   return html`<button class="flat" title=${label} aria-label=${label}
     onClick=${() => groups.forEach((id) => fold(id, !open))}>
       <${Icon} name=${open ? "foldAll" : "unfoldAll"} /></button>`;

@@ -33,7 +33,7 @@ def answer_rows(found: Explanation) -> Iterator[Row]:
     yield _copied("xyzw", "Quaternion x y z w", " ".join(plain_numbers(quaternion)))
     yield Row("frames/matrix", "", "group", "Matrix 4×4", expanded=True)
     yield _copied("matrix/rows", "Matrix 4×4", matrix_text(T), "frames/matrix", "lines")
-    yield Row("frames/copy", "", "group", "To copy", expanded=True)
+    yield Row("frames/copy", "", "group", "Copy as", expanded=True)
     for key, name, value in copies(found.target, found.source, T):
         yield _copied(f"copy/{key}", name, value, "frames/copy")
     yield from _chain(found)
@@ -91,7 +91,7 @@ def _chain(found: Explanation) -> Iterator[Row]:
         "frames/chain",
         "",
         "group",
-        f"Way from {found.source} to {found.target}: {steps}",
+        f"Path from {found.source} to {found.target}: {steps}",
     )
     for number, hop in enumerate(found.hops):
         xyz = shown_numbers(hop.step.translation.tolist())

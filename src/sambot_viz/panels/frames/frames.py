@@ -156,7 +156,7 @@ class FramesPanel(Panel):
             value=T.translation.tolist(),
             unit="m",
             step=0.01,
-            help=f"x, y and z of {child} in {frame.parent}",
+            help=f"X, Y and Z of {child} in {frame.parent}.",
             extra={"parts": ["X", "Y", "Z"]},
             set=lambda xyz: self._move(child, xyz, None),
         )
@@ -168,7 +168,7 @@ class FramesPanel(Panel):
             value=list(T.rpy),
             unit="rad",
             step=0.01,
-            help=f"roll, pitch and yaw of {child} in {frame.parent}",
+            help=f"Roll, pitch and yaw of {child} in {frame.parent}.",
             extra={"parts": ["Roll", "Pitch", "Yaw"]},
             set=lambda rpy: self._move(child, None, rpy),
         )
@@ -233,7 +233,7 @@ class FramesPanel(Panel):
         added = self._frames.added
         require_room(len({*added, child}), MOST_FRAMES, "added frames")
         self._frames.add(parent, child, wanted.transform)
-        said = "; ".join((f"{child} is set in {parent}", *wanted.warnings))
+        said = "; ".join((f"Added {child} (parent {parent})", *wanted.warnings))
         self._say(said, "warn" if wanted.warnings else "ok")
 
     def _check_parent(self, child: str) -> None:
@@ -276,4 +276,4 @@ def pasted_arguments(pasted: str) -> str:
     return arguments
 
 
-_NONE_ADDED = "None. Add one below: it is shown at once, and everyone sees it."
+_NONE_ADDED = "None yet. New transforms appear at once for everyone."

@@ -149,7 +149,7 @@ class JointsPanel(Panel):
                 raise UsageError("this robot does not have these joints")
             wanted[row.name] = validate(row, position)
         self._robot.set_positions(wanted, "Restore joints")
-        return Answer("The joints were restored; Undo puts them back to their start")
+        return Answer("Joint positions restored; Undo resets them")
 
     @command("joints/copy", TEXT, client_local=True)
     def _copy(self, form: str) -> Answer:
@@ -179,7 +179,7 @@ class JointsPanel(Panel):
                 least=-FASTEST,
                 most=FASTEST,
                 step=0.1,
-                help="How fast wheels turn by themselves; a negative rate turns back.",
+                help="Speed of joints that keep turning; negative is backwards.",
                 # The tree does not show it: it is among the buttons.
                 extra={"apart": True},
                 set=self._set_rate,
@@ -240,7 +240,7 @@ class JointsPanel(Panel):
         return joints.positions[name]
 
 
-_NO_ROBOT = "There is no robot yet; Problems says why, if its file has a mistake."
+_NO_ROBOT = "No robot loaded. If its file has an error, Problems shows it."
 _NOTHING_TO_MOVE = (
     "This robot has no joint to move: all its joints are fixed, or follow others."
 )

@@ -49,7 +49,7 @@ class PosesPanel(Panel):
         names = list(self._poses.names)
         return [
             Data("poses/names", names),
-            Data("poses/place", f"Kept {self._place()}."),
+            Data("poses/place", f"Saved {self._place()}."),
         ]
 
     def _place(self) -> str:
