@@ -207,3 +207,14 @@ def test_a_command_or_a_line_of_a_launch_file_may_be_pasted(
 
 def test_arguments_alone_stay_as_they_are() -> None:
     assert pasted_arguments("--x 1 --frame-id a") == "--x 1 --frame-id a"
+
+
+def test_all_frames_are_a_tree_once_a_page_asks(
+    panel: FramesPanel, viz: Visualizer
+) -> None:
+    assert {row.id: row for row in panel.rows()}[frames.ALL].extra == {"lazy": True}
+    edit(panel, "frames/unfold", [frames.ALL])
+    parents = {row.name: row.parent for row in panel.rows() if row.icon == "frame"}
+    assert set(parents) == set(viz.frames.frames)
+    assert parents["base_link"] == frames.ALL
+    assert parents[LEFT] == "frame/base_link"

@@ -6,6 +6,7 @@ import { act, mayChange, rows } from "../wire/channel.js";
 import { AddDisplay } from "../dialogs/add.js";
 import { show } from "../dialogs/dialog.js";
 import { isOpen, selected, useRow } from "../state.js";
+import { NotFound, Search } from "../tree/search.js";
 import { reveal, Tree } from "../tree/tree.js";
 import { makeDisplay } from "./selected_display.js";
 import { dragDisplay } from "./display_drag.js";
@@ -67,7 +68,8 @@ export function DisplaysPanel() {
     ];
   };
   return html`<section class="panel displays" aria-label="Displays">
-    <header class="title">Displays</header>
+    <header class="title"><span>Displays</span><${Search} panel=${PANEL} what="displays" /></header>
+    <${NotFound} panel=${PANEL} />
     <${Tree} panel=${PANEL} label="Displays" hover=${false} onKey=${key} menu=${menu}
       renaming=${renaming} rename=${rename} drag=${dragDisplay} />
     <div class="help" aria-live="polite">${row && html`<b>${row.name}</b> ${row.help || ""}`}</div>

@@ -2,16 +2,20 @@
 /* The Frames panel: where one frame is in another, and static transforms to add. */
 
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../wire/channel.js";
+import { act, rows, send } from "../wire/channel.js";
 import { Combo } from "../cells/combo.js";
 import { refusals, refuse, sayRefused } from "../window/notices.js";
 import { parseNumber } from "../cells/numbers.js";
 import { workedOut } from "../cells/pasted.js";
 import { degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
+import { NotFound, Search } from "../tree/search.js";
 import { Tree } from "../tree/tree.js";
 import { ValidationMessage } from "../cells/validation_message.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
+
+/** @param {Row} row */
+const isFrame = (row) => row.icon === "frame";
 
 export function FramesPanel() {
   const shown = useData("frames/shown");
@@ -29,12 +33,21 @@ export function FramesPanel() {
   const remove = () => of && act("frames/remove", [of.id]);
   /** @param {KeyboardEvent} event @param {Row} row */
   const key = (event, row) => {
+    if (event.key === "Enter") return ask(row);
     if (event.key !== "Delete" || !row.static) return false;
     remove();
     return true;
   };
+  /** Where a frame of the list is. @param {Row} row */
+  const ask = (row) => {
+    if (!isFrame(row) || row.static) return false;
+    send("frames/to", row.name);
+    return true;
+  };
   return html`<div class="frames">
-    <${Tree} panel="frames" label="Frames" onKey=${key} />
+    <div class="buttons"><${Search} panel="frames" what="frames" finds=${isFrame} /></div>
+    <${NotFound} panel="frames" finds=${isFrame} />
+    <${Tree} panel="frames" label="Frames" finds=${isFrame} onKey=${key} onDouble=${ask} />
     <${Add}>
       <button disabled=${!of} title="Remove the selected static transform (Delete)"
         onClick=${remove}>Remove</button>

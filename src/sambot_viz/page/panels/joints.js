@@ -3,12 +3,12 @@
 
 import { html, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
-import { focusWhole } from "../cells/field.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { NARROW, NumberCell } from "../cells/number_cells.js";
 import { Popup } from "../window/popup.js";
 import { Cell, degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
+import { NotFound, Search } from "../tree/search.js";
 import { Tree } from "../tree/tree.js";
 import { formula, limits } from "../cells/units.js";
 import { ValidationMessage } from "../cells/validation_message.js";
@@ -36,11 +36,13 @@ const form = new Cell("yaml", "copied");
 /** The row under the mouse. @type {Cell<string>} */
 const hovered = new Cell("");
 
+/** @param {string} id */
+const rowOf = (id) => /** @type {Row} */ (rows.get(id));
+/** @param {Row} row */
+const isSlider = (row) => row.kind === "slider";
+
 export function JointsPanel() {
   useRow("panel:joints");
-  const [search, setSearch] = useState("");
-  /** @type {Ref<HTMLInputElement>} */
-  const box = useRef(null);
   /** @type {Ref} */
   const panel = useRef(null);
   const ids = rows.panels.get("joints") || [];
@@ -48,23 +50,7 @@ export function JointsPanel() {
   const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
   const width = useWidth(panel);
   if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
-  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  /** @param {Row} row */
-  const wanted = (row) =>
-    row.kind === "slider" && words.every((word) => (row.name || "").toLowerCase().includes(word));
-  const many = ids.filter((id) => rows.get(id)?.kind === "slider").length > SEARCH_FROM;
-  const found = !words.length || ids.some((id) => wanted(/** @type {Row} */ (rows.get(id))));
-  /** @param {Key} event */
-  const key = (event) => {
-    if (event.key === "Escape" && box.current.value) {
-      box.current.value = "";
-      setSearch("");
-    } else if (event.key === "Enter" || event.key === "ArrowDown")
-      panel.current.querySelector(".tree input.num")?.focus();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
-  };
+  const many = ids.filter((id) => isSlider(rowOf(id))).length > SEARCH_FROM;
   const wheels = Boolean(rows.get("joints/rate"));
   const stacked =
     matchMedia("(pointer: coarse)").matches &&
@@ -83,11 +69,7 @@ export function JointsPanel() {
       <${Degrees} />
       ${wheels && html`<${TurnRate} />`}
       ${
-        many &&
-        html`<input type="search" class="search" placeholder="Search joints"
-          aria-label="Search joints" ref=${box}
-        onMouseDown=${focusWhole} onFocus=${(/** @type {Change} */ e) => e.target.select()}
-        onInput=${(/** @type {Change} */ e) => setSearch(e.target.value)} onKeyDown=${key} />`
+        many && html`<${Search} panel="joints" what="joints" finds=${isSlider} enter="input.num" />`
       }
       <${FoldAll} />
     </div>
@@ -95,12 +77,8 @@ export function JointsPanel() {
       onPointerOver=${(/** @type {Press} */ e) =>
         hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
         onPointerLeave=${() => hovered.set("")}>
-      ${
-        !found &&
-        html`<p class="empty"
-        role="status">No joint has ${words.map((word) => `'${word}'`).join(" and ")} in its name</p>`
-      }
-      <${Tree} panel="joints" label="Joints" wanted=${words.length ? wanted : undefined} />
+      <${NotFound} panel="joints" finds=${isSlider} />
+      <${Tree} panel="joints" label="Joints" finds=${isSlider} />
     </div>
     <${OverLimit} />
     <${Help} />

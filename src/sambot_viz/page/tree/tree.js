@@ -9,6 +9,7 @@ import { Divider } from "./divider.js";
 import { RowList } from "./row_list.js";
 import { copyRow, valueText } from "./row_text.js";
 import { RowView } from "./row_view.js";
+import { search, useSearch } from "./search.js";
 import { canOpen, treeKey } from "./tree_keys.js";
 import { Cell, fold, folds, isOpen, select, selected, splits, useRow } from "../state.js";
 
@@ -16,7 +17,7 @@ import { Cell, fold, folds, isOpen, select, selected, splits, useRow } from "../
 /** @typedef {import("../window/menu.js").Item} Item */
 /** @typedef {import("../window/menu.js").Place} Place */
 /** @typedef {import("./row_view.js").TreeApi} TreeApi */
-/** The rows that are unfolded, in order. @typedef {{id: string, depth: number}[]} Shown */
+/** @typedef {{id: string, depth: number, open: boolean}[]} Shown open: rows below it are shown */
 
 /**
  * Rows of longer lists are only laid out near the screen; a screen reader knows their names then.
@@ -31,23 +32,26 @@ const wantedFocus = new Cell(
   /** @type {{panel: string, id: string, focus: boolean} | null} */ (null),
 );
 
-/** The ids of the rows that are unfolded, with their depth, in order.
- * @param {string} panel @param {(row: Row) => boolean} [wanted] a search: only rows it finds */
+/** The rows that are shown, in order: below unfolded ones; in a search what is found, what is above
+ * it, and what is unfolded below it.
+ * @param {string} panel @param {(row: Row) => boolean} [wanted] whether a search finds a row */
 export function visible(panel, wanted) {
   /** @type {Shown} */
-  const found = [];
-  /** @param {string} key @param {number} depth */
-  const walk = (key, depth) => {
+  const shown = [];
+  /** @param {string} key @param {number} depth @param {boolean} all whether each row is shown */
+  const walk = (key, depth, all) => {
     for (const id of rows.children(key)) {
       const row = rows.get(id);
       if (!row || row.apart) continue;
-      const inside = rows.children(id).length > 0;
-      if (!wanted || wanted(row)) found.push({ id, depth });
-      if (inside && (wanted || isOpen(id))) walk(id, depth + 1);
+      const found = all || Boolean(wanted?.(row));
+      const at = shown.push({ id, depth, open: isOpen(id) });
+      if (wanted || isOpen(id)) walk(id, depth + 1, found && isOpen(id));
+      if (shown.length > at) shown[at - 1].open = true;
+      else if (!found) shown.pop();
     }
   };
-  walk(`panel:${panel}`, 0);
-  return found;
+  walk(`panel:${panel}`, 0, !wanted);
+  return shown;
 }
 
 /** Select a row, unfold what is above it, and give it the focus.
@@ -57,16 +61,18 @@ export function visible(panel, wanted) {
  */
 export function reveal(panel, id, focus = true) {
   for (let above = rows.get(id)?.in; above; above = rows.get(above)?.in) fold(above, true);
+  search(panel, "");
   select(panel, id);
   wantedFocus.set({ panel, id, focus });
 }
 
 /**
- * @param {{panel: string, label: string, wanted?: (row: Row) => boolean, split?: boolean,
+ * @param {{panel: string, label: string, finds?: (row: Row) => boolean, split?: boolean,
  *   hover?: boolean, onKey?: (event: Key, row: Row) => boolean | void,
  *   menu?: (row: Row) => Item[], onDouble?: (row: Row) => boolean, renaming?: string,
  *   rename?: (id: string, name: string | null) => void,
  *   drag?: (event: Press, row: Row, tree: HTMLElement) => void}} props
+ *   finds: the rows that a search looks for
  *   onKey: keys of the panel on the selected row; it returns whether it used the key
  *   onDouble: what a double click does; it returns whether it did anything
  *   menu: what the context menu offers above copying
@@ -74,7 +80,8 @@ export function reveal(panel, id, focus = true) {
  *   hover: whether the help of a row is shown on hover
  */
 export function Tree(props) {
-  const { panel, label, wanted, split = panel !== "joints", hover = true } = props;
+  const { panel, label, finds, split = panel !== "joints", hover = true } = props;
+  const wanted = useSearch(panel, finds);
   useRow(`panel:${panel}`);
   folds.use();
   const chosen = selected.use()[panel];
@@ -106,9 +113,9 @@ export function Tree(props) {
   /** @type {TreeApi["drag"]} */
   const drag = (event, row) => props.drag?.(event, row, element.current);
   api.current = { panel, hover, go, openMenu, onDouble, rename, drag };
-  useRowList(element, shown, (id) => {
+  useRowList(element, shown, (id, isOpened) => {
     const opens = canOpen(id);
-    const open = opens && (Boolean(wanted) || isOpen(id));
+    const open = opens && isOpened;
     const renaming = props.renaming === id;
     return { opens, open, current: id === current, chosen: id === chosen, renaming, api };
   });
@@ -152,7 +159,7 @@ function menuItems(row, menu) {
  * Draw the rows that are shown.
  * @param {Ref} element
  * @param {Shown} shown
- * @param {(id: string) => object} factsOf what a row is drawn from, beside its depth
+ * @param {(id: string, open: boolean) => object} factsOf what a row is drawn from, beside its depth
  */
 function useRowList(element, shown, factsOf) {
   const list = useRef(/** @type {RowList | null} */ (null));
@@ -162,8 +169,8 @@ function useRowList(element, shown, factsOf) {
   }, []);
   useLayoutEffect(() =>
     list.current?.show(
-      shown.map(({ id, depth }) => {
-        const { api, ...facts } = { depth, api: null, ...factsOf(id) };
+      shown.map(({ id, depth, open }) => {
+        const { api, ...facts } = { depth, api: null, ...factsOf(id, open) };
         const view = () => html`<${RowView} id=${id} api=${api} ...${facts} />`;
         return { id, facts: JSON.stringify(facts), view };
       }),

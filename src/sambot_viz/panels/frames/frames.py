@@ -12,10 +12,11 @@ from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import Explanation, explain
 from sambot_viz.frames.static_transform import StaticTransform, parse_static_transform
-from sambot_viz.panels.command import FLAG, NUMBER, TEXT, command
+from sambot_viz.panels.command import FLAG, NUMBER, TEXT, Command, command
 from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json, Level, Row
+from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.session.limits import MOST_FRAMES, require_room
 from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
@@ -27,6 +28,8 @@ Say = Callable[[str, Level], None]
 """Shows a sentence to the browser."""
 
 _PROGRAM = "static_transform_publisher"
+ALL = "frames/all"
+"""The list of all frames."""
 
 
 class FramesPanel(Panel):
@@ -59,6 +62,7 @@ class FramesPanel(Panel):
         self._remake = remake
         self._from = self._to = ""
         self._shown = False
+        self._lazy = LazyRows("frames/unfold", lambda: remake(self))
 
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
@@ -66,8 +70,17 @@ class FramesPanel(Panel):
         return (self._robot.positions,) if self._shown else ()
 
     def rows(self) -> Sequence[Row]:
-        """Return the two frames, the answer, and the static transforms."""
-        return [*self._choice(), *answer_rows(self._answer()), *self._static()]
+        """Return the two frames, the answer, static transforms, and all frames."""
+        return [
+            *self._choice(),
+            *answer_rows(self._answer()),
+            *self._static(),
+            *self._all(),
+        ]
+
+    def commands(self) -> list[Command]:
+        """Return the declared commands, and the one to unfold the list of frames."""
+        return [*super().commands(), self._lazy.command()]
 
     def data(self) -> Sequence[Data]:
         """Return whether the panel is known to be on the screen."""
@@ -260,6 +273,27 @@ class FramesPanel(Panel):
     @command("frames/remove", TEXT)
     def _remove(self, row_id: str) -> None:
         self._frames.remove(row_id.removeprefix("static/"))
+
+    # All frames
+
+    def _all(self) -> Iterator[Row]:
+        """Yield the tree of all frames; a page asks for it when it is unfolded."""
+        tree, unfolded = self._frames.tree, self._lazy.is_unfolded(ALL)
+        yield Row(
+            ALL,
+            "",
+            "group",
+            f"All frames ({len(tree.frames)})",
+            help="The tree of all frames; Enter or a double click asks for one.",
+            extra={"lazy": bool(tree.frames) and not unfolded},
+        )
+        # A chain of frames may be longer than Python calls functions.
+        waiting = [(root, ALL) for root in reversed(tree.roots)] if unfolded else []
+        while waiting:
+            frame, parent = waiting.pop()
+            row_id = f"frame/{frame}"
+            yield Row(row_id, parent, "group", frame, icon="frame", expanded=True)
+            waiting += [(child, row_id) for child in reversed(tree.children(frame))]
 
 
 def pasted_arguments(pasted: str) -> str:

@@ -1,0 +1,80 @@
+// What a search shows of a tree: what is found, and the rows that it is in.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { fold } from "../../src/sambot_viz/page/state.js";
+import { isFound, matches, wordsOf } from "../../src/sambot_viz/page/tree/search.js";
+import { visible } from "../../src/sambot_viz/page/tree/tree.js";
+import { rows } from "../../src/sambot_viz/page/wire/channel.js";
+
+const row = (id, name, above = "", more = {}) => ({ id, in: above, kind: "float", name, ...more });
+const take = () =>
+  rows.take("session", {
+    all: true,
+    panels: {
+      displays: [
+        row("g", "Grid", "", { open: true }),
+        row("g/a", "Alpha", "g"),
+        row("g/o", "Offset", "g"),
+        row("r", "RobotModel"),
+        row("r/a", "Alpha", "r"),
+        row("r/l", "Links", "r"),
+        row("r/l/w", "wheel", "r/l"),
+        row("r/l/w/a", "Alpha", "r/l/w"),
+      ],
+    },
+  });
+const found = (text) => {
+  const words = wordsOf(text);
+  return visible("displays", words.length ? (one) => isFound(one, words) : undefined).map(
+    ({ id, open }) => (open ? `${id} open` : id),
+  );
+};
+
+test("without a search what is unfolded is shown", () => {
+  take();
+  assert.deepEqual(found(""), ["g open", "g/a", "g/o", "r"]);
+});
+
+test("what is found keeps the rows above it, also in folded ones, and no others", () => {
+  take();
+  assert.deepEqual(found("ALPHA"), [
+    "g open",
+    "g/a",
+    "r open",
+    "r/a",
+    "r/l open",
+    "r/l/w open",
+    "r/l/w/a",
+  ]);
+  assert.deepEqual(found("nothing"), []);
+});
+
+test("words may be in the names above, one is in the row's own", () => {
+  take();
+  assert.deepEqual(found("wheel alpha"), ["r open", "r/l open", "r/l/w open", "r/l/w/a"]);
+  assert.deepEqual(found("grid off"), ["g open", "g/o"]);
+});
+
+test("what is unfolded below a row that is found is shown with it, and can be folded", () => {
+  take();
+  assert.deepEqual(found("grid"), ["g open", "g/a", "g/o"]);
+  fold("g", false);
+  assert.deepEqual(found("grid"), ["g"]);
+  fold("g", true);
+  assert.deepEqual(found("robot"), ["r"]);
+});
+
+test("the best match is the name itself, then its beginning, then a word in it", () => {
+  const all = ["my_grid", "grid_map", "agrid", "Grid", "Alpha"].map((name) => ({
+    name,
+    where: name === "Alpha" ? "Displays › Grid" : "Displays",
+    kind: "display",
+  }));
+  const names = (text) => matches(all, text).map(({ name }) => name);
+  assert.deepEqual(names("grid"), ["Grid", "grid_map", "my_grid", "agrid", "Alpha"]);
+  assert.deepEqual(names("grid alp"), ["Alpha"]);
+  assert.deepEqual(names(" "), ["my_grid", "grid_map", "agrid", "Grid", "Alpha"]);
+  assert.deepEqual(names("x"), []);
+});
