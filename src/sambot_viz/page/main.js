@@ -8,6 +8,7 @@ import { followConnection } from "./wire/connection.js";
 import { togglePanels } from "./window/splitters.js";
 import { followFile } from "./window/files.js";
 import { listenToKeys } from "./window/keys.js";
+import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
@@ -34,6 +35,7 @@ const start = () => {
   followFile();
   followConnection();
   followRole();
+  followPalette();
   followPermalinks();
   connect();
 };

@@ -9,6 +9,8 @@ import { Cell, useData } from "../state.js";
 /** The dialog that is open. @type {Cell<{content: Content, number: number} | null>} */
 const open = new Cell(/** @type {{content: Content, number: number} | null} */ (null));
 let count = 0;
+/** What is done once the dialog is gone. @type {(() => void) | null} */
+let after = null;
 /** What had the focus before. @type {Element | null} */
 let before = null;
 
@@ -18,11 +20,24 @@ export function show(content) {
   open.set({ content, number: ++count });
 }
 
+/** When the dialog that is open closes, do something in the window, which has the focus for it.
+ * @param {() => void} does */
+export function leaveFor(does) {
+  after = does;
+}
+
 /** The place of the dialogs in the window. */
 export function Dialogs() {
   const now = open.use();
   useEffect(() => {
     if (now) return;
+    const does = after;
+    after = null;
+    if (does) {
+      before = null;
+      if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
+      return does();
+    }
     if (
       before instanceof HTMLElement &&
       before.isConnected &&
@@ -40,10 +55,11 @@ export function Dialogs() {
 
 /**
  * The frame of a dialog: its title, and a form that Enter submits.
- * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, children?: any}}
- *   props
+ * @param {{title: string, close: () => void, submit?: () => void, wide?: boolean, look?: string,
+ *   children?: any}} props
+ *   look: a class of its own
  */
-export function Dialog({ title, close, submit, wide, children }) {
+export function Dialog({ title, close, submit, wide, look = "", children }) {
   /** @type {Ref<HTMLDialogElement>} */
   const element = useRef(null);
   const over = useRef(false);
@@ -60,7 +76,7 @@ export function Dialog({ title, close, submit, wide, children }) {
   }, []);
   /** No key of the window acts while a dialog is open. @param {KeyboardEvent} event */
   const key = (event) => event.stopPropagation();
-  return html`<dialog class=${wide ? "wide-dialog" : ""} aria-labelledby=${label} ref=${element}
+  return html`<dialog class=${wide ? "wide-dialog" : look} aria-labelledby=${label} ref=${element}
     onClose=${() => {
       if (!over.current) close();
     }}

@@ -50,6 +50,7 @@ const KEYS = [
     "Everywhere",
     [
       ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+      ["Ctrl+K", "go to a display, joint, frame or command"],
       ["Ctrl+S, Ctrl+Shift+S", "save the config, save it under a name"],
       ["Tab", "next field, button or panel"],
     ],

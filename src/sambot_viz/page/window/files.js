@@ -23,7 +23,7 @@ const state = () => rows.data("file/state") || {};
 export const hasDisk = () => rows.knows("file/save");
 
 /** Take what is being typed: it is accepted as if the field were left. */
-function takeTyped() {
+export function takeTyped() {
   const field = document.activeElement;
   if (!(field instanceof HTMLInputElement)) return;
   field.blur();

@@ -9,6 +9,7 @@ import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./
 import { Icon } from "./icons.js";
 import { copyPermalink } from "../wire/permalink.js";
 import { menuKey, usePressOutside } from "./menu.js";
+import { goTo } from "./palette.js";
 import { EDITS } from "./toolbar.js";
 import { useCommand, useData } from "../state.js";
 
@@ -32,7 +33,7 @@ function edit(id, keys) {
 }
 
 /** @param {() => PanelOf[]} panels @param {() => void} hideAll @returns {MenuOf[]} */
-const menus = (panels, hideAll) => [
+export const listMenus = (panels, hideAll) => [
   {
     name: "File",
     entries: () => [
@@ -56,6 +57,7 @@ const menus = (panels, hideAll) => [
       edit("undo", "Ctrl+Z"),
       edit("redo", "Ctrl+Shift+Z"),
       null,
+      { name: "Go to…", keys: "Ctrl+K", does: goTo },
       { name: "Copy permalink", does: copyPermalink, off: !rows.can("permalink/copy") },
     ],
   },
@@ -85,7 +87,7 @@ const menus = (panels, hideAll) => [
  * @param {{panels: () => PanelOf[], hideAll: () => void, small: boolean}} props
  */
 export function MenuBar({ panels, hideAll, small }) {
-  const all = menus(panels, hideAll);
+  const all = listMenus(panels, hideAll);
   /** @returns {Entry[]} */
   const joined = () => all.flatMap((menu, i) => [...(i ? [null] : []), ...menu.entries()]);
   /** @type {MenuOf[]} */

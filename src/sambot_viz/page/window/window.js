@@ -7,103 +7,15 @@ import { Connection } from "../wire/connection.js";
 import { Dialogs } from "../dialogs/dialog.js";
 import { hidden, shape, Splitter, togglePanels, useSizes } from "./splitters.js";
 import { DisplaysPanel } from "../panels/displays.js";
-import { FramesPanel } from "../panels/frames.js";
-import { DrivePanel, Driving } from "../panels/drive.js";
-import { JointsPanel } from "../panels/joints.js";
+import { Driving } from "../panels/drive.js";
 import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
 import { ViewsPanel } from "../panels/views.js";
+import { panelList, SHEET, showProblems, shownTab, tab, tabNames, TABS } from "./panels.js";
 import { Asking } from "./people.js";
 import { StatusBar } from "./status_bar.js";
 import { Top } from "./header.js";
-import { Tree } from "../tree/tree.js";
-import { Cell, useRow } from "../state.js";
+import { useRow } from "../state.js";
 import { Icon } from "./icons.js";
-
-/** The chosen tab at the right, or in the sheet of a phone. */
-export const tab = new Cell("joints", "tab");
-
-/**
- * The panels that are chosen by tabs; a new one is a file and a line here.
- * @type {Record<string, {title: string, short?: string, content: any}>} short: where there are many
- *   tabs
- */
-const TABS = {
-  joints: { title: "Joints", content: JointsPanel },
-  frames: { title: "Frames", content: FramesPanel },
-  selection: {
-    title: "Selection",
-    content: () => html`<${Tree} panel="selection" label="Selection" />`,
-  },
-  drive: { title: "Drive", content: DrivePanel },
-  tool_properties: {
-    title: "Tool Properties",
-    short: "Tool",
-    content: () => html`<${Tree} panel="tool_properties" label="Tool Properties" />`,
-  },
-};
-const SHEET = {
-  joints: TABS.joints,
-  displays: { title: "Displays", content: DisplaysPanel },
-  views: { title: "Views", content: ViewsPanel },
-  ...TABS,
-  problems: { title: "Problems", content: ProblemsPanel },
-};
-
-/** Show a panel that has a tab. @param {string} name */
-function choose(name) {
-  tab.set(name);
-  if (shape.value !== "wide") hidden.set({ ...hidden.value, side: false });
-}
-
-/** Show the list of problems, or hide it. @param {boolean} on */
-function showProblems(on) {
-  if (shape.value === "wide") hidden.set({ ...hidden.value, problems: !on });
-  else choose(on ? "problems" : "joints");
-}
-
-/** What the menu Panels lists: a tab is shown when it is the chosen one.
- * @returns {{name: string, title: string, shown: boolean, toggle: () => void}[]} */
-function panelList() {
-  const away = hidden.value;
-  const has = (/** @type {string} */ name) => Boolean(rows.panels.get(name)?.length);
-  const { displays, views, ...others } = SHEET;
-  return Object.entries({ displays, views, ...others })
-    .filter(([name]) => has(name))
-    .map(([name, { title }]) => {
-      const side = name in TABS ? "right" : name === "problems" ? "" : "left";
-      const current = shownTab(name in TABS && shape.value === "wide" ? TABS : SHEET);
-      const byTab = side === "right" || shape.value !== "wide";
-      const folded = shape.value === "wide" ? away.right : shape.value === "flat" && away.side;
-      const shown = byTab
-        ? current === name && !folded
-        : side
-          ? !away.left && !away[name]
-          : away[name] === false;
-      const toggle = () => {
-        if (byTab && !shown) choose(name);
-        if (shape.value === "wide")
-          hidden.set({
-            ...hidden.value,
-            [name]: shown,
-            ...(side && !shown ? { [side]: false } : {}),
-          });
-      };
-      return { name, title, shown, toggle };
-    });
-}
-
-/** The names of the tabs that there are. @param {Record<string, any>} of */
-function tabNames(of) {
-  return Object.keys(of).filter(
-    (name) => rows.panels.get(name)?.length && !(shape.value === "wide" && hidden.value[name]),
-  );
-}
-
-/** @param {Record<string, any>} of */
-function shownTab(of) {
-  const names = tabNames(of);
-  return names.includes(tab.value) ? tab.value : names[0];
-}
 
 export function Window() {
   tab.use();

@@ -1,0 +1,197 @@
+// @ts-check
+/* Go to…: one list of all displays, joints, frames and commands, found by a few letters. */
+
+import { html, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
+import { Dialog, leaveFor, show } from "../dialogs/dialog.js";
+import { fold } from "../state.js";
+import { matches, namesAbove } from "../tree/search.js";
+import { reveal } from "../tree/tree.js";
+import { act, rows } from "../wire/channel.js";
+import { takeTyped } from "./files.js";
+import { Icon } from "./icons.js";
+import { listMenus } from "./menus.js";
+import { openPanel, panelList, SHEET } from "./panels.js";
+import { togglePanels } from "./splitters.js";
+import { toggleFullScreen } from "./toolbar.js";
+
+/** @typedef {{kind: string, icon: string, name: string, where: string, keys?: string,
+ *   does: () => void}} Target */
+
+/** So many are listed; more letters find the others. */
+const MOST = 60;
+/** What PageUp and PageDown pass over. */
+const FAR = 8;
+
+/** What is called in the toolbar, the panels and the status bar. @returns {Target[]} */
+function buttons() {
+  /** @type {[string, string, string, string, any[]?, string?][]} */
+  const calls = [
+    ["Focus", "View", "focus", "tools/focus", [null, null], "F"],
+    ["Zero", "View", "zero", "tools/zero", [], "Z"],
+    ["Reset", "View", "turn", "tools/reset", [], "R"],
+    ["Center", "Joints", "joint", "joints/center"],
+    ["Randomize", "Joints", "joint", "joints/randomize"],
+    ["Save view", "Views", "view", "views/save"],
+    ["Stop driving", "Drive", "stop", "drive/press", ["5"], "5"],
+  ];
+  for (const { name, key } of rows.data("tools/list") || [])
+    calls.push([name, "Tool", name, "tools/choose", [name], key?.toUpperCase()]);
+  for (const pose of rows.data("poses/names") || [])
+    calls.push([pose, "Pose", "joint", "poses/use", [pose]]);
+  return calls
+    .filter(([, , , id]) => rows.can(id))
+    .map(([name, where, icon, id, args, keys]) => ({
+      kind: "command",
+      icon,
+      name,
+      where,
+      keys,
+      does: () => act(id, args),
+    }));
+}
+
+/** @returns {Target[]} */
+function commands() {
+  const inMenus = listMenus(() => [], togglePanels).flatMap((menu) =>
+    menu
+      .entries()
+      .flatMap((entry) =>
+        entry && !entry.off ? [{ ...entry, kind: "command", icon: "menu", where: menu.name }] : [],
+      ),
+  );
+  const panels = panelList().map(({ name, title }) => ({
+    kind: "panel",
+    icon: "hide",
+    name: title,
+    where: "Panel",
+    does: () => openPanel(name),
+  }));
+  const full = { kind: "command", icon: "full", name: "Full screen", where: "View" };
+  const others = inMenus.filter(({ keys }) => keys !== GO_TO);
+  return [...panels, ...buttons(), ...others, { ...full, does: toggleFullScreen }];
+}
+
+/** The key that opens the palette. */
+export const GO_TO = "Ctrl+K";
+/** Rows that name nothing. */
+const UNNAMED = new Set(["note", "lines"]);
+
+/** The rows of the panels, and the frames. @returns {Target[]} */
+function places() {
+  /** @param {string} panel @returns {Target[]} */
+  const inPanel = (panel) =>
+    (rows.panels.get(panel) || []).flatMap((id) => {
+      const row = rows.get(id);
+      if (!row?.name || row.apart || row.part !== undefined || UNNAMED.has(row.kind)) return [];
+      if (panel === "joints" ? row.kind !== "slider" : row.icon === "frame" && !row.display)
+        return [];
+      const where = [SHEET[panel].title, ...namesAbove(row)].join(" › ");
+      const icon = panel === "joints" ? "joint" : row.icon || (panel === "views" ? "view" : "");
+      const kind = row.display ? "display" : panel;
+      const does = () => {
+        openPanel(panel);
+        reveal(panel, id);
+      };
+      return [{ kind, icon, name: row.name, where, does }];
+    });
+  const frames = rows.panels.get("frames")?.length ? rows.data("names/frames") || [] : [];
+  return [
+    ...["joints", "displays", "views", "tool_properties"].flatMap(inPanel),
+    ...frames.map((/** @type {string} */ name) => ({
+      kind: "frame",
+      icon: "frame",
+      name,
+      where: "Frames",
+      does: () => {
+        openPanel("frames");
+        fold("frames/all", true);
+        reveal("frames", `frame/${name}`);
+      },
+    })),
+  ];
+}
+
+/** @param {{close: () => void}} props */
+function Palette({ close }) {
+  const all = useMemo(() => [...commands(), ...places()], []);
+  const [text, setText] = useState("");
+  const [at, setAt] = useState(0);
+  const found = useMemo(() => matches(all, text), [text]);
+  const shown = found.slice(0, MOST);
+  const marked = Math.min(at, shown.length - 1);
+  /** @type {Ref} */
+  const list = useRef(null);
+  useLayoutEffect(() => {
+    list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
+  }, [marked, text]);
+  /** @param {Target | undefined} target */
+  const go = (target) => {
+    if (!target) return;
+    leaveFor(target.does);
+    close();
+  };
+  /** @param {Key} event */
+  const key = (event) => {
+    const by = /** @type {Record<string, number>} */ ({
+      ArrowDown: 1,
+      ArrowUp: -1,
+      PageDown: FAR,
+      PageUp: -FAR,
+    })[event.key];
+    if (!by) return;
+    const last = shown.length - 1;
+    const next = marked + by;
+    // One step beyond an end comes in at the other.
+    if (Math.abs(by) === 1) setAt(next < 0 ? last : next > last ? 0 : next);
+    else setAt(Math.max(0, Math.min(last, next)));
+    event.preventDefault();
+  };
+  return html`<${Dialog} title="Go to" close=${close} submit=${() => go(shown[marked])} look="palette">
+    <input role="combobox" data-first aria-expanded="true" aria-controls="palette-list"
+      aria-autocomplete="list" aria-label="Go to a display, joint, frame or command"
+      placeholder="Display, joint, frame or command" autocomplete="off" spellcheck=${false}
+      aria-activedescendant=${marked >= 0 ? `palette-${marked}` : undefined} onKeyDown=${key}
+      onInput=${(/** @type {Change} */ e) => {
+        setText(e.target.value);
+        setAt(0);
+      }} />
+    <ul class="options" id="palette-list" role="listbox" aria-label="Found" ref=${list}>
+      ${shown.map(
+        (one, i) => html`<li class="option" role="option" id=${`palette-${i}`} key=${i}
+          aria-selected=${String(i === marked)} onClick=${() => go(one)}
+          onPointerMove=${() => setAt(i)}>
+          <${Icon} name=${one.icon} /><b>${one.name}</b><span class="soft">${one.where}</span>
+          ${one.keys && html`<kbd>${one.keys}</kbd>`}</li>`,
+      )}
+    </ul>
+    <p class="soft" role="status">${
+      found.length > MOST
+        ? `${found.length} found: type more letters`
+        : found.length
+          ? `${found.length} found`
+          : "Nothing found"
+    }</p>
+  </${Dialog}>`;
+}
+
+/** Open the palette; what is being typed is accepted, as when its field is left. */
+export function goTo() {
+  takeTyped();
+  show(Palette);
+}
+
+/** Follow the key of the palette, which also acts while a text is typed. */
+export function followPalette() {
+  addEventListener(
+    "keydown",
+    (event) => {
+      const held = (event.ctrlKey || event.metaKey) && !event.altKey && !event.shiftKey;
+      if (!held || event.key.toLowerCase() !== "k") return;
+      // A browser would go to its own search.
+      event.preventDefault();
+      event.stopPropagation();
+      if (!event.repeat && !document.querySelector("dialog[open]")) goTo();
+    },
+    true,
+  );
+}

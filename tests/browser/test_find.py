@@ -1,0 +1,97 @@
+"""Finding rows: the search of a panel, and Ctrl+K for everything."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from inside import session_of
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, bundled
+
+pytestmark = pytest.mark.browser
+
+PALETTE = "Go to a display, joint, frame or command"
+
+
+@pytest.fixture(scope="module")
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(bundled.model_path(), port=0) as viz:
+        yield viz
+
+
+@pytest.fixture(scope="module")
+def user(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> User:
+    user = open_for_all(viz.url).user
+    user.find("slider", "drivewhl_l_joint")
+    return user
+
+
+def focused_row(user: User) -> str | None:
+    found: str | None = user.page.evaluate("document.activeElement.dataset.row ?? null")
+    return found
+
+
+def go_to(user: User, typed: str) -> None:
+    """Open the palette, type, and take the first that is found."""
+    user.keys("Control+k")
+    user.until(lambda: user.find("combobox", PALETTE).state("focused"))
+    user.type(typed)
+    user.keys("Enter")
+    user.gone("combobox", PALETTE)
+
+
+def test_what_a_search_finds_is_edited_where_it_is(user: User, viz: Visualizer) -> None:
+    user.click_on(user.find("searchbox", "Search displays"))
+    user.type("grid alpha")
+    user.until(lambda: user.rows("Displays") == ["Grid", "Alpha"])
+    user.keys("Enter", "Enter")
+    user.until(
+        lambda: user.row("Displays", "Grid", "Alpha").one("textbox").state("focused")
+    )
+    user.type("0.25")
+    user.keys("Enter")
+    shared = session_of(viz)
+    grid = shared.document.config.displays[0]
+    user.until(lambda: grid.get("Alpha") == 0.25)
+    user.click_on(user.find("searchbox", "Search displays"))
+    user.keys("Escape")
+    user.until(lambda: "RobotModel" in user.rows("Displays"))
+
+
+def test_a_search_that_finds_nothing_says_so(user: User) -> None:
+    user.click_on(user.find("searchbox", "Search displays"))
+    user.type("xyzzy")
+    user.reads("No name has 'xyzzy' in it")
+    user.keys("Escape")
+    user.until(lambda: "Grid" in user.rows("Displays"))
+
+
+def test_ctrl_k_goes_to_a_display_a_joint_and_a_frame(user: User) -> None:
+    for typed, row in (
+        ("front_cas", "frame/front_caster"),
+        ("drivewhl_r_jo", "j/drivewhl_r_joint"),
+    ):
+        go_to(user, typed)
+        user.until(lambda row=row: focused_row(user) == row)
+    go_to(user, "tf marker")
+    user.until(lambda: user.row("Displays", "TF", "Marker Scale").state("focused"))
+
+
+def test_ctrl_k_runs_a_command_and_accepts_what_is_typed_meanwhile(user: User) -> None:
+    go_to(user, "measure")
+    user.until(lambda: user.find("button", "Measure").state("pressed"))
+    go_to(user, "interact")
+    user.until(lambda: user.find("button", "Interact").state("pressed"))
+    field = user.row("Joints", "drivewhl_l_joint").one("textbox")
+    user.click_into(field)
+    user.type("0.5")
+    user.keys("Control+k")
+    user.until(lambda: user.find("combobox", PALETTE).state("focused"))
+    user.keys("Escape")
+    user.until(
+        lambda: user.row("Joints", "drivewhl_l_joint").one("textbox").value == "0.5"
+    )
+    user.until(lambda: "INPUT" == user.page.evaluate("document.activeElement.tagName"))
