@@ -5,8 +5,11 @@ from __future__ import annotations
 import ast
 import re
 from pathlib import Path
+from typing import Any
 
-from sambot_viz import errors
+import pytest
+
+from sambot_viz import RobotError, errors, load_robot
 from sambot_viz.errors import did_you_mean
 
 
@@ -59,3 +62,18 @@ def test_the_nearest_name_is_offered_or_all_names_are_listed() -> None:
     assert did_you_mean("x", []) == "there are none"
     many = did_you_mean("x", [f"link_{n}" for n in range(9)])
     assert many.endswith("'link_7', …")
+
+
+def test_a_notebook_shows_the_line_of_the_user_and_the_message(tmp_path: Path) -> None:
+    script = tmp_path / "cell.py"
+    script.write_text("def look(path):\n    return load_robot(path)\n", "utf-8")
+    names: dict[str, Any] = {"load_robot": load_robot}
+    exec(compile(script.read_text("utf-8"), str(script), "exec"), names)
+    with pytest.raises(RobotError) as caught:
+        names["look"](tmp_path / "no.urdf")
+    here, *rest = caught.value._render_traceback_()
+    assert here.endswith('names["look"](tmp_path / "no.urdf")')
+    assert rest == [
+        "line 2: return load_robot(path)",
+        f"RobotError: {caught.value}",
+    ]

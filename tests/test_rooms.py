@@ -114,7 +114,8 @@ ROOMS: Mapping[str, Row] = {
         "asyncio concurrent http socket threading",
     ),
     "export": Row(
-        "displays frames joints meshes page robot server session views viser_private",
+        "displays frames joints meshes page robot server session tools views "
+        "viser_private",
         "PIL numpy viser websockets",
         "asyncio concurrent signal subprocess threading",
     ),

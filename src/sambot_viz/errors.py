@@ -30,6 +30,7 @@ error carries the problems that caused it.
 from __future__ import annotations
 
 import difflib
+import traceback
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -122,6 +123,7 @@ class Problem:
 
 
 _LONGEST_SENTENCE = 2000
+_PACKAGE = str(Path(__file__).parent)
 
 
 class Findings:
@@ -167,6 +169,21 @@ def _cut(text: str) -> str:
 
 class SambotVizError(Exception):
     """Base of every error this package raises on purpose."""
+
+    def _render_traceback_(self) -> list[str]:
+        """The lines of the user and the message: IPython and Jupyter show these.
+
+        The calls within this package say nothing to who has made a mistake in a model.
+        A script's traceback is Python's own.
+        """
+        lines: list[str] = []
+        for call in traceback.extract_tb(self.__traceback__):
+            if call.filename.startswith(_PACKAGE):
+                break
+            # IPython's own calls come first.
+            if "site-packages" not in Path(call.filename).parts:
+                lines.append(f"line {call.lineno}: {call.line}")
+        return [*lines, f"{type(self).__name__}: {self}"]
 
 
 class _ErrorWithProblems(SambotVizError):

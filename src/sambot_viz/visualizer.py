@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import functools
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
@@ -12,15 +14,16 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import viser
 
-from sambot_viz.errors import JointError, RobotError, did_you_mean
+from sambot_viz.errors import JointError, RobotError, ServerError, did_you_mean
 from sambot_viz.export.page_file import ViewState, ask_page, page_file
+from sambot_viz.export.still_picture import still_picture
 from sambot_viz.files import write_atomically
 from sambot_viz.flags import keyword_help
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
 from sambot_viz.inputs import Inputs
+from sambot_viz.jupyter.notebook import HEIGHT, Cell, remember, stop_former
 from sambot_viz.jupyter.notebook import notebook as here
-from sambot_viz.jupyter.notebook import remember, stop_former
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.rviz import RvizConfig
@@ -30,7 +33,7 @@ from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.scripting.files import picture_of
 from sambot_viz.scripting.links import FrameControl, LinkControl, Links
 from sambot_viz.server.config_store import ConfigStore, Sources
-from sambot_viz.server.listener import Listener
+from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
@@ -41,6 +44,8 @@ from sambot_viz.session.robot.frames import FrameView
 _P = ParamSpec("_P")
 _F = TypeVar("_F", bound=Moved)
 
+_MESHES_WITHIN = 5.0
+"""A cell waits so long for the meshes of its picture [s]."""
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
 
@@ -101,12 +106,19 @@ class Visualizer:
     @_takes_the_keywords_of(Options)
     def __init__(self, options: Options) -> None:
         notebook = self._notebook = here()
-        if notebook is not None:
-            options = notebook.options(options)
-            stop_former(notebook)
-        self._start(Inputs(options), None)
-        if notebook is not None:
-            remember(notebook, self)
+        if notebook is None:
+            self._start(Inputs(options), None)
+            return
+        options = notebook.options(options)
+        stop_former(notebook)
+        inputs = Inputs(options)
+        listening = listen(options, notebook.knows)
+        try:
+            self._start(inputs, listening)
+        except BaseException:
+            listening.close()
+            raise
+        remember(notebook, self)
 
     @classmethod
     def of_inputs(cls, inputs: Inputs, listening: Listener | None = None) -> Visualizer:
@@ -396,9 +408,38 @@ class Visualizer:
             self._reloader.close()
         self._server.stop()
 
-    def _repr_html_(self) -> str | None:
+    def show(self, height: int = HEIGHT, *, panels: bool = True) -> Cell:
+        """Show the page in the cell of a notebook, as its last expression.
+
+        Args:
+            height: of the page [CSS pixels].
+            panels: whether there are panels round the view.
+        """
+        return Cell(partial(self._in_cell, height, panels))
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         """The page, for the cell of a notebook."""
-        return None if self._notebook is None else self._notebook.frame(self.url)
+        return self._in_cell(HEIGHT, True)
+
+    def _in_cell(self, height: int, panels: bool) -> dict[str, str]:
+        found = {"text/plain": repr(self)}
+        if self._notebook is None:
+            return found
+        picture = self._picture()
+        found["text/html"] = self._notebook.frame(self.url, height, panels, picture)
+        if picture is not None:
+            found["image/png"] = base64.b64encode(picture).decode()
+        return found
+
+    def _picture(self) -> bytes | None:
+        sessions = self._server.sessions
+        if not sessions.all():
+            return None
+        # What is not read in time is not in the picture.
+        with suppress(ServerError):
+            sessions.wait_for_meshes(_MESHES_WITHIN)
+        session = self._first()
+        return still_picture(session.lock, session.document_view, session.scene)
 
     def __enter__(self) -> Visualizer:
         return self

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import shutil
 import socket
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -217,3 +219,9 @@ def test_a_private_session_changes_no_file_of_poses(
         second.settle(viz.viser)
         assert "of a visitor" not in str(second.messages)
     assert poses.read_text() == before
+
+
+def test_a_script_that_ends_without_stop_prints_nothing() -> None:
+    code = "from sambot_viz import Visualizer; a, b = Visualizer(), Visualizer()"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -19,6 +19,7 @@ from sambot_viz.displays.picking.pick_geometry import (
     TriangleMesh,
 )
 from sambot_viz.displays.picking.rasterise import covered, nearness
+from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Matrix
 from sambot_viz.rviz import DisplayConfig
 
@@ -47,6 +48,7 @@ class DrawnTriangles:
         frame: the frame they are drawn at; None for the fixed frame.
         item: what a click on them selects; None when that is nothing.
         solid: False for lines, which can be seen through.
+        color: of its material, 0 to 255; None for what is no shape of a robot.
     """
 
     triangles: Triangles
@@ -54,6 +56,7 @@ class DrawnTriangles:
     frame: str | None
     item: Selectable | None = None
     solid: bool = True
+    color: Rgb | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,11 +67,13 @@ class PlacedMesh:
         item: the link or frame; None for what is not selectable.
         mesh: the triangles.
         T: (4, 4) from them to the fixed frame; it may scale.
+        color: as of `DrawnTriangles`.
     """
 
     item: Selectable | None
     mesh: TriangleMesh
     T: Matrix
+    color: Rgb | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +146,8 @@ class TriangleDisplay(Display):
             T_fixed_frame = poses[shape.frame]
             if T_fixed_frame is not None:
                 T = T_fixed_frame @ shape.T_frame_shape
-                yield PlacedMesh(shape.item, self._mesh(shape.triangles), T)
+                mesh = self._mesh(shape.triangles)
+                yield PlacedMesh(shape.item, mesh, T, shape.color)
 
     def _mesh(self, triangles: Triangles) -> TriangleMesh:
         """Return the same triangles with what is computed of them once."""

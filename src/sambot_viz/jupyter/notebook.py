@@ -3,10 +3,13 @@
 The browser that shows a notebook is often not on the machine of its kernel. Where the
 Jupyter server has jupyter-server-proxy, the page is shown through it, below the address
 that the notebook itself has. Users of the same machine could open the port too, so the
-page then asks for a token, which the cell's frame has in its address; the cookie that
-takes its place works there, because frame and notebook have one origin. Without that
+page then asks for a token, or for the cookies of a user whom the Jupyter server has
+let in: so no token is in the cell, and none in a notebook that is saved. Without that
 proxy the frame shows the port of this machine, and without a token, unless the user
 gave one: browsers send no cookie to a frame of another site.
+
+What a cell shows is kept in the notebook: a picture of the robot, and in front of it a
+frame (`frame.html`) that shows the page as long as its program runs.
 
 What stays weak: jupyter-server-proxy sends the cookies of Jupyter to whatever listens
 on a port. Another user of the machine could listen there when a viewer has ended and
@@ -15,23 +18,30 @@ its page is still open. The viewer of the tile (`jupyter.tile`) has no port.
 
 from __future__ import annotations
 
+import base64
 import html
 import http.client
 import json
 import os
 import ssl
 import sys
+from collections.abc import Callable, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
+from string import Template
 from typing import Any, Protocol
 
 from sambot_viz.options import Options
 
 HEIGHT = 600
-"""Of the frame in a cell [CSS pixels]."""
+"""Of the page in a cell [CSS pixels]."""
+_BELOW = 24
+"""Height of the line below it, with the link to a tab [CSS pixels]."""
+_FILLS = "position: absolute; top: 0; left: 0; width: 100%"
 _ANSWERS_WITHIN = 2.0
-"""The Jupyter server is asked for its proxy for so long at most [s]."""
+"""The Jupyter server is asked for so long at most [s]."""
 _ALL_NETWORKS = ("", "*", "0.0.0.0", "::")
 _WITHOUT_PROXY = (
     "The page cannot be shown here: your Jupyter server has no jupyter-server-proxy. "
@@ -56,12 +66,15 @@ class Notebook:
         in_hub: whether the Jupyter server belongs to a JupyterHub.
         cell: the cell that runs; "" when that is not known.
         run: which run of the cell it is.
+        server: what the Jupyter server has written about itself; None when that is
+            not known.
     """
 
     proxy: str | None
     in_hub: bool
     cell: str
     run: str
+    server: dict[str, Any] | None = None
 
     def options(self, options: Options) -> Options:
         """The options, with a token for a page that goes through the proxy."""
@@ -69,24 +82,64 @@ class Notebook:
             return options
         return replace(options, token="")
 
-    def frame(self, url: str) -> str:
+    def knows(self, cookies: str) -> bool:
+        """Whether the Jupyter server has let in the browser with these cookies."""
+        if self.server is None or self.proxy is None:
+            return False
+        return _status(self.server, "api/me", {"Cookie": cookies}) == 200
+
+    def frame(
+        self,
+        url: str,
+        height: int = HEIGHT,
+        panels: bool = True,
+        picture: bytes | None = None,
+    ) -> str:
         """The page as HTML for the cell.
 
         Args:
             url: the address of the page on this machine.
+            height: of the page [CSS pixels].
+            panels: whether there are panels round the view.
+            picture: a PNG file, to be seen when the page is not there any more.
         """
         if self.proxy is None and self.in_hub:
             return f"<p>{html.escape(_WITHOUT_PROXY)}</p>"
+        url, _, query = url.partition("?")
         if self.proxy is not None:
-            origin, _, query = url.partition("?")
-            port = origin.removeprefix("http://").partition("/")[0].rpartition(":")[2]
-            url = f"{self.proxy}{port}/{'?' if query else ''}{query}"
-        url = html.escape(url)
-        return (
-            f'<iframe src="{url}" title="Robot viewer" width="100%" height="{HEIGHT}" '
-            'style="border: 0" allow="fullscreen; clipboard-write"></iframe>'
-            f'<p><a href="{url}" target="_blank">Open in a tab</a></p>'
+            port = url.removeprefix("http://").partition("/")[0].rpartition(":")[2]
+            url = f"{self.proxy}{port}/"
+            # The browser's cookies are enough where they can be asked about.
+            query = query if self.server is None else ""
+        queries = [query] * bool(query) + ["panels=0"] * (not panels)
+        url = f"{url}{'?' if queries else ''}{'&'.join(queries)}"
+        page = Template(_frame()).substitute(url=html.escape(url))
+        shown = "" if picture is None else base64.b64encode(picture).decode()
+        behind = (
+            f'<img src="data:image/png;base64,{shown}" alt="The robot" '
+            f'style="{_FILLS}; height: {height}px; object-fit: contain">'
         )
+        return (
+            f'<div style="position: relative; height: {height + _BELOW}px">'
+            f'{behind if shown else ""}<iframe srcdoc="{html.escape(page)}" '
+            f'title="Robot viewer" style="{_FILLS}; height: 100%; border: 0; '
+            'color-scheme: light" allow="fullscreen; clipboard-write"></iframe></div>'
+        )
+
+
+class Cell:
+    """What the cell of a notebook shows of a visualizer.
+
+    Args:
+        bundle: makes it, by its MIME types.
+    """
+
+    def __init__(self, bundle: Callable[[], dict[str, str]]) -> None:
+        self._bundle = bundle
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        """The page, and a picture of the robot for where no page can be shown."""
+        return self._bundle()
 
 
 _made: dict[str, tuple[str, list[Stoppable]]] = {}
@@ -124,7 +177,12 @@ def notebook() -> Notebook | None:
     else:
         root = str(server["base_url"]) if _has_proxy(server) else None
     proxy = None if root is None else f"{root.rstrip('/')}/proxy/"
-    return Notebook(proxy, prefix is not None, cell, run)
+    return Notebook(proxy, prefix is not None, cell, run, server)
+
+
+@cache
+def _frame() -> str:
+    return Path(__file__).with_name("frame.html").read_text("utf-8")
 
 
 def _server_of(shell: Any) -> dict[str, Any] | None:
@@ -145,6 +203,13 @@ def _server_of(shell: Any) -> dict[str, Any] | None:
 
 def _has_proxy(server: dict[str, Any]) -> bool:
     """Whether a Jupyter server has jupyter-server-proxy: it knows a page of that."""
+    return (_status(server, "server-proxy/servers-info", {}) or 404) < 404
+
+
+def _status(
+    server: dict[str, Any], path: str, headers: Mapping[str, str]
+) -> int | None:
+    """The status with which a Jupyter server answers; None when it does not."""
     name, port = str(server.get("hostname", "")), int(server.get("port") or 0)
     name = "127.0.0.1" if name in _ALL_NETWORKS else name
     if server.get("secure"):
@@ -158,7 +223,7 @@ def _has_proxy(server: dict[str, Any]) -> bool:
         asked = http.client.HTTPConnection(name, port, timeout=_ANSWERS_WITHIN)
     try:
         with closing(asked):
-            asked.request("GET", f"{server['base_url']}server-proxy/servers-info")
-            return asked.getresponse().status < 404
-    except (OSError, http.client.HTTPException):
-        return False
+            asked.request("GET", f"{server['base_url']}{path}", headers=dict(headers))
+            return asked.getresponse().status
+    except (OSError, ValueError, http.client.HTTPException):
+        return None

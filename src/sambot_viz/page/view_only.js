@@ -3,4 +3,5 @@
 
 import "./view/rviz_look.js";
 import "./view/rviz_mouse.js";
+import "./wire/cell.js";
 import "./wire/retries.js";

@@ -26,7 +26,7 @@ from sambot_viz.server import access, page_files
 from sambot_viz.server.channel import SUBPROTOCOL, Channels
 from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.connection_limit import ConnectionLimiter
-from sambot_viz.server.token_check import TokenCheck
+from sambot_viz.server.token_check import Knows, TokenCheck
 
 _PROTOCOL = f"viser-v{viser.__version__}"
 _VERSION_MISMATCH = 1002
@@ -64,6 +64,7 @@ def checked(
     listening: socket.socket | None,
     largest_message: int,
     channels: Channels,
+    knows: Knows | None = None,
 ) -> Generator[asyncio.Event]:
     """Check every request to a server that is started in here before viser does.
 
@@ -76,6 +77,7 @@ def checked(
         listening: a socket of the file system that listens in place of a port, or None.
         largest_message: a connection that sends a longer one is closed [bytes].
         channels: serves the channels of the pages.
+        knows: as for `TokenCheck`.
 
     Yields:
         The event after which clients are given to viser, to be set on the event loop
@@ -84,7 +86,8 @@ def checked(
     ready = asyncio.Event()
     module = websockets.asyncio.server
     original: Callable[..., Any] = module.serve
-    check_token = TokenCheck(options.token, options.presenter, options.base_path)
+    secrets = (options.token, options.presenter, options.base_path)
+    check_token = TokenCheck(*secrets, knows)
     page_files.prepare(options.panels)
     limiter = ConnectionLimiter()
 
@@ -107,7 +110,7 @@ def checked(
             if is_page and not presenter and limiter.is_full(_pages(connection)):
                 return limiter.refusal()
             try:
-                response = page_files.answer(request, options.panels)
+                response = page_files.answer(request, _panels(request, options))
                 if response is None and answer:
                     response = answer(connection, request)
             except (OSError, ValueError):
@@ -164,6 +167,12 @@ def _context(request: Request, presenter: bool, copy: bool) -> ClientContext:
     channel = SUBPROTOCOL in map(str.strip, offered.split(","))
     known = ticket if _TICKET.fullmatch(ticket) else ""
     return ClientContext(presenter, copy, known, channel)
+
+
+def _panels(request: Request, options: Options) -> bool:
+    """Return whether the page that a request asks for has panels."""
+    query = parse_qs(request.path.partition("?")[2])
+    return options.panels and query.get("panels") != ["0"]
 
 
 def _pages(connection: Connection) -> int:

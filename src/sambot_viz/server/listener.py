@@ -28,6 +28,7 @@ from sambot_viz.server.inbound_filter import (
     ClientHandler,
     InboundFilter,
 )
+from sambot_viz.server.token_check import Knows
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
@@ -136,7 +137,7 @@ def reachable_at(host: str) -> str:
         return str(probe.getsockname()[0])
 
 
-def listen(options: Options) -> Listener:
+def listen(options: Options, knows: Knows | None = None) -> Listener:
     """Start a viser server on exactly the address that the options name.
 
     viser itself takes the next free port without a message, and tries forever on an
@@ -144,6 +145,7 @@ def listen(options: Options) -> Listener:
 
     Args:
         options: the address, and who may use the server.
+        knows: whom it lets in without the token too (see `TokenCheck`).
 
     Raises:
         ServerError: the address cannot be listened on, with what to do about it.
@@ -158,7 +160,7 @@ def listen(options: Options) -> Listener:
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
     channels = Channels()
-    checked = handshake.checked(options, listening, LARGEST_MESSAGE, channels)
+    checked = handshake.checked(options, listening, LARGEST_MESSAGE, channels, knows)
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
     listener = Listener(server, options, channels)

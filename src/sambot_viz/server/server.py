@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import atexit
 import logging
 import threading
 from concurrent.futures import TimeoutError as FutureTimeoutError
@@ -75,6 +76,9 @@ class Server:
             except BaseException:
                 self.stop()
                 raise
+        # It runs before that of viser, which would print a line, and would find clients
+        # and sessions that still send.
+        atexit.register(self.stop)
         self._viser.on_client_connect(sessions.join)
         self._viser.on_client_disconnect(sessions.leave)
 
@@ -107,6 +111,7 @@ class Server:
         """Stop the server and free the port; a second call does nothing."""
         if not self._open.acquire(blocking=False):
             return
+        atexit.unregister(self.stop)
         self._stopped.set()
         self.sessions.close()
         _run_what_waits(self._viser.get_event_loop())

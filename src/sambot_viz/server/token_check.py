@@ -15,7 +15,7 @@ import asyncio
 import hashlib
 import hmac
 import http
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
 from urllib.parse import parse_qsl, quote, urlencode
 
 from websockets.datastructures import Headers
@@ -29,6 +29,8 @@ MOST_WAITING = 20
 """So many wrong tokens are answered at the same time; more are not looked at."""
 _KEPT = "%!$&'()*+,;=:@~"
 """In the last part of a path, what is sent back as it came."""
+Knows = Callable[[str], bool]
+"""Takes the Cookie header of a request."""
 _REMEMBERED = 30 * 24 * 3600
 """How long a browser keeps the cookie [s]."""
 
@@ -46,12 +48,20 @@ class TokenCheck:
         base_path: where the page is; the cookie is sent to nowhere else. With "/" a
             browser sends it to where the page was opened, which is below the path of a
             proxy that takes it away, such as that of Jupyter.
+        knows: says whether the cookies of a request are those of a user whom another
+            program has let in, such as Jupyter; this is then as good as the token. It
+            is called in a thread.
     """
 
     def __init__(
-        self, token: str | None, presenter: str | None = None, base_path: str = "/"
+        self,
+        token: str | None,
+        presenter: str | None = None,
+        base_path: str = "/",
+        knows: Knows | None = None,
     ) -> None:
         self._needed = token is not None
+        self._knows = knows
         self._presenter = None if presenter is None else presenter.encode()
         # By the name of the cookie that remembers it. Cookies are shared by all ports
         # of a host, where other servers may be.
@@ -63,7 +73,7 @@ class TokenCheck:
         self._waiting = 0
 
     def refusal(self, request: Request) -> Response | Awaitable[Response] | None:
-        """The answer to a request that may not come in, or is to come in by itself.
+        """The answer to a request that may not come in, or is to come in again.
 
         Returns:
             None for a request with the token.
@@ -95,7 +105,25 @@ class TokenCheck:
             return self._remember(name, address, request.headers)
         if any(_equal(one, self._tokens[name]) for name, one in sent.items()):
             return None
+        if self._knows is not None and not given and not is_websocket(request):
+            cookies = "; ".join(request.headers.get_all("Cookie"))
+            if cookies:
+                return self._ask(self._knows, cookies, address, request.headers)
         return self._wrong() if given or sent else _no_token()
+
+    async def _ask(
+        self, knows: Knows, cookies: str, address: str, headers: Headers
+    ) -> Response:
+        """Return the page with the cookie of the token, for who is logged in."""
+        # Each costs the other program a request: they are counted with the guesses.
+        self._waiting += 1
+        try:
+            known = await asyncio.to_thread(knows, cookies)
+        finally:
+            self._waiting -= 1
+        if not known:
+            return await self._wrong()
+        return self._remember(next(iter(self._tokens)), address, headers)
 
     def is_presenter(self, request: Request) -> bool:
         """Whether a request comes from a browser that has the presenter's link."""
