@@ -17,6 +17,7 @@ from typing import Any, TextIO, cast
 
 from sambot_viz.errors import (
     ConfigError,
+    Problem,
     RobotError,
     SambotVizError,
     UsageError,
@@ -30,27 +31,28 @@ COMMANDS = ("check", "config", "echo", "expand", "export", "frames", "snapshot")
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
 
 
-def main(argv: Sequence[str] | None = None) -> int:
+def main(argv: Sequence[str] | None = None, notes: Sequence[Problem] = ()) -> int:
     """Run one command.
 
     Args:
         argv: the words after the program's name; None takes those of the process.
+        notes: findings that the page shows with those of the model.
 
     Returns:
         The exit code.
     """
     words = list(sys.argv[1:] if argv is None else argv)
     with contextlib.redirect_stderr(cast(TextIO, _StandardError(sys.stderr))):
-        return _run(words)
+        return _run(words, notes)
 
 
-def _run(words: list[str]) -> int:
+def _run(words: list[str], notes: Sequence[Problem]) -> int:
     name = words.pop(0) if words and words[0] in COMMANDS else "show"
     try:
         if name == "show" and words:
             _refuse_mistyped(words[0])
         command = importlib.import_module(f"sambot_viz.commands.{name}")
-        return int(command.run(words))
+        return int(command.run(words, notes) if notes else command.run(words))
     except (RobotError, ConfigError) as error:
         write_problems(error.problems)
         return ERRORS

@@ -239,6 +239,9 @@ class Options:
         "called with the problems of the model and the config whenever a reload "
         "changes them",
     )
+    notes: Sequence[Problem] = option(
+        (), "findings that the page shows with those of the model"
+    )
     recorded: Mapping[str, float] = field(init=False, repr=False, compare=False)
     transforms: tuple[StaticTransform, ...] = field(
         init=False, repr=False, compare=False

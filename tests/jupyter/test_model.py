@@ -5,7 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from a_jupyter import wait_until
+from inside import session_of
 
+from sambot_viz import Visualizer
 from sambot_viz.jupyter.__main__ import model_of
 
 ARM = '<robot name="arm"><link name="a"/></robot>'
@@ -21,16 +24,16 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_the_model_in_the_folder_of_jupyterlab_is_shown(folder: Path) -> None:
-    assert model_of(folder / "one", "") == folder / "one"
+    assert model_of(folder / "one", "") == (folder / "one", [])
 
 
 def test_a_teacher_names_a_file_or_a_folder(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert model_of(folder, "two/leg.urdf") == folder / "two/leg.urdf"
-    assert model_of(Path("/"), str(folder / "one")) == folder / "one"
+    assert model_of(folder, "two/leg.urdf")[0] == folder / "two/leg.urdf"
+    assert model_of(Path("/"), str(folder / "one"))[0] == folder / "one"
     monkeypatch.setenv("HOME", str(folder))
-    assert model_of(Path("/"), "~/one") == folder / "one"
+    assert model_of(Path("/"), "~/one")[0] == folder / "one"
 
 
 @pytest.mark.parametrize(
@@ -44,7 +47,19 @@ def test_a_teacher_names_a_file_or_a_folder(
 def test_otherwise_the_log_says_why_it_is_the_bundled_robot(
     folder: Path, capsys: pytest.CaptureFixture[str], place: str, named: str, why: str
 ) -> None:
-    assert model_of(folder / place, named) is None
+    model, notes = model_of(folder / place, named)
+    assert model is None
+    # Pupils do not read the log: the page says that the teacher's model is missing.
+    assert [why in note.message for note in notes] == [True] * bool(named)
     said = capsys.readouterr().err
     assert said.startswith("sambot-viz: note: the bundled sam_bot is shown; ")
     assert why in said
+
+
+def test_the_page_shows_what_is_noted_beside_the_problems_of_the_model(
+    folder: Path,
+) -> None:
+    _, notes = model_of(folder, "three")
+    with Visualizer(folder / "one", notes=notes) as viz:
+        problems = session_of(viz).problems
+        wait_until(lambda: notes[0] in problems.of_model)

@@ -53,15 +53,19 @@ _LARGE_BLOCK = 2**20
 _M_MMAP_THRESHOLD = -3
 
 
-def run(words: list[str]) -> int:
+def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
     """Serve until Ctrl-C.
 
     While files are followed, a model or a config with a mistake is served too: the page
     shows the mistake, and the robot once it is fixed.
+
+    Args:
+        words: the command line.
+        notes: findings that the page shows with those of the model.
     """
     _return_large_blocks()
     report = _Reports()
-    given, options = parse(parser(), words, on_reload=report)
+    given, options = parse(parser(), words, on_reload=report, notes=notes)
     report.model = options.model
     inputs = Inputs(options, may_be_broken=options.watch)
     # The port is opened first; the rest of the program is imported, and the robot

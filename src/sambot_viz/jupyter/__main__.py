@@ -14,13 +14,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from sambot_viz import bundled, cli
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import Problem, UsageError
 
 MODEL = "SAMBOT_VIZ_MODEL"
 """The variable that names a model file or a package folder."""
 ENDED = 1
 """Also of a viewer that was ended by a signal: jupyter-server-proxy starts one again
 that has not ended with 0, and would show an error for ever otherwise."""
+_STAND_IN = (
+    "the bundled sam_bot is shown in its place; tell the person who has set that "
+    "variable, such as your teacher"
+)
 LOOKS_EVERY = 1.0
 """How often it is looked whether the Jupyter server is still there [s]."""
 
@@ -33,12 +37,13 @@ def main(words: Sequence[str]) -> int:
     """
     folder, *flags = words
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
-    model = model_of(Path(folder), os.environ.get(MODEL, ""))
-    code = cli.main([*flags, *([] if model is None else ["--model", str(model)])])
+    model, notes = model_of(Path(folder), os.environ.get(MODEL, ""))
+    named = [] if model is None else ["--model", str(model)]
+    code = cli.main([*flags, *named], notes)
     return code or ENDED
 
 
-def model_of(folder: Path, named: str) -> Path | None:
+def model_of(folder: Path, named: str) -> tuple[Path | None, list[Problem]]:
     """The model file or package folder to show; None for the bundled robot.
 
     A reason why it is not the one that a user would expect is written to standard
@@ -47,6 +52,9 @@ def model_of(folder: Path, named: str) -> Path | None:
     Args:
         folder: the folder that JupyterLab shows.
         named: a file or folder, also relative to that folder; "" for none.
+
+    Returns:
+        The model, and what the page says when the one that was named is missing.
     """
     model = folder / Path(named).expanduser() if named else folder
     try:
@@ -54,8 +62,9 @@ def model_of(folder: Path, named: str) -> Path | None:
     except UsageError as error:
         why = f"{MODEL}: {error}" if named else str(error)
         sys.stderr.write(f"sambot-viz: note: the bundled sam_bot is shown; {why}\n")
-        return None
-    return model
+        problem = Problem("error", "model-not-found", f"{why}; {_STAND_IN}")
+        return None, [problem] if named else []
+    return model, []
 
 
 def _end_with_parent(parent: int) -> None:

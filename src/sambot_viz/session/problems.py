@@ -51,6 +51,7 @@ class Problems:
         document: has problems of its own.
         scene: displays report problems of what they draw from.
         robot: what is shown while a save has a mistake.
+        notes: stay beside what is wrong with the model.
 
     Attributes:
         shown: what a page shows of them.
@@ -67,7 +68,9 @@ class Problems:
         scene: Scene,
         robot: RobotState,
         change: Change,
+        notes: Sequence[Problem] = (),
     ) -> None:
+        self._notes = tuple(notes)
         self.shown = Signal(change, ShownProblems())
         self.of_model: tuple[Problem, ...] = ()
         self.of_frames: tuple[Problem, ...] = ()
@@ -86,7 +89,7 @@ class Problems:
     def set_model(self, problems: Sequence[Problem]) -> None:
         """Show what is wrong with the model."""
         with self._change.lock:
-            self.of_model = (*problems, *self.of_frames)
+            self.of_model = (*self._notes, *problems, *self.of_frames)
             self._model.touch()
 
     def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:

@@ -106,7 +106,7 @@ class Session:
         self.motion = Motion(robot, self.drive, change, worker, clock)
         self._trail = DriveTrail(self.drive, robot, scene, change, worker)
 
-        self.problems = Problems(document, scene, robot, change)
+        self.problems = Problems(document, scene, robot, change, options.notes)
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit
         self.checks = Checks(robot, document, scene, self.problems, change)
