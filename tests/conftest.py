@@ -143,9 +143,15 @@ def protocol() -> Iterator[Callable[..., ProtocolClient]]:
     clients: list[ProtocolClient] = []
 
     def connect(
-        port: int, host: str = "127.0.0.1", *, camera: bool = True, path: str = ""
+        port: int,
+        host: str = "127.0.0.1",
+        *,
+        camera: bool = True,
+        path: str = "",
+        ticket: str = "",
     ):
-        clients.append(ProtocolClient(port, host, camera=camera, path=path))
+        made = ProtocolClient(port, host, camera=camera, path=path, ticket=ticket)
+        clients.append(made)
         return clients[-1]
 
     yield connect

@@ -110,7 +110,7 @@ ROOMS: Mapping[str, Row] = {
     "server": Row(
         "displays inputs joints meshes options page panels robot rviz session "
         "viser_private",
-        "msgspec numpy viser watchfiles websockets",
+        "msgspec numpy segno viser watchfiles websockets",
         "asyncio concurrent http socket threading",
     ),
     "export": Row(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -10,6 +11,7 @@ from user import User
 from viewer_page import ViewerPage
 
 from sambot_viz import Robot, Visualizer
+from sambot_viz.session import Session
 
 pytestmark = pytest.mark.browser
 
@@ -117,6 +119,61 @@ def test_a_private_copy_and_back(
     assert viz.joint_positions[LEFT] == 1.0
 
 
+def session_of(viz: Visualizer) -> Session:
+    session = viz.server.sessions.shared
+    assert session is not None
+    return session
+
+
+def test_a_viewer_who_is_removed_may_join_again_with_the_name_of_its_page(
+    viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
+) -> None:
+    user, driving = guest.user, teacher.user
+    user.click("button", "View only · Request control")
+    user.click("button", re.compile("Rename Viewer|Rename Ann"))
+    user.enter(user.find("textbox", re.compile("New name of")), "Bob")
+    driving.click("button", "People")
+    driving.click("button", "Rename Bob", ("dialog", "People"))
+    driving.enter(driving.find("textbox", "New name of Bob"), "Robert")
+    user.reads("The presenter has renamed you: Robert")
+    driving.click("button", "Remove Robert", ("dialog", "People"))
+    user.reads("The presenter has removed you from this robot.")
+    driving.until(lambda: len(session_of(viz).clients.all) == 1)
+    user.click("button", "Join again")
+    driving.find("button", "Give control to Bob")
+    driving.click("button", "Give control to Bob")
+    user.reads("You are in control. Everyone sees what you change")
+    user.until(lambda: not user.see().all("button", "View only · Request control"))
+    driving.click("button", "Take back control from Bob")
+    user.find("button", "View only · Request control")
+    driving.keys("Escape")
+
+
+def test_the_presenter_invites_with_the_link_of_viewers(
+    viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
+) -> None:
+    user = teacher.user
+    people(user, "Invite…")
+    user.reads(f"{viz.url}/")
+    user.reads("This link works on this machine only.")
+    dialog = user.find("dialog", "Invite")
+    assert dialog.all("image", "QR code of the link")
+    user.click("button", "Close")
+    guest.user.click("button", "People")
+    assert not guest.user.see().all("button", "Invite…")
+    guest.user.keys("Escape")
+
+
+def test_everyone_is_brought_to_a_view_once(
+    guest: ViewerPage, teacher: ViewerPage
+) -> None:
+    teacher.user.enter(teacher.user.row("Views", "Yaw").one("textbox"), "2.5")
+    people(teacher.user, "Bring everyone to my view")
+    guest.user.reads("has brought you to this view")
+    guest.user.until(lambda: "2.5" in guest.user.row("Views", "Yaw").text)
+    teacher.user.keys("Escape")
+
+
 def test_many_requests_leave_the_view_free(
     viz: Visualizer, teacher: ViewerPage, protocol: Callable[..., ProtocolClient]
 ) -> None:
@@ -125,18 +182,18 @@ def test_many_requests_leave_the_view_free(
         client = protocol(viz.viser.get_port())
         client.wait_until(lambda c=client: "role/request" in c.rows)
         client.act("role/request", f"Pupil {number}")
-    user.reads("11 more request control")
+    user.reads("12 people request control.")
     covered = teacher.page.evaluate(
         "[...document.querySelectorAll('.asking .ask')].map(e => e.clientHeight)"
         ".reduce((a, b) => a + b)"
     )
     assert covered < 120
-    people(user, "Give control to Pupil 7")
+    user.click("button", "Show them")
+    user.click("button", "Give control to Pupil 7", ("dialog", "People"))
     user.reads("You and Pupil 7 are in control")
     user.keys("Escape")
-    user.click("button", "Not now, these 10")
-    user.until(lambda: "more request" not in user.see().text)
-    user.click("button", "Not now, Pupil 0")
-    user.until(lambda: "requests control" not in user.see().text)
+    user.click("button", "Not now, all 11")
+    user.until(lambda: "request control" not in user.see().text)
+    assert not any(p.requests for p in session_of(viz).roles.people.values())
     people(user, "Take back control")
     user.keys("Escape")

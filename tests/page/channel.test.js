@@ -49,7 +49,7 @@ test("nothing is sent before the server knows the page", async () => {
 });
 
 test("an edit of the first moment without a connection is kept, and an action says that it is not done", async () => {
-  last().onclose();
+  last().onclose({});
   assert.deepEqual(heard, [CUT]);
   send("b", 2);
   send("b", 3);
@@ -133,11 +133,11 @@ test("a server that does not answer is left, and tried again", async () => {
   assert.deepEqual(heard, [CUT]);
   const count = opened.length - 1;
   // The close of a connection that was given up says nothing any more.
-  first.onclose();
+  first.onclose({});
   await wait(100);
   assert.equal(opened.length, count + 2);
   // How often it is tried is in retries.test.js.
-  last().onclose();
+  last().onclose({});
   await wait(1000);
   assert.equal(opened.length, count + 3);
   assert.deepEqual(heard, [CUT]);
@@ -165,7 +165,7 @@ test("a page that is left says so, and does not come again", () => {
   const count = opened.length;
   disconnect();
   assert.equal(socket.code, 4002);
-  socket.onclose();
+  socket.onclose({});
   mock.timers.tick(60_000);
   assert.equal(opened.length, count);
 });

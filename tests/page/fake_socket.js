@@ -23,7 +23,10 @@ export class FakeSocket {
   pings = 0;
   /** @type {number | undefined} */
   code = undefined;
-  onclose = () => {};
+  /** @param {{code?: number}} [event] */
+  onclose(event) {
+    void event;
+  }
   /** @param {{data: any}} event */
   onmessage(event) {
     void event;

@@ -201,6 +201,7 @@ def test_who_leaves_before_it_has_the_ticket_does_not_get_it(ticket: str) -> Non
         return SimpleNamespace(
             context=ClientContext(ticket=ticket),
             state=state,
+            removed=False,
             answers=silent,
             transport=SimpleNamespace(abort=lambda: None),
         )

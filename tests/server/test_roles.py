@@ -7,9 +7,11 @@ from typing import Any
 
 import pytest
 from inside import viser_server
-from protocol_client import ProtocolClient
+from protocol_client import ROW_PATCH, ProtocolClient
 
-from sambot_viz import UsageError, Visualizer
+from sambot_viz import UsageError, Visualizer, viser_private
+from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.server.channel import REMOVED
 from sambot_viz.session import Session
 
 Protocol = Callable[..., ProtocolClient]
@@ -55,6 +57,19 @@ def me(client: ProtocolClient) -> Any:
     return client.row("role/me")["value"]
 
 
+def people(client: ProtocolClient) -> list[Any]:
+    """The rows of everyone, as a page has them."""
+    return [row for id, row in client.rows.items() if id.startswith("person/")]
+
+
+def in_control(client: ProtocolClient) -> list[str]:
+    return [row["name"] for row in people(client) if row.get("control")]
+
+
+def requests(client: ProtocolClient) -> list[tuple[int, str]]:
+    return [(r["client"], r["name"]) for r in people(client) if r.get("requests")]
+
+
 def give_control(
     teacher: ProtocolClient,
     client: ProtocolClient,
@@ -64,7 +79,7 @@ def give_control(
     """Let a viewer request control under a name, and the presenter give it."""
     client.act("role/request", name)
     settle(client, teacher)
-    ((number, _),) = teacher.row("people/state")["value"]["requests"]
+    ((number, _),) = requests(teacher)
     teacher.act("role/give", number)
 
 
@@ -157,8 +172,7 @@ def test_the_presenter_drives_and_the_guests_see_it(
     assert viz.joint_positions[JOINT] == 1.0
     assert guest.shown("joints", JOINT) == 1.0
     assert not me(guest)["control"] and me(teacher)["presenter"]
-    state = guest.row("people/state")["value"]
-    assert (state["control"], state["viewers"]) == (["Presenter"], 1)
+    assert in_control(guest) == ["Presenter"] and len(people(guest)) == 2
 
 
 def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
@@ -170,7 +184,7 @@ def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
 ) -> None:
     guest.act("role/request", "Ann <b>")
     settle(guest, teacher)
-    ((number, name),) = teacher.row("people/state")["value"]["requests"]
+    ((number, name),) = requests(teacher)
     assert name == "Ann <b>"
     guest.act("role/give", number)
     settle(guest)
@@ -180,7 +194,7 @@ def test_a_guest_is_given_the_wheel_drives_and_gives_it_back(
     guest.edit(joint(guest), 0.5)
     settle(guest)
     assert viz.joint_positions[JOINT] == 0.5
-    assert teacher.row("people/state")["value"]["control"] == ["Ann <b>", "Presenter"]
+    assert in_control(teacher) == ["Presenter", "Ann <b>"]
     guest.act("role/release")
     guest.edit(joint(guest), 0.7)
     guest.act("edit/undo")
@@ -196,14 +210,13 @@ def test_the_wheel_is_free_when_its_guest_has_left(
 ) -> None:
     guest.act("role/request", "")
     settle(guest, teacher)
-    ((number, _),) = teacher.row("people/state")["value"]["requests"]
+    ((number, _),) = requests(teacher)
     teacher.act("role/give", number)
     settle(teacher)
     guest.close()
     teacher.wait_until(lambda: len(session.clients.all) == 1)
     settle(teacher)
-    state = teacher.row("people/state")["value"]
-    assert (state["control"], state["given"]) == (["Presenter"], False)
+    assert in_control(teacher) == ["Presenter"] and len(people(teacher)) == 1
 
 
 def test_a_watcher_does_not_set_the_widgets_of_a_program(
@@ -268,7 +281,7 @@ def test_each_hears_what_the_other_does_about_control(
     def ask() -> int:
         guest.act("role/request", "Ann")
         settle(guest, teacher)
-        ((number, _),) = teacher.row("people/state")["value"]["requests"]
+        ((number, _),) = requests(teacher)
         return number
 
     teacher.act("role/decline", ask())
@@ -281,7 +294,7 @@ def test_each_hears_what_the_other_does_about_control(
     settle(teacher)
     guest.act("role/release")
     assert heard(guest) == "You have released control"
-    assert heard(teacher) == "Ann released control"
+    assert heard(teacher) == "Ann is no longer in control"
 
 
 def test_who_loses_control_hears_who_has_it(
@@ -302,10 +315,94 @@ def test_who_loses_control_hears_who_has_it(
     assert "is called 'ben' already" in guest.row("notice")["value"]["text"]
     teacher.close()
     other.close()
-    guest.wait_until(lambda: guest.row("people/state")["value"]["clients"] == 1)
+    guest.wait_until(lambda: len(people(guest)) == 1)
     guest.act("role/request", "Ann")
     settle(guest)
     assert "no presenter is here" in guest.row("notice")["value"]["text"]
+
+
+def test_a_presenter_gives_unasked_renames_and_declines_all(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    protocol: Protocol,
+    viz: Visualizer,
+    settle: Callable[..., None],
+) -> None:
+    other = protocol(viz.viser.get_port())
+    settle(other)
+    own, first, second = me(teacher)["client"], me(guest)["client"], me(other)["client"]
+    teacher.act("role/rename", own, "Ms Weber")
+    teacher.act("role/rename", first, "Ann")
+    settle(teacher, guest)
+    assert guest.row("notice")["value"]["text"] == "The presenter has renamed you: Ann"
+    assert [row["name"] for row in people(guest)] == ["Ms Weber", "Ann", "Viewer 2"]
+    teacher.act("role/give", first)
+    settle(teacher, guest)
+    assert in_control(other) == ["Ms Weber", "Ann"]
+    # A name that a page has kept is made another one when somebody has it.
+    for name, kept in (("ann", "ann 2"), ("MS WEBER", "MS WEBER 2"), ("Ben", "Ben")):
+        other.act("role/greet", name)
+        settle(other)
+        assert me(other)["name"] == kept
+    other.act("role/rename", first, "Mallory")
+    settle(other)
+    assert "Only the presenter" in other.row("notice")["value"]["text"]
+    other.act("role/request", "")
+    settle(other, teacher)
+    assert requests(teacher) == [(second, "Ben")]
+    teacher.act("role/decline-all")
+    settle(teacher, other)
+    assert requests(other) == [] and in_control(other) == ["Ms Weber", "Ann"]
+    # Nobody takes the presenter's name while her page is loaded again.
+    teacher.close()
+    other.wait_until(lambda: len(people(other)) == 2)
+    other.act("role/rename", second, "Ms  Weber")
+    settle(other)
+    assert "already" in other.row("notice")["value"]["text"]
+    again = protocol(viz.viser.get_port(), path="/?token=teach-the-class")
+    settle(again)
+    assert me(again)["name"] == "Ms Weber"
+
+
+def test_one_of_thirty_people_who_changes_is_one_row(
+    guest: ProtocolClient, teacher: ProtocolClient, settle: Callable[..., None]
+) -> None:
+    settle(guest, teacher)
+    mark = teacher.mark()
+    guest.act("role/request", "Ann")
+    settle(guest, teacher)
+    sent = [m.fields for m in teacher.since(mark) if m.type == ROW_PATCH]
+    number = me(guest)["client"]
+    assert [one for one in sent if one["of"] == "session"] == [
+        {
+            "of": "session",
+            "rows": {f"person/{number}": {"name": "Ann", "requests": True}},
+        }
+    ]
+
+
+def test_a_viewer_who_is_removed_does_not_come_back_by_itself(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    protocol: Protocol,
+    viz: Visualizer,
+    settle: Callable[..., None],
+) -> None:
+    number = me(guest)["client"]
+    guest.act("role/remove", me(teacher)["client"])
+    guest.act("role/remove", number)
+    settle(guest)
+    assert "Only the presenter" in guest.row("notice")["value"]["text"]
+    teacher.act("role/remove", number)
+    teacher.wait_until(lambda: len(people(teacher)) == 1)
+    settle(teacher)
+    assert teacher.row("notice")["value"]["text"] == "Removed Viewer 1"
+    teacher.wait_until(lambda: guest.channel_code == REMOVED)
+    with pytest.raises(Exception, match="403"):
+        protocol(viz.viser.get_port(), ticket=guest.ticket)
+    # With a page that was loaded again, whoever has the link may come in.
+    settle(protocol(viz.viser.get_port()))
+    assert len(people(teacher)) == 2
 
 
 def test_a_viewer_undoes_what_it_did_as_a_viewer_and_nothing_else(
@@ -356,6 +453,7 @@ def test_a_presenter_leads_all_views_at_once_and_a_viewer_may_leave(
     late = protocol(viz.viser.get_port())
     late.wait_until(lambda: "view/:follow" in late.rows)
     assert distance(late) == 7.0
+    assert "leads your view" in late.row("notice")["value"]["text"]
     guest.edit("view/:follow", False)
     settle(guest)
     teacher.edit("view/Distance", 3.0)
@@ -369,6 +467,85 @@ def test_a_presenter_leads_all_views_at_once_and_a_viewer_may_leave(
     settle(teacher)
     teacher.edit("view/Distance", 9.0)
     assert distance(guest) == 3.0 and "view/:follow" not in guest.rows
+
+
+def test_a_presenter_brings_everyone_to_a_view_once(
+    guest: ProtocolClient, teacher: ProtocolClient, settle: Callable[..., None]
+) -> None:
+    teacher.act("role/rename", me(teacher)["client"], "Ms Weber")
+    teacher.edit("view/Distance", 7.0)
+    guest.act("views/bring")
+    settle(teacher, guest)
+    assert guest.row("notice")["value"]["text"].startswith(REFUSED)
+    teacher.act("views/bring")
+    settle(teacher, guest)
+    assert guest.row("view/Distance")["value"] == 7.0
+    sentence = "Ms Weber has brought you to this view"
+    assert guest.row("notice")["value"]["text"] == sentence
+    assert teacher.row("notice")["value"]["text"] == "1 other page shows your view"
+    teacher.edit("view/Distance", 3.0)
+    settle(teacher, guest)
+    assert guest.row("view/Distance")["value"] == 7.0
+
+
+def test_what_the_presenter_selects_glows_for_all_and_leaves_nothing(
+    guest: ProtocolClient,
+    teacher: ProtocolClient,
+    protocol: Protocol,
+    viz: Visualizer,
+    session: Session,
+    settle: Callable[..., None],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    link = Selectable("link", "drivewhl_l_link")
+    ends: list[Callable[[], None]] = []
+    post_later, pointer = session.worker.post_later, session.clients.pointer
+
+    def keep(delay: float, action: Any) -> None:
+        if getattr(action, "__self__", None) is pointer:
+            ends.append(action)
+        else:
+            post_later(delay, action)
+
+    monkeypatch.setattr(session.worker, "post_later", keep)
+
+    def select(client: ProtocolClient) -> None:
+        tools = session.clients.all[me(client)["client"]].tools
+        session.worker.post(lambda: tools.select({link}, None))
+        settle(client, guest, teacher)
+
+    def pointed(client: ProtocolClient) -> list[str]:
+        ours = [m for m in client.messages if "/~pointed" in str(m.fields.get("name"))]
+        return [m.type for m in ours if "Visibility" not in m.type]
+
+    settle(guest, teacher)
+    select(guest)
+    guest.act("tools/point")
+    settle(guest)
+    assert guest.row("notice")["value"]["text"].startswith(REFUSED)
+    assert pointed(teacher) == []
+    select(teacher)
+    assert pointed(guest) == pointed(teacher) == ["LineSegmentsMessage"]
+    monkeypatch.setattr(pointer, "_until", 0.0)
+    session.worker.post(ends[0])
+    settle(guest, teacher)
+    # Nothing of both is left for those who come later.
+    assert pointed(guest) == ["LineSegmentsMessage", "RemoveSceneNodeMessage"]
+    late = protocol(viz.viser.get_port())
+    settle(late)
+    assert "LineSegmentsMessage" not in pointed(late)
+    assert buffered(viz) <= ["RemoveSceneNodeMessage"]
+    # The next time takes its place.
+    select(teacher)
+    assert buffered(viz) == ["LineSegmentsMessage"]
+    assert pointed(late)[-1] == "LineSegmentsMessage"
+
+
+def buffered(viz: Visualizer) -> list[str]:
+    """Return what waits for those who come later, of what is pointed at."""
+    kept = viser_private.broadcast_buffer(viser_server(viz)).message_from_id
+    ours = [m for m in [*kept.values()] if "pointed" in str(getattr(m, "name", ""))]
+    return [name for m in ours if "Visibility" not in (name := type(m).__name__)]
 
 
 def test_private_sessions_know_nothing_of_people(protocol: Protocol) -> None:

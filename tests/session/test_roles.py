@@ -42,7 +42,7 @@ def test_without_a_presenter_everyone_drives_also_before_joining(
     roles = Roles(change)
     assert roles.may_edit(7)
     roles.join(7, presenter=False)
-    assert roles.may_edit(7) and drivers(roles) == ["Guest 1"]
+    assert roles.may_edit(7) and drivers(roles) == ["Viewer 1"]
     roles.release(7)
     assert roles.may_edit(7)
 
@@ -59,7 +59,7 @@ def test_asking_gives_nothing_by_itself(roles: Roles) -> None:
     assert not roles.may_edit(ANN)
     assert roles.people[ANN].requests and roles.people[ANN].name == "Ann"
     roles.request(BEN)
-    assert roles.people[BEN].name == "Guest 2"
+    assert roles.people[BEN].name == "Viewer 2"
 
 
 def test_a_name_that_is_too_long_is_refused(roles: Roles) -> None:
@@ -73,7 +73,7 @@ def test_nobody_else_is_called_presenter(roles: Roles, name: str) -> None:
     with pytest.raises(UsageError, match="are the presenter's"):
         roles.request(ANN, name)
     roles.request(TEACHER, name)
-    assert roles.people[ANN].name == "Guest 1"
+    assert roles.people[ANN].name == "Viewer 1"
 
 
 def test_the_wheel_goes_to_one_guest_at_a_time_and_back(roles: Roles) -> None:
@@ -81,7 +81,7 @@ def test_the_wheel_goes_to_one_guest_at_a_time_and_back(roles: Roles) -> None:
     roles.give(TEACHER, ANN)
     assert drivers(roles) == ["Ann", "Presenter"] and not roles.people[ANN].requests
     roles.give(TEACHER, BEN)
-    assert drivers(roles) == ["Presenter", "Guest 2"]
+    assert drivers(roles) == ["Presenter", "Viewer 2"]
     roles.release(BEN)
     assert drivers(roles) == ["Presenter"]
     roles.give(TEACHER, ANN)
@@ -106,7 +106,7 @@ def test_a_guest_cannot_give_take_or_refuse(roles: Roles) -> None:
             act(ANN, BEN)
     with pytest.raises(UsageError, match="only the presenter"):
         roles.take_back(BEN)
-    assert drivers(roles) == ["Guest 1", "Presenter"]
+    assert drivers(roles) == ["Viewer 1", "Presenter"]
 
 
 def test_the_wheel_cannot_go_to_who_has_left(roles: Roles) -> None:

@@ -26,6 +26,7 @@ What it offers:
     client.wait_until(cond)    until cond() is true; fails after `timeout` seconds
     client.quiet(seconds)      True when nothing arrives for so long
     client.settle(server)      a fence, see below
+    client.ticket, .channel_code   which page it is, and how its channel has ended
     client.close()
 
 `settle` proves without sleeping that "nothing arrived" is final. The client writes to
@@ -123,6 +124,7 @@ class ProtocolClient:
         camera: bool = True,
         path: str = "",
         headers: Mapping[str, str] | None = None,
+        ticket: str = "",
     ):
         """Connect, wait for the end of the replay, and report a camera pose.
 
@@ -133,6 +135,7 @@ class ProtocolClient:
                 arrives; False leaves that out.
             path: of the address, such as "/copy" or "/?token=…".
             headers: what a browser would send too, such as its cookies.
+            ticket: which page it belongs to; "" for a new one.
         """
         self._changed = threading.Condition()
         self._messages: list[Received] = []
@@ -146,7 +149,8 @@ class ProtocolClient:
         self._pongs = 0
         self.replayed = False
         self.closed = False
-        ticket = f"{'&' if '?' in path else '?'}ticket={secrets.token_urlsafe(16)}"
+        self.ticket = ticket or secrets.token_urlsafe(16)
+        ticket = f"{'&' if '?' in path else '?'}ticket={self.ticket}"
 
         def open_socket(subprotocol: str) -> ClientConnection:
             return connect(
@@ -363,6 +367,11 @@ class ProtocolClient:
             with self._changed:
                 self.closed = True
                 self._changed.notify_all()
+
+    @property
+    def channel_code(self) -> int | None:
+        """The code that the server has closed the page's own channel with."""
+        return self._channel.close_code
 
     def _read_channel(self) -> None:
         try:

@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
-from sambot_viz.panels.panel import Item, Panel
-from sambot_viz.panels.people import OwnRolePanel
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.pictures import AskPage, PicturesPanel
 from sambot_viz.panels.row import Answer, Data, Json, Level, LongText, Row
@@ -30,11 +30,14 @@ class BrowserPanels:
         client: the browser.
         files: the disk, for those who may use it.
         ask_page: makes a page of what is seen; None leaves that out.
+        invite: makes the link for viewers; None leaves inviting out.
         displays: the rows of the displays, for everyone.
         shared_row: finds a row that everyone sees, by its id.
 
     Attributes:
         store: the rows, for the page.
+        item: finds a row, data or command of this browser by its id.
+        close: follows the browser no longer.
     """
 
     def __init__(
@@ -43,6 +46,7 @@ class BrowserPanels:
         client: Client,
         files: Files | None,
         ask_page: AskPage | None,
+        invite: Invite | None,
         displays: DisplaysPanel,
         shared_row: Callable[[str], Row | None],
     ) -> None:
@@ -50,10 +54,15 @@ class BrowserPanels:
         self._displays = displays
         self._shared_row = shared_row
         self._client = client
-        self._sync = RowSync(
-            session.worker, self._panels(session, files, ask_page), "browser"
-        )
-        self.store = self._sync.store
+        self._sync: RowSync | None = None
+        panels = self._panels(session, files, ask_page)
+        if invite is not None:
+            roles, number = session.roles, client.client_id
+            panels.append(InvitePanel(roles, number, invite, self._remake))
+        # Behind those that have something to say at once.
+        panels.append(self._notices)
+        sync = self._sync = RowSync(session.worker, panels, "browser")
+        self.store, self.item, self.close = sync.store, sync.item, sync.close
 
     def _panels(
         self, session: Session, files: Files | None, ask_page: AskPage | None
@@ -64,9 +73,8 @@ class BrowserPanels:
         keep, clients = displays.keep_unfolded, session.clients
         views = ViewsPanel(client, document, clients, roles, history, self.say)
         return [
-            self._notices,
             OwnRolePanel(roles, client.client_id, self.say),
-            ToolsPanel(client, scene),
+            ToolsPanel(client, scene, clients),
             UndoPanel(client.client_id, history, document, displays, roles),
             views,
             SelectionPanel(client, scene, robot, remake),
@@ -100,21 +108,15 @@ class BrowserPanels:
             ),
         ]
 
-    def close(self) -> None:
-        """Follow the browser no longer."""
-        self._sync.close()
-
-    def item(self, item_id: str) -> Item | None:
-        """Return a row, data or command of this browser."""
-        return self._sync.item(item_id)
-
     def say(self, sentence: str, level: Level) -> None:
         """Show a sentence in this browser."""
         self._notices.say(sentence, level)
-        self._sync.remake(self._notices)
+        self._remake(self._notices)
 
     def _remake(self, panel: Panel) -> None:
-        self._sync.remake(panel)
+        # While the rows are made for the first time, they are not made again.
+        if self._sync is not None:
+            self._sync.remake(panel)
 
     def answer(self, item_id: str, sentence: str) -> None:
         """Say why a value was refused; the page shows the value that holds again.
@@ -125,12 +127,12 @@ class BrowserPanels:
         begin = re.match(r"[a-z]+[ ,]", sentence)
         said = sentence[:1].upper() + sentence[1:] if begin else sentence
         self._notices.say(said, "error", item_id)
-        self._sync.remake(self._notices)
+        self._remake(self._notices)
 
     def give(self, answer: Answer) -> None:
         """Say something to the browser's user, and fill the clipboard."""
         self._notices.say(answer.say, answer.level, copy=answer.copy)
-        self._sync.remake(self._notices)
+        self._remake(self._notices)
 
 
 class NoticePanel(Panel):

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+import re
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data, Level
+from sambot_viz.panels.row import Answer, Data, Json, Level, Row
 from sambot_viz.session.people.roles import Participant, Roles
 
 
@@ -27,25 +28,82 @@ class PeoplePanel(Panel):
         self._roles = roles
         self._is_copy = is_copy
 
-    def data(self) -> Sequence[Data]:
-        """Return how many there are, and the names of some."""
-        roles = self._roles
-        people = roles.people
-        control = [person.name for person in people.values() if person.has_control]
-        requests = [
-            [id, person.name] for id, person in people.items() if person.requests
-        ]
-        given = any(p.has_control and not p.presenter for p in people.values())
-        state = {
-            "clients": len(people),
-            "presented": roles.presented,
-            "control": control if roles.presented else [],
-            "viewers": len(people) - len(control),
-            "requests": requests,
-            "given": given and roles.presented,
-            "copy": self._is_copy,
+    def rows(self) -> Sequence[Row]:
+        """Return everyone, presenters first."""
+        people = sorted(self._roles.people.items(), key=lambda p: not p[1].presenter)
+        return [self._row(client_id, person) for client_id, person in people]
+
+    def _row(self, client_id: int, person: Participant) -> Row:
+        facts: dict[str, Json] = {
+            "client": client_id,
+            "presenter": person.presenter,
+            "control": person.has_control,
+            "requests": person.requests,
         }
+        return Row(f"person/{client_id}", "", "readonly", person.name, extra=facts)
+
+    def data(self) -> Sequence[Data]:
+        """Return what kind of session it is."""
+        state = {"presented": self._roles.presented, "copy": self._is_copy}
         return [Data("people/state", state)]
+
+
+@dataclass(frozen=True, slots=True)
+class Invitation:
+    """The link for viewers.
+
+    Attributes:
+        link: the whole address, with the secret in it.
+        dark: its QR code, line by line: "1" for a dark module.
+        only_here: whether it can be opened on this machine only.
+    """
+
+    link: str
+    dark: Sequence[str]
+    only_here: bool
+
+
+Invite = Callable[[str], Invitation]
+"""Makes the link for viewers, from the address at which a page was opened."""
+
+
+class InvitePanel(Panel):
+    """Gives one client the link for viewers, also as a QR code.
+
+    Args:
+        client_id: the client; where there is a presenter, only presenters invite.
+        invite: makes the link.
+        remake: called when there is one.
+    """
+
+    name = "invite"
+
+    def __init__(
+        self,
+        roles: Roles,
+        client_id: int,
+        invite: Invite,
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self._roles, self._id = roles, client_id
+        self._make, self._remake = invite, remake
+        self._made: Json = None
+
+    def data(self) -> Sequence[Data]:
+        """Return the last link that was asked for."""
+        return [Data("people/invitation", self._made)]
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether this client may invite others."""
+        person = self._roles.people.get(self._id)
+        return person is not None and (person.presenter or not self._roles.presented)
+
+    @command("people/invite", TEXT, name="Invite", client_local=True)
+    def _invite(self, opened_at: str) -> None:
+        if not re.fullmatch(r"https?://[^/?#\s]+(/[^?#\s]*)?", opened_at):
+            raise UsageError(f"this is not the address of a page: {opened_at}")
+        self._made = {"asked": opened_at, **asdict(self._make(opened_at))}
+        self._remake(self)
 
 
 class OwnRolePanel(Panel):
@@ -65,7 +123,7 @@ class OwnRolePanel(Panel):
         self._roles, self._id = roles, client_id
         self._say = say
         self._before: Participant | None = None
-        self._helpers: frozenset[str] = frozenset()
+        self._helpers: dict[int, str] = {}
         self._acted = False
 
     def data(self) -> Sequence[Data]:
@@ -75,6 +133,7 @@ class OwnRolePanel(Panel):
             return []
         self._say_news(person)
         me = {
+            "client": self._id,
             "name": person.name,
             "presenter": person.presenter,
             "control": person.has_control,
@@ -92,17 +151,32 @@ class OwnRolePanel(Panel):
         if person.has_control and not before.has_control:
             self._say("You are in control. Everyone sees what you change", "ok")
         elif before.has_control and not person.has_control:
-            taken = f"View only: {_list(self._helpers)} now in control"
+            taken = f"View only: {_list(self._helpers.values())} now in control"
             taken = taken if self._helpers else _TAKEN_BACK
             self._say(_RELEASED if acted else taken, "ok" if acted else "warn")
         elif before.requests and not person.requests and not acted:
             self._say("The presenter declined your request", "warn")
-        elif person.presenter and not acted and helpers - self._helpers:
-            self._say(f"{', '.join(helpers - self._helpers)} released control", "ok")
+        elif before.name != person.name and not acted:
+            self._say(f"The presenter has renamed you: {person.name}", "ok")
+        elif person.presenter and not acted:
+            self._say_who_helps(helpers)
 
-    def _viewers_in_control(self) -> frozenset[str]:
-        people = self._roles.people.values()
-        return frozenset(p.name for p in people if p.has_control and not p.presenter)
+    def _say_who_helps(self, before: dict[int, str]) -> None:
+        """Tell a presenter which viewers have control now, or no longer."""
+        left = [name for id, name in before.items() if id not in self._roles.people]
+        ended = [before[id] for id in before.keys() - self._helpers.keys()]
+        new = [self._helpers[id] for id in self._helpers.keys() - before.keys()]
+        if new:
+            self._say(f"{_list(new)} now in control", "ok")
+        elif left:
+            have = "has" if len(left) == 1 else "have"
+            self._say(f"{', '.join(left)} {have} left, and had control", "ok")
+        elif ended:
+            self._say(f"{_list(ended)} no longer in control", "ok")
+
+    def _viewers_in_control(self) -> dict[int, str]:
+        people = self._roles.people.items()
+        return {i: p.name for i, p in people if p.has_control and not p.presenter}
 
     def offers(self, command_id: str) -> bool:
         """Tell whether the browser has joined."""
@@ -142,6 +216,27 @@ class OwnRolePanel(Panel):
         with self._acting():
             self._roles.refuse(self._id, client_id)
 
+    @command("role/decline-all", client_local=True)
+    def _refuse_all(self) -> None:
+        with self._acting():
+            self._roles.refuse_all(self._id)
+
+    @command("role/remove", INTEGER, client_local=True)
+    def _remove(self, client_id: int) -> Answer:
+        with self._acting():
+            person = self._roles.remove(self._id, client_id)
+        return Answer(f"Removed {person.name}")
+
+    @command("role/rename", INTEGER, TEXT, name="Rename", client_local=True)
+    def _rename(self, client_id: int, name: str) -> None:
+        with self._acting():
+            self._roles.rename(self._id, client_id, name)
+
+    @command("role/greet", TEXT, client_local=True)
+    def _greet(self, name: str) -> None:
+        with self._acting():
+            self._roles.greet(self._id, name)
+
     @command("role/take-back", client_local=True)
     def _take(self) -> Answer:
         with self._acting():
@@ -149,9 +244,9 @@ class OwnRolePanel(Panel):
         return Answer("Only you are in control")
 
 
-def _list(names: frozenset[str]) -> str:
-    verb = "is" if len(names) == 1 else "are"
-    return f"{', '.join(sorted(names))} {verb}"
+def _list(names: Iterable[str]) -> str:
+    listed = sorted(names)
+    return f"{', '.join(listed)} {'is' if len(listed) == 1 else 'are'}"
 
 
 _RELEASED = "You have released control"

@@ -9,8 +9,9 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Data, Json, Row
+from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.tools.tool import Tool
@@ -28,14 +29,16 @@ class ToolsPanel(Panel):
     Args:
         client: whose tools these are.
         scene: is drawn again by Reset.
+        clients: their pointer shows everyone what is selected here.
     """
 
     name = "tools"
 
-    def __init__(self, client: Client, scene: Scene) -> None:
+    def __init__(self, client: Client, scene: Scene, clients: Clients) -> None:
         self.remade_by = (client.tools.changed,)
         self._client = client
         self._scene = scene
+        self._pointer = clients.pointer
 
     def data(self) -> Sequence[Data]:
         """Return the tools, the hint of the current one, and what is selected."""
@@ -68,6 +71,15 @@ class ToolsPanel(Panel):
     def _reset(self) -> None:
         """Draw the scene again for everyone."""
         self._scene.refresh()
+
+    @command("tools/point", name="Point at the selection")
+    def _point(self) -> Answer:
+        """Show everyone what is selected here."""
+        items = self._client.tools.selection
+        if not items:
+            raise UsageError("select what to point at first, with the tool Select")
+        self._pointer.show(items)
+        return Answer("All pages show what you have selected")
 
     @command("tools/choose", TEXT, client_local=True)
     def _choose(self, label: str) -> None:

@@ -11,7 +11,7 @@ from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Data, Json, Level, Row
+from sambot_viz.panels.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import row_text
@@ -53,10 +53,13 @@ class ViewsPanel(Panel):
         say: Callable[[str, Level], None],
     ) -> None:
         self._clients, self._client = clients, client
-        self._say, self._led = say, clients.leading.value
+        # One who comes later is told too.
+        self._say, self._led = say, False
+        self._brought = clients.brought.value
         self.remade_by = (
             document.views,
             clients.leading,
+            clients.brought,
             clients.free,
             roles.changed,
             client.view.changed,
@@ -117,6 +120,11 @@ class ViewsPanel(Panel):
         if led and not self._led:
             self._say("The presenter leads your view; Views can turn that off", "ok")
         self._led = led
+        before, self._brought = self._brought, clients.brought.value
+        if self._brought not in (None, before) and self._brought[0] != client_id:
+            people = self._roles.people
+            who = people[self._brought[0]].name if self._brought[0] in people else ""
+            self._say(f"{who or 'Someone'} has brought you to this view", "ok")
         if self._roles.may_edit(client_id):
             camera = "you show, while you have control"
             if not self._roles.presented:
@@ -141,6 +149,12 @@ class ViewsPanel(Panel):
                 client_local=True,
                 set=lambda on: clients.follow(client_id, on),
             )
+
+    @command("views/bring", name="Bring everyone to my view")
+    def _bring(self) -> Answer:
+        others = self._clients.bring(self._client.client_id)
+        pages = "page shows" if others == 1 else "pages show"
+        return Answer(f"{others} other {pages} your view")
 
     @command("views/restore", TEXT, TEXT, client_local=True)
     def _restore(self, label: str, sent: str) -> None:

@@ -14,7 +14,7 @@ from sambot_viz.panels.files import Files
 from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.people import PeoplePanel
+from sambot_viz.panels.people import Invite, PeoplePanel
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.row import Answer, Row
@@ -34,6 +34,7 @@ class Window:
         joints: whether there are panels to move joints (``--no-gui`` leaves them out).
         files: the disk; None when the browsers may not use it.
         ask_page: makes a page of what is seen; None leaves that out.
+        invite: makes the link for viewers; None leaves inviting out.
     """
 
     def __init__(
@@ -42,10 +43,12 @@ class Window:
         joints: bool = True,
         files: Files | None = None,
         ask_page: AskPage | None = None,
+        invite: Invite | None = None,
     ) -> None:
         self._session = session
         self._files = files
         self._ask_page = ask_page
+        self._invite = invite
         self._browsers: dict[int, BrowserPanels] = {}
         self._keys: dict[tuple[int, str, int | None], object] = {}
         self._displays = DisplaysPanel(
@@ -104,6 +107,7 @@ class Window:
                 client,
                 self._files,
                 self._ask_page,
+                self._invite,
                 self._displays,
                 self._shared_row,
             )

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import asyncio
 import http
+from collections import deque
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
@@ -51,6 +52,10 @@ CLIENT_LEFT = 4001
 """The channel is closed because the page's connection to viser has ended."""
 PAGE_LEFT = 4002
 """The page closes its channel for good: it is not shown any more."""
+REMOVED = 4003
+"""The presenter has closed the page, which is not to come back by itself."""
+_MOST_REMOVED = 1000
+"""So many pages that were removed are remembered."""
 PING, PONG = '"ping"', '"pong"'
 
 
@@ -65,6 +70,7 @@ class Channels:
         self.handler: ClientHandler = NoSessions()
         self._clients: dict[str, Connection] = {}
         self._channels: dict[str, Connection] = {}
+        self._removed: deque[str] = deque(maxlen=_MOST_REMOVED)
         self._changed = asyncio.Event()
         self._closing: set[asyncio.Task[None]] = set()
 
@@ -75,6 +81,8 @@ class Channels:
         context = connection.context
         if not context.ticket:
             return _in_use() if context.channel else None
+        if context.ticket in self._removed:
+            return _removed()
         if context.channel and self._is_of_another(connection):
             return _in_use()
         holder = self._holders(connection).get(context.ticket)
@@ -126,10 +134,14 @@ class Channels:
         connection.on_lost = release
 
     def _client_left(self, client: Connection) -> None:
+        if client.removed:
+            # viser's part of the page would come back at once.
+            self._removed.append(client.context.ticket)
         channel = self._channels.get(client.context.ticket)
         # One that waits for the next connection of its page goes on waiting.
         if channel is not None and channel.client is client:
-            closing = channel.close(CLIENT_LEFT, "the connection to viser has ended")
+            code = REMOVED if client.removed else CLIENT_LEFT
+            closing = channel.close(code, "the connection to viser has ended")
             # The loop itself keeps no reference to a task.
             task = asyncio.get_running_loop().create_task(closing)
             self._closing.add(task)
@@ -288,5 +300,13 @@ def _in_use() -> Response:
     return plain_page(
         http.HTTPStatus.CONFLICT,
         "This page is open already",
+        "Load the page again.",
+    )
+
+
+def _removed() -> Response:
+    return plain_page(
+        http.HTTPStatus.FORBIDDEN,
+        "The presenter has removed this page",
         "Load the page again.",
     )

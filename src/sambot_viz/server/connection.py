@@ -60,6 +60,7 @@ class Connection(ServerConnection):
         client_id: viser's number of the client; None for a channel.
         client: for a channel, the connection to viser of the same page.
         on_lost: called when the connection has ended.
+        removed: whether the presenter has closed the page.
     """
 
     def __init__(
@@ -73,6 +74,7 @@ class Connection(ServerConnection):
         self.client_id: int | None = None
         self.client: Connection | None = None
         self.on_lost: Callable[[], object] = lambda: None
+        self.removed = False
         self._limiter = limiter
         self._limit_small_frames()
 

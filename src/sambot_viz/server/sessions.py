@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import cast
@@ -25,6 +26,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import reload_problems
 from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.links import invite
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
@@ -112,6 +114,7 @@ class Sessions:
         """
         place = self._add_place(None)
         place.session = self._open(self._server, place.worker)
+        place.session.roles.end_connection = self._end_connection
 
     def close(self) -> None:
         """End all sessions and their threads."""
@@ -194,8 +197,14 @@ class Sessions:
         with session.lock:
             if self.options.panels and place.window is None:
                 # Visitors with a session of their own do not use the server's disk.
-                files = self._files if session is self.shared else None
-                place.window = Window(session, self.options.gui, files, self._ask_page)
+                shared = session is self.shared
+                place.window = Window(
+                    session,
+                    self.options.gui,
+                    self._files if shared else None,
+                    self._ask_page,
+                    partial(invite, self.options) if shared else None,
+                )
         self.on_joined()
 
     def refresh(self) -> None:
@@ -325,6 +334,17 @@ class Sessions:
         place = _Place(Worker(self._server.get_event_loop()))
         self._places[client_id] = place
         return place
+
+    def _end_connection(self, client_id: int) -> None:
+        """Close the page of a client, which is not to come back by itself."""
+
+        def close() -> None:
+            with suppress(KeyError):
+                connection = viser_private.connection_of(self._server, client_id)
+                cast(Connection, connection).removed = True
+                connection.transport.abort()
+
+        self._server.get_event_loop().call_soon_threadsafe(close)
 
     def _context(self, client_id: int) -> ClientContext:
         try:

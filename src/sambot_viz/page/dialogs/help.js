@@ -17,6 +17,7 @@ const KEYS = [
       ["F", "look at the selection, or at the robot"],
       ["Z", "reset the view to its default"],
       ["R", "reload meshes and redraw"],
+      ["P", "show everyone what you have selected"],
       ["H", "hide or show all panels"],
       ["Esc", "back to the first tool"],
       ["8 2 4 6 in Drive", "drive"],

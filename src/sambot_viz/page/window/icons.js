@@ -41,6 +41,7 @@ const PATHS = {
   trash: "M2.5 4.5h11M6 4.5V2.5h4v2M4 4.5l.8 9.5h6.4l.8-9.5M6.7 7v4.5M9.3 7v4.5",
   add: "M8 3v10M3 8h10",
   remove: "M3 8h10",
+  rename: "M3 13l1-3.5 6.5-6.5 2.5 2.5-6.5 6.5z",
   copy: "M5.5 5.5h8v8h-8zM3 10.5h-.5v-8h8V3",
   search: "M7 2.5a4.5 4.5 0 1 0 .01 0M10.3 10.3l3.7 3.7",
   forwards: "M8 3l5 9H3z",

@@ -56,6 +56,7 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
   if (key === "f") return { act: "tools/focus", with: mouse };
   if (key === "z") return { act: "tools/zero" };
   if (key === "r") return { act: "tools/reset" };
+  if (key === "p") return { act: "tools/point" };
   // A number pad drives the robot: 8 and 2 forwards and back, 4 and 6 turn, 5 stops. A digit
   // that was meant for a field must not: only stopping is always safe.
   if (key === "5" || (drives && "2468".includes(key))) return { act: "drive/press", with: [key] };

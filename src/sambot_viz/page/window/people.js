@@ -1,51 +1,79 @@
 // @ts-check
-/* The presenter and the viewers: what the status bar says, how a viewer requests control,
- * how a presenter gives it, and how a user opens a private copy. */
+/* The presenter and the viewers: what the status bar says, what a viewer's page says at its top,
+ * and the requests for control over the view of a presenter. Who is there is in the dialog of the
+ * status bar (dialogs/people.js). */
 
-import { html, useRef } from "../vendor/preact.js";
+import { html, useLayoutEffect, useReducer } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
+import { PeopleList } from "../dialogs/people.js";
 import { Popup } from "./popup.js";
-import { Cell, useData } from "../state.js";
+import { Cell, useData, useRow } from "../state.js";
 
 /**
- * @typedef {{clients: number, presented: boolean, control: string[], viewers: number,
- *   requests: [number, string][], given: boolean, copy: boolean}} State
- * @typedef {{name: string, presenter: boolean, control: boolean, requests: boolean}} Me
+ * @typedef {{presented: boolean, copy: boolean}} State
+ * @typedef {{client: number, name: string, presenter: boolean, control: boolean,
+ *   requests: boolean}} Me
+ * @typedef {{id: string, name: string, client: number, presenter?: boolean, control?: boolean,
+ *   requests?: boolean}} Person
+ * @typedef {{state: State, me: Me, people: Person[], viewers: number, requests: Person[]}} Now
+ *   viewers: how many are not in control
  */
 
-/** The name under which this user requests control. @type {Cell<string>} */
-const ownName = new Cell("", "name");
+/** The name of this user, for the next time. @type {Cell<string>} */
+export const ownName = new Cell("", "name");
+/** Whether the dialog of the status bar is open. @type {Cell<boolean>} */
+export const peopleOpen = new Cell(/** @type {boolean} */ (false));
 
 /** Rows that this user may not set look and act like those that cannot be set. */
 export function followRole() {
+  let client = -1;
   const look = () => {
     const me = /** @type {Me | undefined} */ (rows.data("role/me"));
     if (!me) return;
     rows.watch(!me.control);
     document.body.classList.toggle("view-only", !me.control);
+    // Each connection is a new client, with a name like "Viewer 4".
+    if (client !== me.client && ownName.value) act("role/greet", [ownName.value]);
+    client = me.client;
   };
   rows.listen("role/me", look);
   look();
 }
 
-/** @returns {{state: State, me: Me} | null} */
-function usePeople() {
+/** Who is there now. @returns {Now | null} */
+export function usePeople() {
   const state = useData("people/state"),
     me = useData("role/me");
-  return state && me ? { state, me } : null;
+  useRow("panel:people");
+  const ids = rows.panels.get("people") || [];
+  const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
+  useLayoutEffect(() => {
+    const stops = ids.map((id) => rows.listen(id, () => again(0)));
+    return () => stops.forEach((stop) => stop());
+  }, [ids.join()]);
+  if (!state || !me) return null;
+  /** @type {Person[]} */
+  const people = /** @type {any[]} */ (ids.map((id) => rows.get(id)));
+  return {
+    state,
+    me,
+    people,
+    viewers: people.filter((person) => !person.control).length,
+    requests: people.filter((person) => person.requests),
+  };
 }
 
 /** In the status bar: who is in control, and what can be done about it. */
 export function People() {
   const now = usePeople();
   if (!now) return null;
-  const { state, me } = now;
-  if (!state.copy && !state.presented && state.clients < 2) return null;
-  return html`<${Popup} name="People" role="dialog" title=${inWords(state, me)}
-    label=${short(state, me)}>${(/** @type {() => void} */ close) =>
+  const { state, me, people } = now;
+  if (!state.copy && !state.presented && people.length < 2) return null;
+  return html`<${Popup} name="People" role="dialog" title=${inWords(now)} opened=${peopleOpen}
+    label=${short(now)}>${(/** @type {() => void} */ close) =>
       html`<div class="people">
-      <p>${inWords(state, me)}</p>
-      ${state.presented && html`<${Control} state=${state} me=${me} close=${close} />`}
+      <p>${inWords(now)}</p>
+      ${!state.copy && html`<${PeopleList} now=${now} close=${close} />`}
       ${
         state.copy
           ? html`<button onClick=${() => location.assign("../")}>Back to the shared robot</button>`
@@ -60,89 +88,63 @@ export function People() {
 /** @param {number} number @param {string} noun */
 const count = (number, noun) => `${number || "no"} ${noun}${number === 1 ? "" : "s"}`;
 
-/** @param {State} state @param {Me} me */
-function short(state, me) {
+/** @param {Now} now */
+function short(now) {
+  const { state, me, people, viewers, requests } = now;
   if (state.copy) return "Private copy";
-  if (!state.presented) return `${state.clients} browsers`;
-  const requests =
-    me.presenter && state.requests.length ? `, ${count(state.requests.length, "request")}` : "";
-  return `${inControl(state, me)}, ${count(state.viewers, "viewer")}${requests}`;
+  if (!state.presented) return `${people.length} browsers`;
+  const asking = me.presenter && requests.length ? `, ${count(requests.length, "request")}` : "";
+  return `${inControl(now)}, ${count(viewers, "viewer")}${asking}`;
 }
 
-/** @param {State} state @param {Me} me */
-function inControl(state, me) {
-  const others = me.control ? state.control.filter((name) => name !== me.name) : state.control;
-  const who = me.control ? ["You", ...others] : others;
+/** @param {Now} now */
+function inControl({ me, people }) {
+  const others = people.filter(({ control, client }) => control && client !== me.client);
+  const names = others.map(({ name }) => name).sort();
+  const who = me.control ? ["You", ...names] : names;
   const verb = me.control || who.length > 1 ? "are" : "is";
-  return `${who.join(" and ") || "Nobody"} ${verb} in control`;
+  const list =
+    who.length > 2 ? `${who.slice(0, -1).join(", ")} and ${who.at(-1)}` : who.join(" and ");
+  return `${list || "Nobody"} ${verb} in control`;
 }
 
-/** @param {State} state @param {Me} me */
-function inWords(state, me) {
-  if (state.copy) return "This is a private copy. Only you see what you change.";
-  if (!state.presented) return `${state.clients} pages show this robot, and each can control it.`;
-  return `${inControl(state, me)}. ${count(state.viewers, "viewer")}.`;
-}
-
-/** @param {{state: State, me: Me, close: () => void}} props */
-function Control({ state, me, close }) {
-  /** @type {Ref<HTMLInputElement>} */
-  const name = useRef(null);
-  if (me.presenter) {
-    return html`<div class="requests"><${AskList} requests=${state.requests} /></div>
-      ${
-        state.given &&
-        html`<button
-        onClick=${() => act("role/take-back")}>Take back control</button>`
-      }`;
-  }
-  if (me.control)
-    return html`<button onClick=${() => act("role/release")}>Release control</button>`;
-  if (me.requests) {
-    return html`<p>You have requested control.</p>
-      <button onClick=${() => act("role/release")}>Cancel the request</button>`;
-  }
-  const ask = () => {
-    ownName.set(name.current.value.trim());
-    act("role/request", [ownName.value]);
-    close();
-  };
-  return html`<form onSubmit=${(/** @type {Event} */ e) => {
-    e.preventDefault();
-    ask();
-  }}>
-    <label>Your name <input class="field" maxlength="40" placeholder=${me.name} ref=${name}
-      defaultValue=${ownName.value} /></label>
-    <button type="submit">Request control</button>
-  </form>`;
-}
-
-/** @param {{requests: [number, string][]}} props */
-function AskList({ requests }) {
-  return html`${requests.map(
-    ([id, name]) => html`<p class="ask" key=${id}>${`${name} requests control.`}
-    <button onClick=${() => act("role/give", [id])}
-      aria-label=${`Give control to ${name}`}>Give control</button>
-    <button onClick=${() => act("role/decline", [id])}
-      aria-label=${`Not now, ${name}`}>Not now</button></p>`,
-  )}`;
+/** @param {Now} now */
+function inWords(now) {
+  if (now.state.copy) return "This is a private copy. Only you see what you change.";
+  if (!now.state.presented)
+    return `${now.people.length} pages show this robot, and each can control it.`;
+  return `${inControl(now)}. ${count(now.viewers, "viewer")}.`;
 }
 
 /** How many requests are shown over the view, each with its buttons. */
 const OVER_VIEW = 2;
 
-/** Over the view of a presenter: the requests for control, all but the first in one line. */
+/** Over the view: the requests for control, for a presenter; that others control the robot, for
+ * a viewer. */
 export function Asking() {
   const now = usePeople();
-  const asks = now?.me.presenter ? now.state.requests : [];
-  const many = asks.length > OVER_VIEW,
-    rest = many ? asks.slice(1) : [];
-  const decline = () => rest.forEach(([id]) => act("role/decline", [id]));
+  const asks = now?.me.presenter ? now.requests : [];
+  const chip = now && !now.me.control && !peopleOpen.use();
   return html`<div class="asking" role="status" aria-live="polite">
-    <${AskList} requests=${many ? asks.slice(0, 1) : asks} />
+    ${chip && html`<${ViewOnly} me=${now.me} />`}
     ${
-      many &&
-      html`<p class="ask">${`${rest.length} more request control; all are in the list below.`}
-      <button onClick=${decline} aria-label=${`Not now, these ${rest.length}`}>Not now</button></p>`
+      asks.length > OVER_VIEW
+        ? html`<p class="ask">${`${asks.length} people request control.`}
+      <button onClick=${() => peopleOpen.set(true)}>Show them</button>
+      <button onClick=${() => act("role/decline-all")}
+        aria-label=${`Not now, all ${asks.length}`}>Not now</button></p>`
+        : asks.map(
+            ({ client, name }) => html`<p class="ask" key=${client}>${`${name} requests control.`}
+      <button onClick=${() => act("role/give", [client])}
+        aria-label=${`Give control to ${name}`}>Give control</button>
+      <button onClick=${() => act("role/decline", [client])}
+        aria-label=${`Not now, ${name}`}>Not now</button></p>`,
+          )
     }</div>`;
+}
+
+/** @param {{me: Me}} props */
+function ViewOnly({ me }) {
+  return html`<button class="chip" onClick=${() => peopleOpen.set(true)}>
+    ${me.requests ? "View only · Control requested" : "View only · Request control"}</button>`;
 }

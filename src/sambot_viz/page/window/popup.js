@@ -1,20 +1,25 @@
 // @ts-check
 /* A button that opens a small panel below it: a menu, or a form. */
 
-import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { isTyping, meaning } from "./keys.js";
 import { usePressOutside } from "./menu.js";
+import { Cell } from "../state.js";
 
 const EDGE = 4;
 
 /**
  * @param {{label: any, name: string, role: "menu" | "dialog", title?: string,
- *   children: (close: () => void) => any}} props
- *   label: what the button shows; name: what it, and the panel, is called
+ *   opened?: Cell<boolean>, children: (close: () => void) => any}} props
+ *   label: what the button shows; name: what it, and the panel, is called; opened: for those who
+ *   open it from elsewhere
  */
-export function Popup({ label, name, role, title, children }) {
-  const [open, setOpen] = useState(false);
+export function Popup({ label, name, role, title, opened, children }) {
+  const own = useRef(/** @type {Cell<boolean>} */ (new Cell(/** @type {boolean} */ (false))));
+  const state = opened || own.current,
+    open = state.use();
+  const setOpen = (/** @type {boolean} */ on) => state.set(on);
   /** @type {Ref} */
   const button = useRef(null);
   /** @type {Ref} */

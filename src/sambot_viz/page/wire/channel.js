@@ -13,6 +13,8 @@ let socket = null;
 export const EDITED = "edited";
 /** There is no connection any more: what was sent meanwhile shows it first. */
 export const CUT = "cut";
+/** The presenter has ended the connection for good. */
+export const REMOVED = "removed";
 /** There is a connection again. */
 export const ONLINE = "online";
 /** Another edit waits for the connection. */
@@ -141,5 +143,6 @@ export function connect(address = window.sambotSocket || "") {
     take: (part) => rows.take(part.of, part),
     // Who hears it notes how things were, and holds edits back.
     lost: () => rows.notify(CUT),
+    removed: () => rows.notify(REMOVED),
   });
 }

@@ -14,6 +14,7 @@ import {
   goOnline,
   heldBack,
   holdBack,
+  REMOVED,
   rows,
   sendHeldBack,
   WAITING,
@@ -45,7 +46,7 @@ const KEPT = "sambot-viz-again";
 const BACK = 8000;
 
 /** What is said over the view: that there is no connection, or what came back.
- * @type {Cell<import("./retries.js").State | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
+ * @type {Cell<"removed" | import("./retries.js").State | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
 const said = new Cell(/** @type {any} */ (null));
 
 /** Follow the connection from now on. */
@@ -65,6 +66,11 @@ export function followConnection() {
     said.set({ tries: 0, status: 0, ended: false });
   };
   rows.listen(CUT, cut);
+  rows.listen(REMOVED, () => {
+    lost = true;
+    goOffline();
+    said.set("removed");
+  });
   let answered = 0;
   retries.listeners.push((state) => {
     // A page that has just been opened may wait for its turn.
@@ -78,7 +84,7 @@ export function followConnection() {
   });
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
-    if (said.value && "tries" in said.value) said.set(null);
+    if (isState(said.value)) said.set(null);
     if (!before || !(lost || kept)) return;
     const then = before,
       silent = kept && !kept.stuck,
@@ -193,7 +199,21 @@ function openAgain(before) {
 export function Connection() {
   const now = said.use();
   return html`<div class="connection" role="status" aria-live="assertive">
-    ${now && ("tries" in now ? html`<${Lost} ...${now} />` : html`<${Back} ...${now} />`)}</div>`;
+    ${
+      now === "removed"
+        ? html`<${Removed} />`
+        : isState(now)
+          ? html`<${Lost} ...${now} />`
+          : now && html`<${Back} ...${now} />`
+    }</div>`;
+}
+
+/** @param {any} now @returns {now is import("./retries.js").State} */
+const isState = (now) => Boolean(now && typeof now === "object" && "tries" in now);
+
+function Removed() {
+  return html`<p class="l-error">The presenter has removed you from this robot.
+    <button onClick=${() => location.reload()}>Join again</button></p>`;
 }
 
 /** How often the page has tried when it offers to try at once. */

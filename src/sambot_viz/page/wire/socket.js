@@ -15,12 +15,16 @@ const ANSWER = 5000;
 /** The page closes its connections for good. */
 const PAGE_LEFT = 4002;
 
-/** @typedef {{take: (message: any) => void, lost: () => void}} Follower */
+/** The presenter has closed this page. */
+const REMOVED = 4003;
+
+/** @typedef {{take: (message: any) => void, lost: () => void, removed: () => void}} Follower */
 
 export class Socket {
   /**
    * @param {string} address
-   * @param {Follower} follower takes messages, and hears when the connection is lost
+   * @param {Follower} follower takes messages, and hears when the connection is lost, or was
+   *   ended by the presenter
    */
   constructor(address, follower) {
     this.address = address;
@@ -63,9 +67,12 @@ export class Socket {
         // An error in one message must not keep the next ones from being taken.
         .catch((error) => reportError(error));
     };
-    socket.onclose = () => {
+    socket.onclose = ({ code }) => {
       // One that was given up may end much later.
-      if (this.socket === socket) this.end();
+      if (this.socket !== socket) return;
+      if (code !== REMOVED) return this.end();
+      this.leave();
+      this.follower.removed();
     };
   }
 

@@ -6,7 +6,7 @@ of the mouse moves the camera. What tools draw is drawn for their own client alo
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -44,6 +44,7 @@ class ClientTools:
         robot: the selection moves with it.
         picker: finds what is clicked on.
         worker: acts on clicks.
+        selected: called with the number of the client and what it has selected.
 
     Attributes:
         changed: the tools, the selection or the status.
@@ -63,6 +64,7 @@ class ClientTools:
         robot: RobotState,
         picker: Picker,
         worker: Worker,
+        selected: Callable[[int, Collection[Selectable]], None],
     ) -> None:
         self.changed = Signal(change, None)
         self.status = ""
@@ -73,6 +75,7 @@ class ClientTools:
         self._document = document
         self._picker = picker
         self._worker = worker
+        self._selected = selected
         self._boxes = SelectionBoxes(client.scene)
         self._config: object = None
         self._settings: dict[str, dict[str, Any]] = {}
@@ -211,6 +214,7 @@ class ClientTools:
             self._draw_boxes()
             # A step of a joint costs nothing while nothing is selected.
             self._moving.to(*(self._drawn if kept else ()))
+        self._selected(self._client.client_id, kept)
 
     def look_at(self, point: Array) -> None:
         """Turn the camera to a point of the fixed frame, (3,) [m]."""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 
 import viser
 
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.client_tools import ClientTools
 from sambot_viz.session.clients.client_view import ClientView
+from sambot_viz.session.clients.pointer import Pointer
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.saved_views import SavedViews
 from sambot_viz.session.people.roles import Roles
@@ -37,6 +39,9 @@ class Clients:
         leading: whether all clients show what the client shows whose camera moved
             last, of those that may change the session.
         free: the clients that do not follow then.
+        brought: the client that has brought all others to its view last, and how often
+            that has been done.
+        pointer: shows all clients what one of them points at.
         listeners: called with a client that joined (True) or left (False), with the
             session locked.
     """
@@ -54,6 +59,8 @@ class Clients:
     ) -> None:
         self.leading = Signal(change, False)
         self.free: Signal[frozenset[int]] = Signal(change, frozenset())
+        self.brought: Signal[tuple[int, int] | None] = Signal(change, None)
+        self.pointer = Pointer(scene, picker, robot, change, worker)
         self._leader: ClientView | None = None
         self.listeners: list[Callable[[Client, bool], None]] = []
         self._document = document
@@ -95,6 +102,7 @@ class Clients:
             self._robot,
             self._picker,
             self._worker,
+            self._point,
         )
         client = self._clients[handle.client_id] = Client(handle, change, view, tools)
         for listener in tuple(self.listeners):
@@ -127,6 +135,7 @@ class Clients:
 
     def close(self) -> None:
         """Follow nothing any more."""
+        self.pointer.hide()
         for client in self._clients.values():
             client.close()
 
@@ -136,6 +145,21 @@ class Clients:
         self.free.set(frozenset())
         if on:
             self._lead(self._clients[client_id].view)
+
+    def bring(self, client_id: int) -> int:
+        """Show all clients once what this one shows; returns how many others."""
+        view = self._clients[client_id].view
+        others = [c.view for c in self._clients.values() if c.view is not view]
+        for other in others:
+            other.follow(view)
+        times = 0 if self.brought.value is None else self.brought.value[1]
+        self.brought.set((client_id, times + 1))
+        return len(others)
+
+    def _point(self, client_id: int, items: Collection[Selectable]) -> None:
+        """Show all what a client has selected, where it presents."""
+        if self._roles.presented and self._roles.may_edit(client_id) and items:
+            self.pointer.show(items)
 
     def follow(self, client_id: int, on: bool) -> None:
         """Let a client follow, while all are led, or look where it likes."""

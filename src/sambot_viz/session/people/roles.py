@@ -8,6 +8,9 @@ client, such as its camera and its selection, is not a matter of roles.
 from __future__ import annotations
 
 import itertools
+import unicodedata
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
@@ -45,13 +48,18 @@ class Roles:
 
     Attributes:
         changed: who is there, and who has or requests control.
+        end_connection: closes the page of a client for good.
     """
 
     def __init__(self, change: Change, presented: bool = False) -> None:
         self.presented = presented
         self.changed = Signal(change, None)
+        self.end_connection: Callable[[int], object] = lambda client_id: None
         self._people: dict[int, Participant] = {}
-        self._guests = itertools.count(1)
+        self._viewers = itertools.count(1)
+        # One who loads the page again is the same presenter, and nobody takes the name
+        # meanwhile.
+        self._presenters: dict[int, str] = {1: "Presenter"}
 
     @property
     def people(self) -> dict[int, Participant]:
@@ -60,13 +68,12 @@ class Roles:
 
     def join(self, client_id: int, presenter: bool) -> None:
         """Add the user of a client that has opened the page."""
-        # One who loads the page again is the presenter as before.
         taken = {person.number for person in self._people.values() if person.presenter}
         free = next(n for n in itertools.count(1) if n not in taken)
-        number = free if presenter else next(self._guests)
-        name = f"Guest {number}"
+        number = free if presenter else next(self._viewers)
+        name = self._free_name(f"Viewer {number}", client_id)
         if presenter:
-            name = "Presenter" if number == 1 else f"Presenter {number}"
+            name = self._presenters.setdefault(number, f"Presenter {number}")
         has_control = presenter or not self.presented
         self._people[client_id] = Participant(number, presenter, name, has_control)
         self.changed.touch()
@@ -88,23 +95,67 @@ class Roles:
 
         Args:
             client_id: who asks.
-            name: what the presenter is to read; empty keeps "Guest 3".
+            name: what the presenter is to read; empty keeps "Viewer 3".
 
         Raises:
-            UsageError: the name is too long, another's, or sounds like a presenter's.
+            UsageError: as for `rename`.
         """
+        person = self._people[client_id]
+        self._name(client_id, name)
+        person.requests = not person.has_control
+        self.changed.touch()
+
+    def rename(self, by: int, client_id: int, name: str) -> None:
+        """Give someone another name; an empty one keeps the name.
+
+        Args:
+            by: the client of who does it: the same one, or a presenter's.
+            client_id: whose name it is.
+            name: what the others read.
+
+        Raises:
+            UsageError: the name is too long, another's, or sounds like a presenter's;
+                or the user may not rename others.
+        """
+        if by != client_id:
+            self._viewer(by, client_id)
+        self._name(client_id, name)
+        self.changed.touch()
+
+    def greet(self, client_id: int, name: str) -> None:
+        """Take the name that a page has kept, with a number when it is another's."""
+        person = self._people[client_id]
+        if person.presenter:
+            return
+        # The user has not asked for anything that could be refused.
+        with suppress(UsageError):
+            self._name(client_id, name.strip() and self._free_name(name, client_id))
+        self.changed.touch()
+
+    def _name(self, client_id: int, name: str) -> None:
         person = self._people[client_id]
         if len(name) > LONGEST_NAME:
             raise UsageError(f"a name has at most {LONGEST_NAME} characters")
-        name = name.strip()
-        if not person.presenter and name.casefold().startswith("presenter"):
+        name = " ".join(name.split())
+        if not person.presenter and _same_form(name).startswith("presenter"):
             raise UsageError("names that begin with 'Presenter' are the presenter's")
-        others = (p.name for id, p in self._people.items() if id != client_id)
-        if name.casefold() in map(str.casefold, others):
+        if name and self._is_taken(name, client_id):
             raise UsageError(f"someone here is called '{name}' already")
         person.name = name or person.name
-        person.requests = not person.has_control
-        self.changed.touch()
+        if person.presenter:
+            self._presenters[person.number] = person.name
+
+    def _is_taken(self, name: str, client_id: int) -> bool:
+        person = self._people.get(client_id)
+        own = person.number if person is not None and person.presenter else None
+        others = [p.name for id, p in self._people.items() if id != client_id]
+        others += [kept for number, kept in self._presenters.items() if number != own]
+        return _same_form(name) in map(_same_form, others)
+
+    def _free_name(self, name: str, client_id: int) -> str:
+        """Return a name that nobody else has: "Ada", or "Ada 2"."""
+        numbered = (name if n == 1 else f"{name} {n}" for n in itertools.count(1))
+        return next(one for one in numbered if not self._is_taken(one, client_id))
 
     def release(self, client_id: int) -> None:
         """Give control back, or request it no longer."""
@@ -137,6 +188,28 @@ class Roles:
         self.changed.touch()
         return person
 
+    def refuse_all(self, presenter_id: int) -> None:
+        """Decline all requests.
+
+        Raises:
+            UsageError: only presenters may.
+        """
+        self._check_presenter(presenter_id)
+        for person in self._people.values():
+            person.requests = False
+        self.changed.touch()
+
+    def remove(self, presenter_id: int, client_id: int) -> Participant:
+        """Close the page of a viewer.
+
+        Raises:
+            UsageError: as for `give`.
+        """
+        person = self._viewer(presenter_id, client_id)
+        self.end_connection(client_id)
+        self.leave(client_id)
+        return person
+
     def take_back(self, presenter_id: int) -> None:
         """Take control from all viewers.
 
@@ -158,4 +231,11 @@ class Roles:
     def _check_presenter(self, client_id: int) -> None:
         person = self._people.get(client_id)
         if not self.presented or person is None or not person.presenter:
-            raise UsageError("only the presenter can give control")
+            raise UsageError("only the presenter can do this")
+
+
+def _same_form(name: str) -> str:
+    """Return what two names have in common that look alike."""
+    form = unicodedata.normalize("NFKC", name).casefold()
+    # What is not seen does not make another name.
+    return " ".join("".join(c for c in form if c.isprintable()).split())

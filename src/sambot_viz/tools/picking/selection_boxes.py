@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
 import numpy as np
@@ -15,12 +16,25 @@ CYAN = (0, 255, 255)
 
 
 class SelectionBoxes:
-    """One box of lines per selected item, along the axes of the fixed frame."""
+    """One box of lines per selected item, along the axes of the fixed frame.
 
-    def __init__(self, scene: viser.SceneApi) -> None:
+    Args:
+        scene: where they are drawn.
+        name: what the names of the nodes begin with.
+        color: of the lines.
+        thickness: of the lines [pixels].
+    """
+
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        name: str = "selected",
+        color: tuple[int, int, int] = CYAN,
+        thickness: float = 1.5,
+    ) -> None:
         self._scene = scene
+        self._name, self._color, self._thickness = name, color, thickness
         self._drawn: dict[Selectable, tuple[bytes, viser.LineSegmentsHandle]] = {}
-        self._count = 0
 
     def draw(self, boxes: Mapping[Selectable, tuple[Array, Array]]) -> None:
         """Draw these boxes and no others; a box that has not moved is not sent again.
@@ -40,11 +54,13 @@ class SelectionBoxes:
                 self._drawn[item] = (lines.tobytes(), known[1])
 
     def _add(self, lines: npt.NDArray[np.float32]) -> viser.LineSegmentsHandle:
-        self._count += 1
+        # Few names: viser keeps the removal of each for some time.
+        used = {handle.name for _, handle in self._drawn.values()}
+        names = (f"/~{self._name}{n}" for n in itertools.count(1))
         return self._scene.add_line_segments(
-            f"/~selected{self._count}",
+            next(name for name in names if name not in used),
             lines,
-            colors=CYAN,
-            thickness=1.5,
+            colors=self._color,
+            thickness=self._thickness,
             thickness_units="screen",
         )

@@ -1,0 +1,58 @@
+"""The links that are given to others: for viewers, and for the presenter."""
+
+from __future__ import annotations
+
+from urllib.parse import urlsplit
+
+from sambot_viz.options import Options
+from sambot_viz.panels.people import Invitation
+from sambot_viz.server.access import only_this_machine
+from sambot_viz.server.listener import reachable_at
+
+
+def with_token(base: str, token: str | None) -> str:
+    """Return the address of a page with a secret in it."""
+    return base if token is None else f"{base.rstrip('/')}/?token={token}"
+
+
+def public_url(options: Options, *, presenter: bool = False) -> str | None:
+    """Return the link at the first allowed origin, where a proxy shows the page.
+
+    Returns:
+        None when no origin was allowed.
+    """
+    if not options.allowed_origins:
+        return None
+    path = "" if options.base_path == "/" else options.base_path
+    token = options.presenter if presenter else options.token
+    return with_token(f"{options.allowed_origins[0]}{path}", token)
+
+
+def invite(options: Options, opened_at: str) -> Invitation:
+    """Return the link for viewers, also as a QR code.
+
+    Args:
+        options: where the server listens, and its secrets.
+        opened_at: the address under which a page was opened, as its browser shows it;
+            behind a proxy the server may not know it.
+    """
+    base, here = opened_at, urlsplit(opened_at)
+    local = only_this_machine(here.hostname or "")
+    public = public_url(options)
+    if local and public is not None:
+        return _as_code(public, False)
+    # Opened beside the server, it has a name that means another machine elsewhere.
+    if local and not only_this_machine(options.host):
+        host = reachable_at(options.host)
+        name = f"[{host}]" if ":" in host else host
+        port = "" if here.port is None else f":{here.port}"
+        base, local = here._replace(netloc=f"{name}{port}").geturl(), False
+    return _as_code(with_token(base, options.token), local)
+
+
+def _as_code(link: str, only_here: bool) -> Invitation:
+    import segno
+
+    rows = segno.make(link, error="m", micro=False).matrix
+    dark = ["".join("1" if module else "0" for module in row) for row in rows]
+    return Invitation(link, dark, only_here)
