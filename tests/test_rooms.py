@@ -121,7 +121,7 @@ ROOMS: Mapping[str, Row] = {
     ),
     # What programs and people start it with.
     "scripting": Row(
-        "displays export frames robot rviz server session views", "numpy viser"
+        "displays export frames joints robot rviz server session views", "numpy viser"
     ),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints options "
@@ -391,6 +391,7 @@ HOLDERS = {
     "scripting/camera.py",
     "scripting/displays.py",
     "scripting/events.py",
+    "scripting/files.py",
     "scripting/links.py",
     "server/reload.py",
     "server/sessions.py",

@@ -15,7 +15,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 import viser
 
 from sambot_viz.errors import JointError, RobotError, ServerError, did_you_mean
-from sambot_viz.export.page_file import ViewState, ask_page, page_file
+from sambot_viz.export.page_file import ask_page
 from sambot_viz.export.still_picture import still_picture
 from sambot_viz.files import write_atomically
 from sambot_viz.flags import keyword_help
@@ -30,7 +30,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.scripting.camera import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
-from sambot_viz.scripting.files import picture_of
+from sambot_viz.scripting.files import Motion, page_of, picture_of
 from sambot_viz.scripting.links import FrameControl, LinkControl, Links
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener, listen
@@ -377,7 +377,9 @@ class Visualizer:
         """
         write_atomically(Path(path), picture_of(self._server, size))
 
-    def export(self, path: Path | str, *, sweep: bool = True) -> None:
+    def export(
+        self, path: Path | str, *, sweep: bool = True, motion: Motion | None = None
+    ) -> None:
         """Write what is shown as one HTML file that needs no server.
 
         What a program has added to `viser` is not in it.
@@ -385,17 +387,17 @@ class Visualizer:
         Args:
             path: the file, which is written whole or not at all.
             sweep: whether the page has a motion of each joint to its limits and back.
+            motion: a motion of your own instead: times (T,) [s], and positions [rad or
+                m], (T, N) in the order of `Robot.joint_names` or joint → (T,). It is
+                linear in between, and plays 30 steps a second.
 
         Raises:
+            JointError: a joint of the motion that does not exist or follows another
+                one, no finite numbers, or another number of them.
+            UsageError: the times of the motion do not grow, or are too many.
             OSError: it cannot be written.
         """
-        session = self._first()
-        shown = session.copy()
-        content = page_file(
-            shown,
-            ViewState.at_first(session.document_view, session.robot.model is not None),
-            "sweep" if sweep else "none",
-        )
+        content = page_of(self._first(), sweep=sweep, motion=motion)
         write_atomically(Path(path), content)
 
     def wait(self) -> None:

@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
-from sambot_viz.errors import UsageError
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.errors import JointError, UsageError
 from sambot_viz.export import LARGEST_SIDE
 from sambot_viz.export.chromium import Chromium
+from sambot_viz.export.page_file import PERIOD, ViewState, page_file
 from sambot_viz.export.view_picture import LONGEST_WAIT, png, snapshot
+from sambot_viz.joints import JointState
+from sambot_viz.robot.model import Robot
 from sambot_viz.server.server import Server
+from sambot_viz.session import Session
+from sambot_viz.session.robot.motion_recorder import MotionSample, Past
 
 Size = tuple[int, int]
 """Width and height [pixels]."""
+Numbers = Sequence[Any] | npt.NDArray[Any]
+Motion = tuple[Numbers, Numbers | Mapping[str, Numbers]]
+"""Times (T,) [s], and positions (T, N) in the order of `Robot.joint_names` or joint →
+(T,) [rad or m]."""
+LONGEST_MOTION = 1200.0
+"""A longer one makes a page that browsers cannot open [s]."""
 
 
 def picture_of(server: Server, size: Size) -> bytes:
@@ -35,3 +52,77 @@ def _checked(size: Size) -> Size:
     if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
         raise UsageError(f"{size}: each side must be 1 to {LARGEST_SIDE} pixels")
     return width, height
+
+
+def page_of(session: Session, *, sweep: bool, motion: Motion | None) -> bytes:
+    """Return what a session shows as one HTML file, as `Visualizer.export` says."""
+    shown = session.copy()
+    first = ViewState.at_first(session.document_view, session.robot.model is not None)
+    if motion is None:
+        return page_file(shown, first, "sweep" if sweep else "none")
+    joints = session.robot.joints
+    if shown.robot is None or joints is None:
+        raise JointError("there is no robot yet that could move")
+    past = _motion_of(shown.robot, joints, motion)
+    return page_file(shown, first, "past", past)
+
+
+def _motion_of(robot: Robot, joints: JointState, motion: Motion) -> Past:
+    """Return a motion in steps of `PERIOD`, linear between the positions given."""
+    try:
+        times, given = motion
+        t = np.asarray(times, np.float64)
+    except (TypeError, ValueError):
+        raise UsageError("a motion is a pair: times (T,) [s], and positions") from None
+    if t.ndim != 1 or t.size == 0 or not np.isfinite(t).all() or (np.diff(t) < 0).any():
+        raise UsageError("the times of a motion are numbers [s] that grow")
+    t = t - t[0]
+    if t[-1] > LONGEST_MOTION:
+        raise UsageError(f"a motion lasts {LONGEST_MOTION:g} s at most")
+    if not isinstance(given, Mapping):
+        given = _columns(robot, given, t.size)
+    for name in given:
+        joints.checked(name, 0.0)
+    steps = [*np.arange(0.0, t[-1], PERIOD).tolist(), float(t[-1])]
+    tracks = {
+        name: np.interp(steps, t, _column(name, values, t.size)).tolist()
+        for name, values in given.items()
+    }
+    rows = [dict(zip(tracks, row, strict=True)) for row in _rows(tracks, len(steps))]
+    samples = [MotionSample(at, row, {}) for at, row in zip(steps, rows, strict=True)]
+    return MotionSample(0.0, {**joints.positions, **rows[0]}, {}), samples
+
+
+def _rows(tracks: Mapping[str, list[float]], count: int) -> Iterator[tuple[float, ...]]:
+    """Yield the positions of each step; a motion of no joints has empty ones."""
+    return iter(zip(*tracks.values(), strict=True)) if tracks else iter([()] * count)
+
+
+def _columns(robot: Robot, given: Numbers, count: int) -> dict[str, Numbers]:
+    names, array = robot.joint_names, _floats("positions", given)
+    if array.shape != (count, len(names)):
+        raise JointError(
+            f"the positions of a motion have the shape ({count}, {len(names)}), in the "
+            f"order of joint_names, not {array.shape}"
+        )
+    return {name: array[:, i] for i, name in enumerate(names)}
+
+
+def _column(name: str, values: Numbers, count: int) -> npt.NDArray[np.float64]:
+    array = _floats(f"joint '{name}'", values)
+    if array.shape != (count,):
+        raise JointError(
+            f"joint '{name}' needs {count} positions, one for each time, not the shape "
+            f"{array.shape}"
+        )
+    return array
+
+
+def _floats(what: str, values: Numbers) -> npt.NDArray[np.float64]:
+    try:
+        array = np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise JointError(f"{what}: these are not all numbers") from None
+    if not np.isfinite(array).all():
+        raise JointError(f"{what}: not all positions are finite numbers")
+    return array
