@@ -393,3 +393,39 @@ def test_an_option_that_does_not_exist_is_named_with_the_nearest() -> None:
     wrong: Any = {"prt": 1}
     with pytest.raises(TypeError, match=r"has no option 'prt'; did you mean 'port'\?"):
         Visualizer(**wrong)
+
+
+def test_the_text_of_a_model_is_a_model() -> None:
+    text = '\n<robot name="two"><link name="body"/></robot>'
+    with Visualizer(text, port=0) as viz:
+        assert viz.frames.frames == ("body",)
+        assert repr(viz) == f"<Visualizer of 'two' at {viz.url}>"
+    with pytest.raises(RobotError, match="body"):
+        Visualizer("<robot name='two'><link name='body'></robot>", port=0)
+
+
+def test_the_token_is_not_in_the_name_of_a_visualizer(
+    make_viz: Callable[..., Visualizer],
+) -> None:
+    viz = make_viz(token="a-secret-word")
+    assert "secret" in viz.url and "secret" not in repr(viz)
+
+
+def test_after_the_end_nothing_is_changed_in_silence(
+    make_viz: Callable[..., Visualizer], tmp_path: Path
+) -> None:
+    viz = make_viz()
+    link, tf = viz.link("base_link"), viz.displays["TF"]
+    viz.stop()
+    changes: list[Callable[[], object]] = [
+        lambda: viz.set_joint_positions({LEFT: 1.0}),
+        lambda: viz.set_static_transform("base_link", "laser"),
+        lambda: viz.camera.look_at("base_link"),
+        lambda: tf.set("Show Names", False),
+        link.highlight,
+        lambda: viz.snapshot(tmp_path / "a.png"),
+    ]
+    for change in changes:
+        with pytest.raises(ServerError, match="was stopped"):
+            change()
+    assert viz.joint_positions[LEFT] == 0.0

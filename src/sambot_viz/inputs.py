@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, Problem, RobotError, UsageError
 from sambot_viz.options import Options, PathLike
-from sambot_viz.robot.model_source import OpenedModel, open_model
+from sambot_viz.robot.model_source import OpenedModel, looks_like_text, open_model
 
 # The page is there before what is only needed to draw in it has been imported.
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class Inputs:
 
     Attributes:
         opened: when the files were opened [ns], as `time.time_ns` counts.
-        model: the model file; None for a robot from Python.
+        model: the model file; None for a robot or a text from Python.
         config: the .rviz file, or None when none was named and none belongs to the
             model; the bundled one is used then.
         broken_config: why the config is not shown yet; only with `may_be_broken`.
@@ -92,8 +92,9 @@ class Inputs:
         self.opened = time.time_ns()
         self._options = options
         model, config = options.model, options.config
+        text = model if isinstance(model, str) and looks_like_text(model) else None
         found = bundled.find(
-            Path(model) if isinstance(model, Path | str) else None,
+            Path(model) if isinstance(model, Path | str) and text is None else None,
             Path(config) if isinstance(config, Path | str) else None,
         )
         document = config is not None and not isinstance(config, Path | str)
@@ -105,7 +106,10 @@ class Inputs:
         self._of_config: tuple[Problem, ...] = ()
         self._robot: Future[Robot] = Future()
         self._opened: OpenedModel | None = None
-        if model is None or isinstance(model, Path | str):
+        if text is not None:
+            self.model, self._may_be_broken = None, False
+            self._open_model(text)
+        elif model is None or isinstance(model, Path | str):
             self.model = found.model
             # A pipe of the shell can be read only once.
             self._may_be_broken = may_be_broken and os.path.isfile(found.model)
@@ -240,9 +244,9 @@ class Inputs:
             self._presets = Presets(self.poses)
         return self._presets
 
-    def _open_model(self, path: Path) -> None:
+    def _open_model(self, model: PathLike) -> None:
         try:
-            self._opened = open_model(path)
+            self._opened = open_model(model)
         except RobotError as error:
             if not self._may_be_broken:
                 raise

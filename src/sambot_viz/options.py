@@ -58,7 +58,8 @@ class Options:
 
     model: PathLike | Robot | yourdfpy.URDF | None = option(
         None,
-        "model file or package folder; from Python also a Robot or a yourdfpy.URDF; "
+        "model file or package folder; from Python also a Robot, a yourdfpy.URDF or "
+        "the XML text; "
         "without one, the bundled sam_bot",
     )
     config: PathLike | RvizConfig | None = option(

@@ -306,7 +306,9 @@ class Visualizer:
         Raises:
             JointError: an unknown joint, a mimic joint, no finite number, or a vector
                 of another length.
+            ServerError: the visualizer was stopped.
         """
+        self._server.sessions.require_open()
         robot = self._server.sessions.robot
         if robot is not None:
             positions = robot.named_positions(positions)
@@ -352,7 +354,9 @@ class Visualizer:
         Raises:
             FrameError: a ring, the same name twice, an empty name, NaN, or what is no
                 pose.
+            ServerError: the visualizer was stopped.
         """
+        self._server.sessions.require_open()
         transform = Transform.of(xyz, rpy)
         for session in self._server.sessions.all(copies=False):
             session.frames.add(parent, child, transform)
@@ -409,6 +413,12 @@ class Visualizer:
         if self._reloader is not None:
             self._reloader.close()
         self._server.stop()
+
+    def __repr__(self) -> str:
+        """Name the robot and the address, without a token."""
+        robot = self._server.sessions.robot
+        name = "no robot yet" if robot is None else f"'{robot.name}'"
+        return f"<Visualizer of {name} at {self.url.partition('?')[0]}>"
 
     def show(self, height: int = HEIGHT, *, panels: bool = True) -> Cell:
         """Show the page in the cell of a notebook, as its last expression.

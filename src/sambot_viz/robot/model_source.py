@@ -86,14 +86,15 @@ def read_source(model: PathLike) -> ModelSource:
         RobotError: there is no such file, or it cannot be read.
         XmlFault: the bytes are not in the encoding they claim.
     """
-    if isinstance(model, str) and _looks_like_text(model):
+    if isinstance(model, str) and looks_like_text(model):
         return _with_good_prolog(TEXT_LABEL, model, None)
     label = os.fspath(model)
     path = _path(label)
     return _with_good_prolog(label, decode(_read(path, label)), path)
 
 
-def _looks_like_text(model: str) -> bool:
+def looks_like_text(model: str) -> bool:
+    """Return whether a model is the XML text itself, and no file name."""
     return model.lstrip("\ufeff \t\r\n").startswith("<") or "\n" in model
 
 

@@ -233,8 +233,9 @@ def for_all(sessions: Sessions, change: Callable[[Session], object]) -> None:
     """Change every session that is no private copy, each in one go.
 
     Raises:
-        ServerError: there is none.
+        ServerError: there is none, or the server was stopped.
     """
+    sessions.require_open()
     first(sessions)
 
     def change_one(session: Session) -> None:

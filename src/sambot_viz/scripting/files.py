@@ -31,6 +31,7 @@ LONGEST_MOTION = 1200.0
 
 def picture_of(server: Server, size: Size) -> bytes:
     """Return the 3D view as a PNG file, as `Visualizer.snapshot` says."""
+    server.sessions.require_open()
     session = server.sessions.shared
     if session is None:
         raise UsageError("a picture is taken of a shared session, not of private ones")

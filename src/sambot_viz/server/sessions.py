@@ -127,6 +127,11 @@ class Sessions:
             place.worker.close()
         self._mesh_thread.close()
 
+    def require_open(self) -> None:
+        """Raise ServerError after `close`: nobody would see what a program changes."""
+        if self._closed:
+            raise ServerError("it was stopped; make a new Visualizer")
+
     def all(self, *, copies: bool = True) -> list[Session]:
         """All sessions there are at the moment.
 
