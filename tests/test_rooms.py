@@ -149,8 +149,7 @@ ROOMS: Mapping[str, Row] = {
     "problems": Row(),
     "text": Row(),
     "visualizer": Row(
-        "displays export flags frames inputs joints jupyter options robot rviz "
-        "scripting server session",
+        "export flags inputs jupyter options scripting server",
         "viser",
     ),
 }
@@ -396,11 +395,10 @@ HOLDERS = {
     "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",
-    "visualizer.py",
 }
 """Modules that may name `Session`: they build one, find that of a client or make its
-panels; what programs do is done
-in all of them; all others get the parts that they use."""
+panels; what a program does is done in all of them. All others get the parts that they
+use."""
 
 
 def test_only_few_modules_take_a_whole_session(repository: Path) -> None:

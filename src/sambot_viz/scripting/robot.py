@@ -1,0 +1,191 @@
+"""The robot of a server, as a program moves it, looks at it and writes it to files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from types import MappingProxyType
+from typing import TypeVar
+
+from sambot_viz.errors import JointError
+from sambot_viz.files import write_atomically
+from sambot_viz.frames import Transform
+from sambot_viz.frames.transform import Pose
+from sambot_viz.robot.model import Positions
+from sambot_viz.scripting.camera import CameraControl
+from sambot_viz.scripting.displays import Displays, first
+from sambot_viz.scripting.events import Moved, tell_moves
+from sambot_viz.scripting.files import Motion, page_of, picture_of
+from sambot_viz.scripting.links import FrameControl, LinkControl, Links
+from sambot_viz.server.server import Server
+from sambot_viz.session.robot.frames import FrameView
+
+_F = TypeVar("_F", bound=Moved)
+
+
+class RobotControl:
+    """What a program does with the robot that a server shows; see `Visualizer`."""
+
+    def __init__(self, server: Server) -> None:
+        self._server = server
+        self._camera = CameraControl(server.sessions)
+        self._displays = Displays(server.sessions)
+        self._links = Links(server.sessions)
+
+    @property
+    def joint_positions(self) -> Mapping[str, float]:
+        """Joint → position [rad or m], mimic joints included.
+
+        With private sessions, those of the browser that came first.
+        """
+        session = first(self._server.sessions)
+        with session.lock:
+            joints = session.robot.joints
+            return MappingProxyType({} if joints is None else joints.all_positions())
+
+    @property
+    def frames(self) -> FrameView:
+        """The frames, for look-ups: ``viz.frames.lookup(target, source)``."""
+        session = first(self._server.sessions)
+        return FrameView(session.frames.tree, session.lock)
+
+    @property
+    def camera(self) -> CameraControl:
+        """The camera of all pages: ``viz.camera.look_at("base_link", (2, 1, 1))``."""
+        return self._camera
+
+    @property
+    def displays(self) -> Displays:
+        """The displays: ``viz.displays["TF"].set("Show Names", False)``."""
+        return self._displays
+
+    def link(self, name: str) -> LinkControl:
+        """Return a link of the robot, to colour it or to hang nodes of viser below it.
+
+        ::
+
+            viz.link("laser").color = (255, 0, 0)
+            viz.viser.scene.add_label(f"{viz.link('laser').node}/text", "laser")
+
+        Raises:
+            UsageError: the robot has no such link.
+        """
+        return self._links.link(name)
+
+    def frame(self, name: str) -> FrameControl:
+        """Return a frame, to hang nodes of viser below it: see `FrameControl.node`.
+
+        Raises:
+            FrameError: there is no such frame.
+            ServerError: no browser has opened a private session yet.
+        """
+        return self._links.frame(name)
+
+    def set_joint_positions(self, positions: Positions) -> None:
+        """Move some joints, in every browser.
+
+        Args:
+            positions: joint → position [rad or m], or a vector of all joints that take
+                one, in the order of `Robot.joint_names`.
+
+        Raises:
+            JointError: an unknown joint, a mimic joint, no finite number, or a vector
+                of another length.
+            ServerError: the visualizer was stopped.
+        """
+        self._server.sessions.require_open()
+        robot = self._server.sessions.robot
+        if robot is not None:
+            positions = robot.named_positions(positions)
+        elif not isinstance(positions, Mapping):
+            raise JointError("there is no robot yet whose joints a vector could move")
+        for session in self._server.sessions.all(copies=False):
+            session.robot.set_positions(positions)
+
+    def on_joint_positions(self, callback: _F) -> _F:
+        """Call a function whenever joints have moved, whoever has moved them.
+
+        It can be used as a decorator. With private sessions it is called for each of
+        them. An error that it raises is logged.
+
+        Args:
+            callback: takes joint → position [rad or m], mimic joints included. It is
+                called after the browsers were told, at most at the Frame Rate of the
+                config, in a thread of the session, which waits for it.
+
+        Returns:
+            The callback.
+        """
+        self._server.sessions.follow(partial(tell_moves, callback=callback))
+        return callback
+
+    def set_static_transform(
+        self,
+        parent: str,
+        child: str,
+        xyz: Pose = (0.0, 0.0, 0.0),
+        rpy: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        """Hang a frame on another, as static_transform_publisher does.
+
+        Args:
+            parent: the frame in which the pose is given.
+            child: the frame whose pose it is.
+            xyz: where the child is in the parent [m]; or its whole pose, as a
+                `Transform` or a (4, 4) matrix.
+            rpy: its roll, pitch and yaw about fixed axes [rad], or a quaternion
+                (x, y, z, w).
+
+        Raises:
+            FrameError: a ring, the same name twice, an empty name, NaN, or what is no
+                pose.
+            ServerError: the visualizer was stopped.
+        """
+        self._server.sessions.require_open()
+        transform = Transform.of(xyz, rpy)
+        for session in self._server.sessions.all(copies=False):
+            session.frames.add(parent, child, transform)
+
+    def snapshot(self, path: Path | str, *, size: tuple[int, int] = (800, 600)) -> None:
+        """Write the 3D view as a PNG, without a page that is open.
+
+        A Chromium or Chrome of this machine draws it, from where a page begins: see
+        `camera`. It takes some seconds, in which it is one of the viewers; the robot
+        has to be at rest. What a program has added to `viser` is in the picture.
+
+        Args:
+            path: the file, which is written whole or not at all.
+            size: width and height [pixels].
+
+        Raises:
+            BrowserError: no Chromium was found (the message says how to get one, or
+                to name it), or it ended.
+            ServerError: it did not show everything in time.
+            UsageError: the size makes no sense, or the sessions are private.
+            OSError: the file cannot be written.
+        """
+        write_atomically(Path(path), picture_of(self._server, size))
+
+    def export(
+        self, path: Path | str, *, sweep: bool = True, motion: Motion | None = None
+    ) -> None:
+        """Write what is shown as one HTML file that needs no server.
+
+        What a program has added to `viser` is not in it.
+
+        Args:
+            path: the file, which is written whole or not at all.
+            sweep: whether the page has a motion of each joint to its limits and back.
+            motion: a motion of your own instead: times (T,) [s], and positions [rad or
+                m], (T, N) in the order of `Robot.joint_names` or joint → (T,). It is
+                linear in between, and plays 30 steps a second.
+
+        Raises:
+            JointError: a joint of the motion that does not exist or follows another
+                one, no finite numbers, or another number of them.
+            UsageError: the times of the motion do not grow, or are too many.
+            OSError: it cannot be written.
+        """
+        content = page_of(first(self._server.sessions), sweep=sweep, motion=motion)
+        write_atomically(Path(path), content)

@@ -1,0 +1,126 @@
+"""A server of a model and a config, which are shown again when they are saved."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from sambot_viz.errors import RobotError
+from sambot_viz.inputs import Inputs
+from sambot_viz.panels.pictures import AskPage
+from sambot_viz.robot.model import Robot
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.server.config_store import ConfigStore, Sources
+from sambot_viz.server.listener import Listener
+from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.reload import Reloader
+from sambot_viz.server.server import Server
+from sambot_viz.session.config_file import take_root
+
+PANELS_WITHOUT_ROBOT = 1.0
+"""The page gets its panels before the robot when a model takes longer to load [s]."""
+
+
+class ShownInputs:
+    """Starts a server for what is opened; `start` shows it.
+
+    Args:
+        inputs: the model and the config, with their options. What is broken in them,
+            if they may be, is shown by its problem, and drawn as soon as it is fixed.
+        listening: a server that listens already, so that the options' host and port
+            do not count; it is stopped with this one.
+        ask_page: makes a page of what is seen.
+
+    Attributes:
+        configs: the config that is shown, and its file.
+        server: what browsers open.
+
+    Raises:
+        SambotVizError: as the constructor of `Visualizer`.
+    """
+
+    def __init__(
+        self, inputs: Inputs, listening: Listener | None, ask_page: AskPage
+    ) -> None:
+        options = inputs.options
+        inputs.begin()
+        document = inputs.document()
+        prepare = partial(_set_fixed_frame, fixed_frame=options.fixed_frame)
+        prepare(document)
+        self._inputs = inputs
+        self.configs = ConfigStore(
+            document, options.session == "shared", prepare, inputs.config
+        )
+        fits_any = inputs.takes_bundled_config and options.fixed_frame is None
+        self._stand_in = document if fits_any else None
+        self._stand_in_frame = document.global_options.get("Fixed Frame")
+        self._reloader: Reloader | None = None
+        models = ModelThread(inputs.load, options.package_path)
+        self.server = Server(
+            options,
+            self.configs,
+            models,
+            listening,
+            inputs.presets(),
+            self.configs,
+            ask_page,
+        )
+
+    def start(self) -> None:
+        """Show the robot, and follow the files if the options say so.
+
+        Raises:
+            RobotError: the model cannot be shown; the server is stopped then.
+        """
+        inputs, sessions = self._inputs, self.server.sessions
+        try:
+            if not inputs.wait(PANELS_WITHOUT_ROBOT):
+                sessions.show_panels()
+            refusal = inputs.refusal()
+            if refusal is None:
+                self._show(inputs.robot())
+            sessions.show_panels()
+            if inputs.options.watch:
+                self._follow(refusal)
+        except BaseException:
+            self.server.stop()
+            raise
+
+    def stop(self) -> None:
+        """Stop the server and free the port; a second call does nothing."""
+        if self._reloader is not None:
+            self._reloader.close()
+        self.server.stop()
+
+    def _show(self, robot: Robot) -> None:
+        """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
+        sessions = self.server.sessions
+        if sessions.robot is None and self._stand_in is self.configs.current:
+            self._fit_fixed_frame(self.configs.current, robot)
+            for session in sessions.all():
+                with session.change(session.document.options):
+                    self._fit_fixed_frame(session.document.config, robot)
+        sessions.show_robot(robot)
+
+    def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
+        """Take the root of a robot as the fixed frame, unless a user has chosen one."""
+        if document.global_options.get("Fixed Frame") == self._stand_in_frame:
+            take_root(document, robot)
+
+    def _follow(self, refusal: RobotError | None) -> None:
+        """Show the files again when they are saved."""
+        inputs = self._inputs
+        # A program may go to another folder.
+        model = None if inputs.model is None else inputs.model.absolute()
+        sources = Sources(model, inputs.load, self._show, self.configs, inputs.opened)
+        reloader = Reloader(self.server.sessions, sources, inputs.options.on_reload)
+        if refusal is not None:
+            reloader.refuse_model(refusal)
+        if inputs.broken_config is not None:
+            reloader.refuse_config(inputs.broken_config)
+        reloader.start()
+        self._reloader = reloader
+
+
+def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:
+    if fixed_frame is not None:
+        document.global_options.set("Fixed Frame", fixed_frame)
