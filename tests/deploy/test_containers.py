@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import shutil
 import subprocess
 import sys
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
 import pytest
 import yaml
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+from packaging.version import Version
 
 from sambot_viz import Visualizer
 from sambot_viz.commands.command_line import parse
@@ -52,23 +57,81 @@ def test_what_the_image_runs_is_a_command_line(deploy: Path) -> None:
     assert (options.host, options.port, bool(options.token)) == ("0.0.0.0", 8080, True)
     assert ("EXPOSE", "8080") in instructions(dockerfile)
     users = [rest for name, rest in instructions(dockerfile) if name == "USER"]
-    assert users == ["robot"]
+    assert users[-1] == "robot" and set(users) == {"robot"}
 
 
-def test_the_image_is_alive_when_the_program_answers(deploy: Path) -> None:
-    words = last(deploy / "Dockerfile", "HEALTHCHECK")
-    assert words[0] == "python"
+def test_a_second_image_has_a_chromium_for_pictures(deploy: Path) -> None:
+    found = instructions(deploy / "Dockerfile")
+    stages = [rest.split() for name, rest in found if name == "FROM"]
+    names = [words[-1] for words in stages]
+    # Without --target the last stage is built: the viewer.
+    assert names == ["build", "base", "snapshot", "viewer"]
+    assert [words[0] for words in stages[2:]] == ["base", "base"]
+    start = found.index(("FROM", "base AS snapshot"))
+    end = found.index(("FROM", "base AS viewer"))
+    snapshot, viewer = found[start:end], found[end:]
+    assert any("chromium" in rest for name, rest in snapshot if name == "RUN")
+    assert not any("chromium" in rest for name, rest in viewer if name == "RUN")
+    assert ("USER", "robot") in snapshot
+    assert ("ENTRYPOINT", '["sambot-viz"]') in snapshot
 
-    def check(port: int) -> int:
-        code = words[2].replace("8080", str(port))
-        command = [sys.executable, words[1], code]
+
+def test_packages_are_a_layer_of_their_own_below_the_wheel(deploy: Path) -> None:
+    found = instructions(deploy / "Dockerfile")
+    copied = [rest.split()[-2:] for name, rest in found if name == "COPY"]
+    assert copied[1] == ["deploy/requirements.txt", "/"]
+    assert all(source == "/wheels" for source, _ in copied[3:])
+    installs = [rest for name, rest in found if name == "RUN" and "pip install" in rest]
+    assert all("--no-deps" in rest for rest in installs) and len(installs) == 3
+
+
+def pinned(deploy: Path) -> dict[str, Version]:
+    lines = (deploy / "requirements.txt").read_text("utf-8").split("\n")
+    pairs = [line.split("==") for line in lines if line and line[0] != "#"]
+    return {canonicalize_name(name): Version(version) for name, version in pairs}
+
+
+def test_the_image_has_all_packages_that_are_needed_in_one_version(
+    repository: Path, deploy: Path
+) -> None:
+    versions = pinned(deploy)
+    text = (repository / "pyproject.toml").read_text("utf-8")
+    block = text.partition("\ndependencies = [\n")[2].partition("\n]")[0]
+    pending = [Requirement(found) for found in re.findall(r'"([^"]+)"', block)]
+    known: set[str] = set()
+    for needed in pending:
+        name = canonicalize_name(needed.name)
+        if needed.marker is not None and not needed.marker.evaluate({"extra": ""}):
+            continue
+        assert versions[name] in needed.specifier, needed
+        if name not in known:
+            known.add(name)
+            pending += map(Requirement, metadata.requires(name) or [])
+    # typing_extensions is needed by some Pythons only.
+    assert versions.keys() - {"typing-extensions"} <= known
+    # What yourdfpy asks for with trimesh[easy] is half of an installation.
+    assert not versions.keys() & {"scipy", "embreex", "networkx", "shapely"}
+
+
+def test_the_image_is_alive_when_the_program_answers(
+    deploy: Path, tmp_path: Path
+) -> None:
+    health = last(deploy / "Dockerfile", "HEALTHCHECK")
+    assert health == ["python", "/health.py"]
+    entry = last(deploy / "Dockerfile", "ENTRYPOINT")
+    line = tmp_path / "cmdline"
+
+    def check(*more: str) -> int:
+        line.write_text("\0".join(["python", *entry, *more, ""]), "utf-8")
+        command = [sys.executable, "-I", str(deploy / "health.py"), str(line)]
         return subprocess.run(command, check=False, capture_output=True).returncode
 
     for options in ({}, {"token": ""}, {"base_path": "/robot"}):
         with Visualizer(**options) as viz:
-            port = viz.viser.get_port()
-            assert check(port) == 0
-        assert check(port) != 0
+            port = str(viz.viser.get_port())
+            assert check("--host", "0.0.0.0", "--port", port) == 0
+            assert check(f"--port={port}", "--host=127.0.0.1") == 0
+        assert check("--port", port) != 0
 
 
 def test_the_image_is_built_from_what_is_not_ignored(
@@ -78,6 +141,7 @@ def test_the_image_is_built_from_what_is_not_ignored(
     assert "*" in listed
     for name in (line[1:] for line in listed if line.startswith("!")):
         source = repository / name
+        (tmp_path / name).parent.mkdir(exist_ok=True)
         copy = shutil.copytree if source.is_dir() else shutil.copy
         copy(source, tmp_path / name)
     build = ("-m", "hatchling", "build", "--target", "wheel", "--directory", "built")
@@ -101,20 +165,33 @@ def test_the_services_fit_together(deploy: Path) -> None:
     services = services["services"]
     robot, nginx = services["robot"], services["nginx"]
     assert (deploy / robot["build"]["context"] / robot["build"]["dockerfile"]).is_file()
-    assert robot["network_mode"] == "service:nginx"
     assert "ports" not in robot  # it is reached through nginx only
 
     # What nginx.conf names is mounted, and the port it asks is the robot's.
-    site = (deploy / "nginx.conf").read_text("utf-8")
     mounts = dict(volume.split(":")[:2] for volume in nginx["volumes"])
     assert (deploy / "nginx.conf").is_file() and "./nginx.conf" in mounts
+    site = site_of(nginx, deploy / "nginx.conf")
     for path in re.findall(r"(?:_certificate|_key|_user_file)\s+(/\S+);", site):
         assert path in mounts.values(), path
     entry = last(deploy / "Dockerfile", "ENTRYPOINT")
     options = options_of([*entry, *robot["command"]])
-    assert f"http://{options.host}:{options.port};" in site
+    assert (options.host, robot["expose"]) == ("0.0.0.0", [str(options.port)])
+    assert f"set $robot robot:{options.port}; proxy_pass http://$robot;" in site
     assert f"location {options.base_path} {{" in site
     (origin,) = options.allowed_origins
     assert f"server_name {origin.removeprefix('https://')};" in site
     assert str(options.model) in [v.split(":")[1] for v in robot["volumes"]]
-    assert nginx["ports"] == ["443:443"] and "listen 443 ssl;" in site
+    assert nginx["ports"] == ["80:80", "443:443"]
+    assert "listen 80;" in site and "listen 443 ssl;" in site
+
+
+def site_of(nginx: Any, file: Path) -> str:
+    """What the command of the service makes of nginx.conf."""
+    shell, flag, command = nginx["command"]
+    made, run = command.replace("$$", "$").split(" > ")
+    assert (shell, flag) == ("sh", "-c")
+    assert run == "/etc/nginx/conf.d/default.conf && exec nginx -g 'daemon off;'"
+    made = made.replace("/nginx.conf", shlex.quote(str(file)))
+    return subprocess.run(
+        ["sh", "-c", made], check=True, capture_output=True, text=True
+    ).stdout

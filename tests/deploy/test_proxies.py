@@ -52,22 +52,33 @@ class Proxy:
     port: int
     viz: Visualizer
     trust: ssl.SSLContext
+    plain_port: int = 0
 
     def get(self, path: str, headers: Mapping[str, str]) -> tuple[int, str]:
+        """The status and the text of an answer."""
+        status, text, _ = self.ask(path, headers)
+        return status, text
+
+    def ask(
+        self, path: str, headers: Mapping[str, str]
+    ) -> tuple[int, str, http.client.HTTPMessage]:
+        """The status, the text and the headers of an answer."""
         connection = http.client.HTTPSConnection(
             "localhost", self.port, timeout=10.0, context=self.trust
         )
         with contextlib.closing(connection):
             connection.request("GET", path, headers=dict(headers))
             answer = connection.getresponse()
-            return answer.status, answer.read().decode()
+            return answer.status, answer.read().decode(), answer.headers
 
-    def connect(self, headers: Mapping[str, str], origin: str = "") -> int:
+    def connect(
+        self, headers: Mapping[str, str], origin: str = "", path: str = "/robot"
+    ) -> int:
         """How many messages of the scene come through the proxy."""
         own = f"https://localhost:{self.port}"
         with connect(
             # As viser's page does: without the slash at the end.
-            f"wss://localhost:{self.port}/robot",
+            f"wss://localhost:{self.port}{path}",
             origin=Origin(origin or own),
             subprotocols=[PROTOCOL],
             additional_headers=headers,
@@ -90,12 +101,24 @@ def certificate(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 @contextlib.contextmanager
 def behind(
-    command: list[str], port: int, certificate: Path, upstream: int
+    command: list[str],
+    port: int,
+    certificate: Path,
+    upstream: tuple[int, int],
+    plain_port: int = 0,
 ) -> Generator[Proxy]:
-    """A robot at `upstream`, and a proxy on `port` that runs as long as this."""
-    origin = f"https://localhost:{port}"
+    """Robots at `upstream`, and a proxy on `port` that runs as long as this."""
+    origins = [f"https://localhost:{port}"]
     trust = ssl.create_default_context(cafile=certificate)
-    with Visualizer(port=upstream, base_path="/robot", allowed_origins=[origin]) as viz:
+    secrets = {"token": "for-the-class", "presenter": "for-the-teacher"}
+    with (
+        Visualizer(
+            port=upstream[0], base_path="/robot", allowed_origins=origins
+        ) as viz,
+        Visualizer(
+            port=upstream[1], base_path="/robot2", allowed_origins=origins, **secrets
+        ),
+    ):
         process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
         try:
             for _ in range(200):
@@ -104,30 +127,37 @@ def behind(
                     break
                 assert process.poll() is None, process.communicate()[1]
                 time.sleep(0.05)
-            yield Proxy(port, viz, trust)
+            yield Proxy(port, viz, trust, plain_port)
         finally:
             process.terminate()
             process.communicate(timeout=10.0)
 
 
-@pytest.fixture
-def nginx(
-    repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
-) -> Iterator[Proxy]:
+@contextlib.contextmanager
+def an_nginx(
+    repository: Path,
+    tmp_path: Path,
+    certificate: tuple[Path, Path],
+    *changes: tuple[str, str],
+) -> Generator[Proxy]:
+    """nginx with the file of deploy/, names and ports changed, and these texts."""
     needs("nginx", "openssl")
-    port, upstream = free_port(), free_port()
+    port, plain_port, upstream = free_port(), free_port(), (free_port(), free_port())
     public, private = certificate
     passwords = tmp_path / "robot.htpasswd"
     hashed = run("openssl", "passwd", "-apr1", PASSWORD).strip()
     passwords.write_text(f"{NAME}:{hashed}\n", "utf-8")
     site = (repository / "deploy" / "nginx.conf").read_text("utf-8")
     for before, after in (
+        *changes,
+        ("listen 80;", f"listen 127.0.0.1:{plain_port};"),
         ("443", f"127.0.0.1:{port}"),
         ("lab.example.org", "localhost"),
         ("/etc/ssl/certs/lab.pem", str(public)),
         ("/etc/ssl/private/lab.key", str(private)),
         ("/etc/nginx/robot.htpasswd", str(passwords)),
-        ("8080", str(upstream)),
+        ("8080", str(upstream[0])),
+        ("8081", str(upstream[1])),
     ):
         assert before in site
         site = site.replace(before, after)
@@ -142,7 +172,15 @@ def nginx(
         "utf-8",
     )
     command = ["nginx", "-p", str(tmp_path), "-e", "stderr", "-c", str(config)]
-    with behind(command, port, public, upstream) as proxy:
+    with behind(command, port, public, upstream, plain_port) as proxy:
+        yield proxy
+
+
+@pytest.fixture
+def nginx(
+    repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
+) -> Iterator[Proxy]:
+    with an_nginx(repository, tmp_path, certificate) as proxy:
         yield proxy
 
 
@@ -151,7 +189,7 @@ def caddy(
     repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
 ) -> Iterator[Proxy]:
     needs("caddy")
-    port, upstream = free_port(), free_port()
+    port, upstream = free_port(), (free_port(), free_port())
     public, private = certificate
     hashed = run("caddy", "hash-password", "--plaintext", PASSWORD).strip()
     site = (repository / "deploy" / "Caddyfile").read_text("utf-8")
@@ -161,7 +199,8 @@ def caddy(
             f"\nlocalhost:{port} {{\n\tbind 127.0.0.1\n\ttls {public} {private}",
         ),
         ("HASH", hashed),
-        ("127.0.0.1:8080", f"127.0.0.1:{upstream}"),
+        ("127.0.0.1:8080", f"127.0.0.1:{upstream[0]}"),
+        ("127.0.0.1:8081", f"127.0.0.1:{upstream[1]}"),
     ):
         assert before in site
         site = site.replace(before, after)
@@ -198,3 +237,45 @@ def test_a_foreign_page_is_refused_behind_a_proxy_too(proxy: Proxy) -> None:
     with pytest.raises(InvalidStatus) as refused:
         proxy.connect(LOGIN, origin="https://evil.example")
     assert refused.value.response.status_code == 403
+
+
+def test_a_second_robot_has_the_same_name_and_another_path(proxy: Proxy) -> None:
+    # It asks for a token too, and knows its presenter behind the proxy.
+    assert proxy.get("/robot2/", LOGIN)[0] == 401
+    for secret in ("for-the-class", "for-the-teacher"):
+        status, _, headers = proxy.ask(f"/robot2/?token={secret}", LOGIN)
+        cookie, *attributes = headers["Set-Cookie"].split("; ")
+        assert (status, headers["Location"]) == (303, "./")
+        assert {"Path=/robot2", "HttpOnly", "Secure"} <= set(attributes)
+        known = {**LOGIN, "Cookie": cookie}
+        assert proxy.get("/robot2/", known)[0] == 200
+        assert proxy.connect(known, path="/robot2") > 0
+
+
+def test_nginx_sends_http_to_https(nginx: Proxy) -> None:
+    connection = http.client.HTTPConnection("127.0.0.1", nginx.plain_port, timeout=10)
+    with contextlib.closing(connection):
+        connection.request("GET", "/robot/?a=b", headers={"Host": "localhost"})
+        answer = connection.getresponse()
+        assert answer.status == 301
+        assert answer.headers["Location"] == "https://localhost/robot/?a=b"
+
+
+def test_nginx_limits_requests_and_connections_of_one_address(
+    repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
+) -> None:
+    fewer = (("rate=20r/s", "rate=1r/m"), ("burst=200", "burst=4"))
+    few = ("sambot_open 150", "sambot_open 1")
+    with an_nginx(repository, tmp_path, certificate, *fewer, few) as nginx:
+        with connect(
+            f"wss://localhost:{nginx.port}/robot",
+            origin=Origin(f"https://localhost:{nginx.port}"),
+            subprotocols=[PROTOCOL],
+            additional_headers=LOGIN,
+            ssl=nginx.trust,
+        ):
+            with pytest.raises(InvalidStatus) as refused:
+                nginx.connect(LOGIN)
+            assert refused.value.response.status_code == 429
+        answers = [nginx.get("/robot/", LOGIN)[0] for _ in range(8)]
+        assert answers[-1] == 429 and set(answers) <= {200, 429}
