@@ -134,8 +134,23 @@ def test_a_file_nested_beyond_reason_is_refused():
 def test_aliases_that_would_fill_the_memory_are_refused():
     lines = ["Panels: &b0 [1, 2, 3, 4, 5, 6, 7, 8, 9]"]
     lines += [f"b{i}: &b{i} [{', '.join([f'*b{i - 1}'] * 9)}]" for i in range(1, 9)]
-    with pytest.raises(ConfigError, match="expand to more than can be held"):
+    with pytest.raises(ConfigError, match="more than 50,000 names and values"):
         Document("\n".join(lines))
+
+
+def test_aliases_that_nest_each_other_too_deeply_are_refused():
+    lines = ["a0: &a0 [x]", *(f"a{i}: &a{i} [*a{i - 1}]" for i in range(1, 5000))]
+    with pytest.raises(ConfigError, match="nested too deeply"):
+        Document("\n".join(lines))
+
+
+def test_a_file_that_is_no_config_by_its_size_is_refused():
+    views = "".join(f"  - {{Name: v{i}}}\n" for i in range(20_000))
+    with pytest.raises(
+        ConfigError, match="more than 50,000 names and values"
+    ) as caught:
+        Document(f"Visualization Manager:\n  Views:\n{views}")
+    assert caught.value.problems[0].hint.startswith("remove what is not needed")
 
 
 @pytest.mark.parametrize("text", ["", "\n\n", "# only a comment\n", "~", "---\n"])

@@ -98,7 +98,7 @@ class _Slip:
         self.line, self.column = self._place(text, error)
         began = getattr(error, "context_mark", None)
         self.began = (began.line + 1, began.column + 1) if began is not None else None
-        self.refused = isinstance(error, ParseFault)
+        self.refused = error if isinstance(error, ParseFault) else None
 
     def _place(self, text: str, error: Any) -> tuple[int, int | None]:
         if isinstance(error, ParseFault):
@@ -119,7 +119,7 @@ class _Slip:
     def cause(self) -> _YamlCause:
         here = self.lines[self.line - 1]
         if self.refused:
-            return self._at_place(self.said, "write the value out")
+            return self._at_place(self.said, self.refused.remedy)
         if _TAB_INDENT.match(here) or "found a tab" in self.said:
             message = "this line is indented with a tab, which YAML does not allow"
             return self._at_place(message, "indent with spaces only")

@@ -30,8 +30,9 @@ _ANCHORS = re.compile(r"(?:[ \t]*[&!][^\s]*)+[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n)"
 
 DEEPEST = 200
 """Maps nested more deeply are refused: they cannot be a tree of displays."""
-MOST_COPIES = 100_000
-"""Nodes that aliases may expand to, so that a page of aliases cannot fill memory."""
+MOST_NODES = 50_000
+"""Names and values of a file, with those that aliases repeat: the largest config of 488
+published ones has 8,700, and 100,000 would keep everybody waiting for ten seconds."""
 
 
 class ParseFault(Exception):
@@ -39,13 +40,15 @@ class ParseFault(Exception):
 
     Attributes:
         reason: what it is.
+        remedy: what to do about it.
         line: its line, from 1.
         column: its column, from 1.
     """
 
-    def __init__(self, reason: str, line: int, column: int):
+    def __init__(self, reason: str, remedy: str, line: int, column: int):
         super().__init__(reason)
-        self.reason, self.line, self.column = reason, line, column
+        self.reason, self.remedy = reason, remedy
+        self.line, self.column = line, column
 
 
 def parse(text: str) -> Node | None:
@@ -59,7 +62,7 @@ def parse(text: str) -> Node | None:
 
     Raises:
         yaml.YAMLError: the text is not YAML.
-        ParseFault: too deep, an unknown alias, or one that holds itself.
+        ParseFault: too deep, too much, an unknown alias, or one that holds itself.
     """
     reader = _Reader(text)
     for event in reader.events:
@@ -73,15 +76,14 @@ class _Reader:
         self.text = text
         self.events = cast("Iterator[Any]", _parse_events(text, Loader=_LOADER))
         self.anchors: dict[str, Node | None] = {}
-        self.copies = 0
+        self.nodes = 0
         self.flow = 0
 
     def node(self, event: Any, depth: int, after: int | None = None) -> Node:
         """Read a node; `after` is where the key or dash before it ends."""
-        if depth > DEEPEST:
-            raise _fault(event, "lists and maps are nested too deeply")
+        self._require_room(event, 1, depth)
         if isinstance(event, yaml.AliasEvent):
-            return self._alias(event)
+            return self._alias(event, depth)
         anchor: str | None = event.anchor
         if anchor is not None:
             self.anchors[anchor] = None
@@ -93,15 +95,25 @@ class _Reader:
             self.anchors[anchor] = node
         return node
 
-    def _alias(self, event: Any) -> Node:
+    def _require_room(self, event: Any, size: int, depth: int) -> None:
+        """Refuse what is nested too deeply, or is too much in all."""
+        if depth > DEEPEST:
+            why = "lists and maps are nested too deeply"
+            raise _fault(event, why, f"nest them at most {DEEPEST} deep")
+        self.nodes += size
+        if self.nodes > MOST_NODES:
+            why = f"the file has more than {MOST_NODES:,} names and values"
+            raise _fault(event, why, "remove what is not needed, or split the file")
+
+    def _alias(self, event: Any, depth: int) -> Node:
         target = self.anchors.get(event.anchor)
         if target is None:
             known = event.anchor in self.anchors
             why = "is inside what it names" if known else "names no anchor above it"
-            raise _fault(event, f"the alias *{event.anchor} {why}")
-        self.copies += _size(target)
-        if self.copies > MOST_COPIES:
-            raise _fault(event, "the aliases expand to more than can be held")
+            why = f"the alias *{event.anchor} {why}"
+            raise _fault(event, why, "write the value out")
+        size, height = _extent(target)
+        self._require_room(event, size, depth + height)
         node = _as_original(copied(target))
         node.span = _span(event)
         node.alias = True
@@ -210,10 +222,13 @@ def _known(node: Node) -> Span:
     return node.span
 
 
-def _size(node: Node) -> int:
+def _extent(node: Node) -> tuple[int, int]:
+    """Return how many nodes there are in a node, itself too, and how deep they nest."""
     if isinstance(node, Scalar):
-        return 1
-    return 1 + sum(_size(entry.value) for entry in node.entries)
+        return 1, 0
+    inner = [_extent(entry.value) for entry in node.entries]
+    size = 1 + sum(size for size, _ in inner)
+    return size, 1 + max((height for _, height in inner), default=0)
 
 
 def _as_original(node: Node) -> Node:
@@ -227,6 +242,6 @@ def _as_original(node: Node) -> Node:
     return node
 
 
-def _fault(event: Any, reason: str) -> ParseFault:
+def _fault(event: Any, reason: str, remedy: str) -> ParseFault:
     mark = event.start_mark
-    return ParseFault(reason, mark.line + 1, mark.column + 1)
+    return ParseFault(reason, remedy, mark.line + 1, mark.column + 1)
