@@ -89,3 +89,17 @@ def test_the_colour_of_measure_is_a_row(session: Session, client: Client) -> Non
     assert tuple(color.value) == (128, 128, 0)
     edit(panel, color.id, "255; 0; 0")
     assert tuple(rows_of(panel)[color.id].value) == (255, 0, 0)
+
+
+def test_two_clicks_on_a_link_name_the_joint_that_moves_it(
+    session: Session, client: Client, panel: ToolsPanel
+) -> None:
+    left, body = Selectable("link", "drivewhl_l_link"), Selectable("link", "base_link")
+    for number, (item, row) in enumerate(
+        ((left, "j/drivewhl_l_joint"), (body, None), (None, None)), 1
+    ):
+        client.tools.pointed = item, number
+        told = data_of(panel)["tools/pointed"]
+        assert (told["number"], told["row"]) == (number, row)
+    caster = session.robot.joint_of("front_caster")
+    assert caster is None, "a fixed joint moves nothing"

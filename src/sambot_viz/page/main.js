@@ -10,6 +10,7 @@ import { followFile } from "./window/files.js";
 import { listenToKeys } from "./window/keys.js";
 import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
+import { followPointedJoint } from "./panels/pointed_joint.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
 import { followRole } from "./window/people.js";
@@ -30,8 +31,10 @@ const start = () => {
     // Of the places that wait, only the last one counts.
     hover: (place) => send(HOVER, place, hovering),
     rightClick: () => act("tools/right_click"),
+    twice: (place) => act("tools/double_click", place),
   });
   tellView();
+  followPointedJoint();
   followFile();
   followConnection();
   followRole();

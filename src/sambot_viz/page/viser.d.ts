@@ -10,6 +10,7 @@ interface Window {
     camera: any;
     cameraControl: any;
     backgroundMaterial: any;
+    nodeRefFromName?: Record<string, any>;
   };
   /** What the window tells the scripts that draw and move the view. */
   sambotViz?: { view?: { kind: string; focalSize: number; focalFixed: boolean } };

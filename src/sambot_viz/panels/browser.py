@@ -74,7 +74,7 @@ class BrowserPanels:
         views = ViewsPanel(client, document, clients, roles, history, self.say)
         return [
             OwnRolePanel(roles, client.client_id, self.say),
-            ToolsPanel(client, scene, clients),
+            ToolsPanel(client, scene, clients, robot),
             UndoPanel(client.client_id, history, document, displays, roles),
             views,
             SelectionPanel(client, scene, robot, remake),

@@ -7,12 +7,14 @@ from functools import partial
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
+from sambot_viz.panels.joints.joint_rows import joint_id
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.tools.tool import Tool
 
@@ -30,15 +32,19 @@ class ToolsPanel(Panel):
         client: whose tools these are.
         scene: is drawn again by Reset.
         clients: their pointer shows everyone what is selected here.
+        robot: has the joints of links that are clicked on twice.
     """
 
     name = "tools"
 
-    def __init__(self, client: Client, scene: Scene, clients: Clients) -> None:
+    def __init__(
+        self, client: Client, scene: Scene, clients: Clients, robot: RobotState
+    ) -> None:
         self.remade_by = (client.tools.changed,)
         self._client = client
         self._scene = scene
         self._pointer = clients.pointer
+        self._robot = robot
 
     def data(self) -> Sequence[Data]:
         """Return the tools, the hint of the current one, and what is selected."""
@@ -49,7 +55,18 @@ class ToolsPanel(Panel):
             Data("tools/list", [self._tool(tool) for tool in tools.tools]),
             Data("tools/hint", {"text": hint, "touch": touch}),
             Data("tools/selected", [item.name for item in tools.selection]),
+            Data("tools/pointed", self._pointed()),
         ]
+
+    def _pointed(self) -> Json:
+        """Return the row of the joint that moves the link clicked on twice."""
+        item, count = self._client.tools.pointed
+        joint = None if item is None else self._robot.joint_of(item.name)
+        return {
+            "number": count,
+            "link": None if item is None else item.name,
+            "row": None if joint is None else joint_id(joint.name),
+        }
 
     def _tool(self, tool: Tool) -> Json:
         current = tool is self._client.tools.current
@@ -96,6 +113,10 @@ class ToolsPanel(Panel):
     @command("tools/hover", NUMBER, NUMBER, client_local=True)
     def _hover(self, x: float, y: float) -> None:
         self._client.tools.hover((x, y))
+
+    @command("tools/double_click", NUMBER, NUMBER, client_local=True)
+    def _double_click(self, x: float, y: float) -> None:
+        self._client.tools.double_click((x, y))
 
     @command("tools/right_click", client_local=True)
     def _right_click(self) -> None:

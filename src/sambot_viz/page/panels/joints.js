@@ -12,6 +12,7 @@ import { NotFound, Search } from "../tree/search.js";
 import { Tree } from "../tree/tree.js";
 import { formula, limits } from "../cells/units.js";
 import { ValidationMessage } from "../cells/validation_message.js";
+import { hovered, pointing, useGlowEnd } from "./pointed_joint.js";
 import { Poses } from "./poses.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -33,8 +34,6 @@ const FORMS = {
 };
 /** The form that was copied last. @type {Cell<string>} */
 const form = new Cell("yaml", "copied");
-/** The row under the mouse. @type {Cell<string>} */
-const hovered = new Cell("");
 
 /** @param {string} id */
 const rowOf = (id) => /** @type {Row} */ (rows.get(id));
@@ -49,6 +48,7 @@ export function JointsPanel() {
   const grouped = ids.some((id) => rows.get(id)?.kind === "group");
   const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
   const width = useWidth(panel);
+  useGlowEnd();
   if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
   const many = ids.filter((id) => isSlider(rowOf(id))).length > SEARCH_FROM;
   const wheels = Boolean(rows.get("joints/rate"));
@@ -73,10 +73,7 @@ export function JointsPanel() {
       }
       <${FoldAll} />
     </div>
-    <div class="list"
-      onPointerOver=${(/** @type {Press} */ e) =>
-        hovered.set(e.target.closest("[data-row]")?.dataset.row || "")}
-        onPointerLeave=${() => hovered.set("")}>
+    <div class="list" ...${pointing}>
       <${NotFound} panel="joints" finds=${isSlider} />
       <${Tree} panel="joints" label="Joints" finds=${isSlider} />
     </div>

@@ -21,7 +21,7 @@ function inView(target) {
   return target instanceof Node && Boolean(document.getElementById("root")?.contains(target));
 }
 
-/** @param {PointerEvent} event @returns {Place} */
+/** @param {MouseEvent} event @returns {Place} */
 function placeOf(event) {
   const box = canvas()?.getBoundingClientRect();
   if (!box || !box.width || !box.height || !inView(event.target)) return OUTSIDE;
@@ -44,10 +44,10 @@ const CLICK = 4;
 /**
  * Follow the mouse.
  * @param {{wantsHover: () => boolean, hover: (place: [number, number]) => void, rightClick: () =>
- *   void}} to
+ *   void, twice: (place: [number, number]) => void}} to
  *   hover: called while the tool wants it, when the place has changed
  */
-export function followMouse({ wantsHover, hover, rightClick }) {
+export function followMouse({ wantsHover, hover, rightClick, twice }) {
   /** @type {Place} */
   let sent = OUTSIDE;
   let timer = 0;
@@ -73,6 +73,10 @@ export function followMouse({ wantsHover, hover, rightClick }) {
   );
   document.addEventListener("pointerleave", () => {
     place = OUTSIDE;
+  });
+  addEventListener("dblclick", (event) => {
+    const [x, y] = placeOf(event);
+    if (x !== null && y !== null) twice([x, y]);
   });
   /** Where the right button was pressed in the view. @type {{x: number, y: number} | null} */
   let right = null;

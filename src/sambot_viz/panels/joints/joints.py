@@ -18,7 +18,7 @@ from sambot_viz.joints.values import (
 from sambot_viz.panels.command import LIST, TEXT, command
 from sambot_viz.panels.joints.joint_rows import ID_PREFIX, joint_id, joint_rows
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data, Row
+from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.robot.parts import Joint
 from sambot_viz.session.robot.motion import Motion
@@ -91,7 +91,13 @@ class JointsPanel(Panel):
         return [
             *(Data(key, value) for key, value in self._states().items()),
             Data("joints/first", first),
+            Data("joints/links", self._links(self._robot.joints)),
         ]
+
+    def _links(self, joints: JointState) -> dict[str, Json]:
+        """Return by row where in the scene its joint is, for pages to show it."""
+        named = (*joints.sliders, *joints.followers)
+        return {joint_id(n): self._arrow.place(joints.joints[n]) for n in named}
 
     def values(self) -> dict[str, Any]:
         """Return the positions, and what else a motion changes."""

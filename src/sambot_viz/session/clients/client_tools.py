@@ -50,6 +50,7 @@ class ClientTools:
         changed: the tools, the selection or the status.
         status: what the current tool reports; empty shows its help.
         selection: the selected links and frames, in the order of selection.
+        pointed: what was clicked on twice last, and how often that has happened.
         tools: those of the document first, then the others.
         current: the tool that gets clicks.
     """
@@ -69,6 +70,7 @@ class ClientTools:
         self.changed = Signal(change, None)
         self.status = ""
         self.selection: dict[Selectable, None] = {}
+        self.pointed: tuple[Selectable | None, int] = (None, 0)
         self._client = client
         self._change = change
         self._view = view
@@ -157,6 +159,24 @@ class ClientTools:
         self._mouse = at
         if not self._hovering and self.current.wants_hover:
             self._follow_mouse(self.current)
+
+    def double_click(self, at: ScreenPoint) -> None:
+        """Note what is under the mouse; a tool with clicks of its own has them alone.
+
+        Args:
+            at: from 0 (left, top) to 1 (right, bottom) of the picture.
+        """
+        click = pointed_at(self._client, at)
+        if click is None or (
+            self.current.clicks and not isinstance(self.current, SelectTool)
+        ):
+            return
+
+        def then(hit: Hit) -> None:
+            with self._change(self.changed):
+                self.pointed = hit.item, self.pointed[1] + 1
+
+        self._follow("double", click, then)
 
     def right_click(self) -> None:
         """A click with the right button: start again what the current tool does."""

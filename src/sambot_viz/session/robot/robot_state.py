@@ -13,6 +13,7 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
 from sambot_viz.joints.presets import StartPose
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint
 from sambot_viz.session.robot.motion_recorder import MotionRecorder
 from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.scene import Scene
@@ -112,6 +113,17 @@ class RobotState:
     def close(self) -> None:
         """Draw nothing any more."""
         self._pacer.close()
+
+    def joint_of(self, frame: str) -> Joint | None:
+        """Return the joint that moves a link: its own, or the next one above it."""
+        robot = self.model
+        if robot is None:
+            return None
+        above = {plain_name(joint.child): joint for joint in robot.joints.values()}
+        joint = above.get(plain_name(frame))
+        while joint is not None and not joint.movable:
+            joint = above.get(plain_name(joint.parent))
+        return joint
 
     # What users do
 

@@ -44,6 +44,11 @@ class JointArrow:
         self._nodes: list[viser.ArrowsHandle] = []
         self._waiting = False
 
+    def place(self, joint: Joint) -> list[str | float]:
+        """Return the last part of the name of its link's node, and the axis there."""
+        path = self._context.nodes.path(joint.child.lstrip("/"))
+        return [(path or "").rpartition("/")[2], *joint.axis]
+
     def moved(self, joint: Joint) -> None:
         """Show the arrow of a joint that a user has moved."""
         now = time.monotonic()

@@ -1,0 +1,72 @@
+"""Between the rows of joints and the links in the view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from inside import node_of
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer, bundled
+
+pytestmark = pytest.mark.browser
+
+# The glow of a link and the needle on its axis are drawn after everything else.
+GLOWING = """(() => {
+  const found = [];
+  __viserMutable.scene.traverse(o => { if (o.renderOrder === 10) found.push(o); });
+  return found.length;
+})()"""
+AT = """(() => {
+  const { nodeRefFromName: nodes, camera, canvas } = __viserMutable;
+  const at = nodes["NODE"].getWorldPosition(camera.position.clone()).project(camera);
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  return [left + (at.x + 1) / 2 * width, top + (1 - at.y) / 2 * height];
+})()"""
+LEFT = "drivewhl_l_joint"
+
+
+@pytest.fixture(scope="module")
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(bundled.model_path(), port=0) as viz:
+        yield viz
+
+
+@pytest.fixture(scope="module")
+def viewer(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> ViewerPage:
+    viewer = open_for_all(viz.url)
+    viewer.user.find("slider", LEFT)
+    viewer.wait_until_drawn()
+    return viewer
+
+
+def test_a_row_under_the_mouse_lights_its_link_and_nothing_stays(
+    viewer: ViewerPage,
+) -> None:
+    user, page = viewer.user, viewer.page
+    x, y, _, height = user.box(user.row("Joints", LEFT))
+    page.mouse.move(x + 20, y + height / 2)
+    user.until(lambda: page.evaluate(GLOWING) == 3)
+    page.mouse.move(x - 300, y + 300)
+    user.until(lambda: page.evaluate(GLOWING) == 0)
+    user.click("button", "Degrees")
+    assert page.evaluate(GLOWING) == 0
+    # The field of the turn rate, then the row.
+    user.keys("Tab", "Tab")
+    user.until(lambda: page.evaluate(GLOWING) == 3)
+    user.click("button", "Degrees")
+    user.until(lambda: page.evaluate(GLOWING) == 0)
+
+
+def test_a_double_click_on_a_link_goes_to_its_joint(
+    viz: Visualizer, viewer: ViewerPage
+) -> None:
+    user, page = viewer.user, viewer.page
+    user.click("tab", "Frames")
+    user.find("treegrid", "Frames")
+    x, y = page.evaluate(AT.replace("NODE", node_of(viz, "drivewhl_l_link")))
+    page.mouse.double_click(x, y)
+    user.until(
+        lambda: page.evaluate("document.activeElement.dataset.row ?? ''") == f"j/{LEFT}"
+    )
