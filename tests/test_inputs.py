@@ -7,7 +7,14 @@ from typing import Any
 
 import pytest
 
-from sambot_viz import ConfigError, Robot, RobotError, UsageError, load_robot
+from sambot_viz import (
+    ConfigError,
+    Robot,
+    RobotError,
+    UsageError,
+    load_config,
+    load_robot,
+)
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.visualizer import Visualizer
@@ -143,3 +150,32 @@ def test_an_object_that_is_not_a_model_is_refused_with_what_can_be_given() -> No
     assert str(refused.value) == (
         "model is of type int; give a file name, a Robot or a yourdfpy.URDF"
     )
+
+
+def test_the_look_is_rvizs_with_a_config_and_studio_without(
+    arm: Path, repository: Path, tmp_path: Path
+) -> None:
+    config = repository / "rviz" / "urdf_config.rviz"
+    assert Inputs(Options()).options.look == "studio"
+    assert Inputs(Options(arm)).options.look == "studio"
+    assert Inputs(Options(arm, config)).options.look == "rviz"
+    assert Inputs(Options(arm, load_config(config))).options.look == "rviz"
+    # That of a package is found without being named.
+    package = tmp_path / "package"
+    (package / "rviz").mkdir(parents=True)
+    (package / "urdf").mkdir()
+    (package / "package.xml").write_text("<package><name>package</name></package>")
+    (package / "urdf" / "arm.urdf").write_text(ARM)
+    (package / "rviz" / "arm.rviz").write_text(config.read_text("utf-8"))
+    found = Inputs(Options(package))
+    assert found.config is not None and found.options.look == "rviz"
+    assert Inputs(Options(arm, look="studio")).options.look == "studio"
+    assert Inputs(Options(look="rviz")).options.look == "rviz"
+
+
+def test_the_config_that_ships_with_the_bundled_robot_is_no_config_of_the_users(
+    repository: Path,
+) -> None:
+    assert Inputs(Options()).config is None
+    with pytest.raises(UsageError, match="must be 'rviz' or 'studio'"):
+        Options(look="nice")  # type: ignore[arg-type]

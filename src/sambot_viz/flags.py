@@ -150,7 +150,7 @@ def keyword_help(kind: type) -> str:
 def check_choice(option: Field[Any], value: object) -> None:
     """Raise UsageError for a value that is none of the option's choices."""
     choices = flag_of(option).choices
-    if choices and value not in choices:
+    if choices and value not in choices and value != option.default:
         listed = " or ".join(f"'{choice}'" for choice in choices)
         raise UsageError(f"{option.name}={value!r}: it must be {listed}")
 

@@ -121,12 +121,16 @@ class Inputs:
             if positions:
                 positions.update(options.joint_positions)
                 self._options = replace(options, joint_positions=positions)
+        if options.look is None:
+            # A config that is broken will be RViz's too.
+            given = self.config is not None or config is not None
+            self._options = self._options.with_look("rviz" if given else "studio")
         self.poses = self._poses_file()
         self._presets: Presets | None = None
 
     @property
     def options(self) -> Options:
-        """The options that the user gave."""
+        """The options that the user gave, with the look that follows from them."""
         return self._options
 
     @property

@@ -10,6 +10,7 @@ is used.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
+Look = Literal["rviz", "studio"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +101,15 @@ class Options:
         "--fixed-frame",
         group="view",
         metavar="FRAME",
+    )
+    look: Look | None = option(
+        None,
+        "how the 3D view is drawn: as RViz draws it, or with soft light and round "
+        "shapes; by default rviz with a config of yours or the model's, else studio; "
+        "the menu View changes it for one browser",
+        "--look",
+        group="view",
+        choices=("rviz", "studio"),
     )
     joint_positions: Mapping[str, float] = option(
         None,
@@ -275,6 +286,12 @@ class Options:
             )
         if self.presenter == self.token:
             raise UsageError("--presenter and --token need different secrets")
+
+    def with_look(self, look: Look) -> Options:
+        """Return the same options with a look; no file of theirs is read again."""
+        changed = copy(self)
+        object.__setattr__(changed, "look", look)
+        return changed
 
     @property
     def start_pose(self) -> StartPose:

@@ -99,7 +99,9 @@ def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
             browser.view.set_kind(f"rviz_default_plugins/{kind}")
             live.wait_for_frames()
             file = tmp_path / f"{kind}.html"
-            page = page_file(session.copy(), ViewState.of(browser), "none")
+            page = page_file(
+                session.copy(), ViewState.of(browser), "none", look="studio"
+            )
             file.write_bytes(page)
             alone = open_file(file, 800, 600 + BAR)
             alone.user.until(lambda a=alone: differing(a, live) < 0.001)

@@ -424,14 +424,14 @@ def test_a_page_of_what_has_moved_is_a_download_one_at_a_time(
     viz: Visualizer, page: Page, peer: ProtocolClient
 ) -> None:
     with pytest.raises(UsageError, match="nothing has moved in the last minute"):
-        page.act("file/page", "past")
+        page.act("file/page", "past", "rviz")
     with pytest.raises(UsageError, match="there is no motion 'jump'"):
-        page.act("file/page", "jump")
+        page.act("file/page", "jump", "rviz")
     viz.set_joint_positions({"drivewhl_l_joint": 1.0})
     mark = peer.mark()
-    page.act("file/page", "past")
+    page.act("file/page", "past", "rviz")
     with pytest.raises(UsageError, match="a page is being made already"):
-        page.act("file/page", "past")
+        page.act("file/page", "past", "rviz")
     peer.wait_until(lambda: bool(page.sentences))
     assert page.sentences == ["ok: Saved sam_bot.html, 0.9 MB"]
     peer.wait_until(lambda: peer.types(mark)["FileTransferPart"] == 1)

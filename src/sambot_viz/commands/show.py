@@ -75,7 +75,7 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)
-    listener = listen(options)
+    listener = listen(inputs.options)
     try:
         _refuse_early(inputs)
         presented, link = options.presenter is not None, listener.url

@@ -85,7 +85,11 @@ class ViewState:
 
 
 def page_file(
-    scene: SessionCopy, view: ViewState, motion: Motion, past: Past | None = None
+    scene: SessionCopy,
+    view: ViewState,
+    motion: Motion,
+    past: Past | None = None,
+    look: str = "rviz",
 ) -> bytes:
     """Return the HTML file.
 
@@ -95,6 +99,7 @@ def page_file(
         motion: what moves: all joints one after the other, what has moved in the last
             minute, or nothing.
         past: how that was.
+        look: how it is drawn (see `Options.look`).
     """
     steps: Callable[[JointState], Iterable[MotionSample]] = _nothing
     if motion == "sweep":
@@ -111,7 +116,9 @@ def page_file(
         "size": view.size,
         "view": dict(view.mouse),
     }
-    return page.standing_alone(page_of_viser(), title, first, about, tracks.packed())
+    return page.standing_alone(
+        page_of_viser(), title, first, about, tracks.packed(), look
+    )
 
 
 def _sweep(joints: JointState) -> Iterable[MotionSample]:
@@ -137,7 +144,7 @@ class PageError(SambotVizError):
 
 
 def ask_page(
-    scene: SessionCopy, past: Past, client: Client, motion: str
+    scene: SessionCopy, past: Past, client: Client, motion: str, look: str = "rviz"
 ) -> Callable[[], Coroutine[Any, Any, bytes]]:
     """Note what a browser sees now, for `panels.pictures`.
 
@@ -146,6 +153,7 @@ def ask_page(
         past: how it has moved.
         client: who looks at it.
         motion: what is to move (see `page_file`).
+        look: how the browser draws.
 
     Returns:
         What makes the HTML file, while other work of the event loop goes on. It raises
@@ -158,7 +166,10 @@ def ask_page(
         raise UsageError("nothing has moved in the last minute")
     if motion not in ("sweep", "past", "none"):
         raise UsageError(f"there is no motion '{motion}'")
-    return partial(_made, partial(page_file, scene, ViewState.of(client), motion, past))
+    if look not in ("rviz", "studio"):
+        raise UsageError(f"there is no look '{look}'")
+    view = ViewState.of(client)
+    return partial(_made, partial(page_file, scene, view, motion, past, look))
 
 
 async def _made(make: Callable[[], bytes]) -> bytes:

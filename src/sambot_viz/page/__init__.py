@@ -22,6 +22,9 @@ _PREFIX = "sambot/"
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before viser's own script."""
+_NAMES = "view/font.js"
+"""Runs before viser's own script too, and finds the font in an element before it."""
+_FONT = "vendor/names.woff2"
 _WINDOW_STYLES = (
     "window/window.css",
     "cells/cells.css",
@@ -40,21 +43,27 @@ _ONLY_ITSELF = (
 """What a page from a file may load: nothing from anywhere."""
 
 
-def with_scripts(html: bytes, panels: bool) -> bytes:
+def with_scripts(html: bytes, panels: bool, look: str = "rviz") -> bytes:
     """The page of viser with our scripts and style sheets in its head.
 
     Args:
         html: the page of viser.
         panels: whether there are panels round the view, or the view fills the page.
+        look: how the view is drawn in a browser that has chosen nothing.
     """
     own = _FOLDER.joinpath(_FIRST).read_text("utf-8")
-    head = _head("main.js" if panels else "view_only.js", _STYLES)
+    head = _head("main.js" if panels else "view_only.js", _STYLES, look)
     head = f"<script>{own}</script>{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
 
 def standing_alone(
-    html: bytes, title: str, scene: bytes, about: dict[str, Any], motion: str
+    html: bytes,
+    title: str,
+    scene: bytes,
+    about: dict[str, Any],
+    motion: str,
+    look: str = "rviz",
 ) -> bytes:
     """The page of viser as a file of its own, which shows a recording.
 
@@ -64,6 +73,7 @@ def standing_alone(
         scene: viser's recording of the first picture.
         about: what `player.js` has to know.
         motion: what moves afterwards; base64, read by `player.js`.
+        look: how it is drawn.
     """
     # A name may hold anything: it must not end the element.
     data = json.dumps(about, ensure_ascii=True).replace("<", "\\u003c")
@@ -82,13 +92,13 @@ def standing_alone(
             b'";window.__VISER_EMBED_CONFIG__={darkMode:true};</script>',
             f'<script type="application/json" id="sambot-about">{data}</script>'
             f'<script type="text/plain" id="sambot-motion">{motion}</script>'
-            f"{_head('player/player.js', _PLAYER_STYLES)}</head>".encode(),
+            f"{_head('player/player.js', _PLAYER_STYLES, look)}</head>".encode(),
             after,
         ]
     )
 
 
-def _head(first: str, styles: Iterable[str]) -> str:
+def _head(first: str, styles: Iterable[str], look: str) -> str:
     """Scripts and style sheets for the head of a page.
 
     The script is `async`: viser's own script must not wait for ours.
@@ -96,10 +106,15 @@ def _head(first: str, styles: Iterable[str]) -> str:
     Args:
         first: the script that the page begins with; it comes with all it imports.
         styles: the style sheets.
+        look: what `look.js` begins with.
     """
     modules = {_PREFIX + name: _address(name) for name in sorted(_needed(first))}
     css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
+    font = base64.b64encode(_FOLDER.joinpath(_FONT).read_bytes()).decode()
     return (
+        f'<script type="text/plain" id="sambot-font">{font}</script>'
+        f"<script>{_FOLDER.joinpath(_NAMES).read_text('utf-8')}</script>"
+        f'<meta name="sambot-look" content="{escape(look)}">'
         f'<script type="importmap">{json.dumps({"imports": modules})}</script>'
         f'<script type="module" async>import "{_PREFIX}{first}";</script>'
         f"<style>{css}</style>"

@@ -23,9 +23,9 @@ from sambot_viz.session.worker import Worker
 
 MakePage = Callable[[], Awaitable[bytes]]
 """Makes an HTML file, on the event loop; raises SambotVizError when there is none."""
-AskPage = Callable[[SessionCopy, Past, Client, str], MakePage]
-"""Notes what a browser sees now, for a page with a motion: "sweep", "past" or "none";
-raises SambotVizError when there is no such motion."""
+AskPage = Callable[[SessionCopy, Past, Client, str, str], MakePage]
+"""Notes what a browser sees now, for a page with a motion ("sweep", "past" or "none")
+and a look; raises SambotVizError when there is no such motion or look."""
 _UNNAMED = "robot"
 """Name of a picture or a page when there is no robot."""
 
@@ -96,14 +96,14 @@ class PicturesPanel(Panel):
         # The loop serves every browser and waits for no lock.
         self._worker.post(lambda: self._say(sentence, level))
 
-    @command("file/page", TEXT, name="page", client_local=True)
-    def _page(self, motion: str) -> None:
+    @command("file/page", TEXT, TEXT, name="page", client_local=True)
+    def _page(self, motion: str, look: str) -> None:
         if self._ask_page is None:
             raise UsageError("pages cannot be made here")
         if self._making:
             raise UsageError("a page is being made already")
         past = self._robot.recorder.last_minute()
-        make = self._ask_page(self._copy(), past, self._client, motion)
+        make = self._ask_page(self._copy(), past, self._client, motion, look)
         self._making = True
         self._worker.run_on_loop(self._make(make), self._client.client_id)
 

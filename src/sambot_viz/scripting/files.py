@@ -55,17 +55,19 @@ def _checked(size: Size) -> Size:
     return width, height
 
 
-def page_of(session: Session, *, sweep: bool, motion: Motion | None) -> bytes:
+def page_of(
+    session: Session, *, sweep: bool, motion: Motion | None, look: str
+) -> bytes:
     """Return what a session shows as one HTML file, as `Visualizer.export` says."""
     shown = session.copy()
     first = ViewState.at_first(session.document_view, session.robot.model is not None)
     if motion is None:
-        return page_file(shown, first, "sweep" if sweep else "none")
+        return page_file(shown, first, "sweep" if sweep else "none", look=look)
     joints = session.robot.joints
     if shown.robot is None or joints is None:
         raise JointError("there is no robot yet that could move")
     past = _motion_of(shown.robot, joints, motion)
-    return page_file(shown, first, "past", past)
+    return page_file(shown, first, "past", past, look)
 
 
 def _motion_of(robot: Robot, joints: JointState, motion: Motion) -> Past:

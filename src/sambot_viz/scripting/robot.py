@@ -187,5 +187,6 @@ class RobotControl:
             UsageError: the times of the motion do not grow, or are too many.
             OSError: it cannot be written.
         """
-        content = page_of(first(self._server.sessions), sweep=sweep, motion=motion)
+        session, look = first(self._server.sessions), self._server.options.look
+        content = page_of(session, sweep=sweep, motion=motion, look=look or "rviz")
         write_atomically(Path(path), content)

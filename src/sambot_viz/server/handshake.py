@@ -88,7 +88,7 @@ def checked(
     original: Callable[..., Any] = module.serve
     secrets = (options.token, options.presenter, options.base_path)
     check_token = TokenCheck(*secrets, knows)
-    page_files.prepare(options.panels)
+    page_files.prepare(options.panels, options.look)
     limiter = ConnectionLimiter()
 
     def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
@@ -110,7 +110,8 @@ def checked(
             if is_page and not presenter and limiter.is_full(_pages(connection)):
                 return limiter.refusal()
             try:
-                response = page_files.answer(request, _panels(request, options))
+                panels = _panels(request, options)
+                response = page_files.answer(request, panels, options.look)
                 if response is None and answer:
                     response = answer(connection, request)
             except (OSError, ValueError):

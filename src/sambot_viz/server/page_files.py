@@ -24,21 +24,25 @@ _PLAIN_PAGE = """\
 """
 
 
-def prepare(panels: bool = True) -> None:
+def prepare(panels: bool = True, look: str | None = None) -> None:
     """Make the page now: it takes much longer while a thread imports modules.
 
     Args:
         panels: as for `answer`.
+        look: as for `answer`.
     """
-    _tag(panels)
+    _tag(panels, look)
 
 
-def answer(request: Request, panels: bool = True) -> Response | None:
+def answer(
+    request: Request, panels: bool = True, look: str | None = None
+) -> Response | None:
     """The response to a request for the page or its licences; None for all others.
 
     Args:
         request: the request.
         panels: whether the page has panels round its view.
+        look: how a page draws that has chosen nothing; None is RViz's.
     """
     if is_websocket(request):
         return None
@@ -47,16 +51,16 @@ def answer(request: Request, panels: bool = True) -> Response | None:
     if not is_page(request):
         return None
     headers = Headers(
-        {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(panels)}
+        {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(panels, look)}
     )
     headers["Cache-Control"] = "no-cache"
     headers["Vary"] = "Accept-Encoding"
-    if request.headers.get("If-None-Match") == _tag(panels):
+    if request.headers.get("If-None-Match") == _tag(panels, look):
         return Response(http.HTTPStatus.NOT_MODIFIED, "Not Modified", headers)
-    content = _page(panels)
+    content = _page(panels, look)
     if "gzip" in request.headers.get("Accept-Encoding", ""):
         headers["Content-Encoding"] = "gzip"
-        content = _packed(panels)
+        content = _packed(panels, look)
     headers["Content-Length"] = str(len(content))
     return Response(http.HTTPStatus.OK, "OK", headers, content)
 
@@ -79,8 +83,8 @@ def _text(content: bytes) -> Response:
 
 
 @cache
-def _page(panels: bool) -> bytes:
-    return page.with_scripts(page_of_viser(), panels)
+def _page(panels: bool, look: str | None) -> bytes:
+    return page.with_scripts(page_of_viser(), panels, look or "rviz")
 
 
 def page_of_viser() -> bytes:
@@ -90,13 +94,13 @@ def page_of_viser() -> bytes:
 
 
 @cache
-def _packed(panels: bool) -> bytes:
-    return gzip.compress(_page(panels), 6, mtime=0)
+def _packed(panels: bool, look: str | None) -> bytes:
+    return gzip.compress(_page(panels, look), 6, mtime=0)
 
 
 @cache
-def _tag(panels: bool) -> str:
-    return f'"{hashlib.sha256(_page(panels)).hexdigest()[:20]}"'
+def _tag(panels: bool, look: str | None) -> str:
+    return f'"{hashlib.sha256(_page(panels, look)).hexdigest()[:20]}"'
 
 
 def plain_page(

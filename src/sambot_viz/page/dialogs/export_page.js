@@ -3,6 +3,7 @@
 
 import { html, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
+import { currentLook } from "../view/look.js";
 import { tell } from "../window/notices.js";
 import { Cell } from "../state.js";
 import { Dialog } from "./dialog.js";
@@ -25,7 +26,7 @@ export function ExportPage({ close }) {
   const save = () => {
     last.set(motion);
     tell("Making the page…", "info");
-    act("file/page", [motion]);
+    act("file/page", [motion, currentLook()]);
     close();
   };
   return html`<${Dialog} title="Export Page" close=${close} submit=${save}>

@@ -13,9 +13,20 @@
  * transform).
  */
 
+import { currentLook } from "./look.js";
 import { keepSharp } from "./sharp.js";
+import { STUDIO_LIT, studioUniform } from "./studio.js";
 
-const look = { lit: 0, unlit: 0, names: 0, boxes: 0, frames: 0, labels: 0, backgrounds: 0 };
+const look = {
+  lit: 0,
+  unlit: 0,
+  studio: 0,
+  names: 0,
+  boxes: 0,
+  frames: 0,
+  labels: 0,
+  backgrounds: 0,
+};
 window.sambotVizLook = look;
 
 const ENCODE = `
@@ -30,15 +41,16 @@ const NO_CONVERSION = ["#include <tonemapping_fragment>", "#include <colorspace_
 /**
  * Give a material of three.js another last step of its shader.
  * @param {any} material
- * @param {"lit" | "unlit"} kind
+ * @param {"lit" | "unlit" | "studio"} kind
  * @param {string} shade GLSL that sets outgoingLight
+ * @param {string} begin GLSL before the main function
  */
-const rewrite = (material, kind, shade) => {
+const rewrite = (material, kind, shade, begin = ENCODE) => {
   const anchor = "#include <opaque_fragment>";
   material.onBeforeCompile = (/** @type {any} */ shader) => {
     let source = shader.fragmentShader;
     if (!source.includes(anchor) || !source.includes("void main() {")) return;
-    source = source.replace("void main() {", ENCODE + "void main() {");
+    source = source.replace("void main() {", begin + "void main() {");
     source = source.replace(anchor, shade + "\n" + anchor);
     for (const chunk of NO_CONVERSION) source = source.replace(chunk, "");
     shader.fragmentShader = source;
@@ -94,19 +106,31 @@ const adoptBackground = (object) => {
   look.backgrounds += 1;
 };
 
+/** Which look lit materials have. @type {WeakMap<object, string>} */
+const lit = new WeakMap();
+/** Light a shape. @param {any} material */
+const light = (material) => {
+  const now = currentLook();
+  if (lit.get(material) === now) return;
+  lit.set(material, now);
+  if (now === "studio") rewrite(material, "studio", STUDIO_LIT.shade, STUDIO_LIT.begin);
+  else {
+    rewrite(
+      material,
+      "lit",
+      "outgoingLight = sambotEncode(totalEmissiveRadiance)" +
+        " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);",
+    );
+  }
+};
+
 const known = new WeakSet();
 /** Change a material when it is seen first. @param {any} material @param {any} object */
 const adopt = (material, object) => {
-  if (!known.has(material)) {
+  if (material.isMeshStandardMaterial) light(material);
+  else if (!known.has(material)) {
     known.add(material);
-    if (material.isMeshStandardMaterial) {
-      rewrite(
-        material,
-        "lit",
-        "outgoingLight = sambotEncode(totalEmissiveRadiance)" +
-          " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);",
-      );
-    } else if (material.isMeshToonMaterial) {
+    if (material.isMeshToonMaterial) {
       rewrite(material, "unlit", "outgoingLight = sambotEncode(diffuseColor.rgb);");
     } else if (material === window.__viserMutable?.backgroundMaterial) {
       adoptBackground(object);
@@ -177,6 +201,7 @@ const hook = () => {
     /** @type {any} */ camera,
   ) => {
     renderer.toneMapping = 0;
+    studioUniform.value = currentLook() === "studio" ? 1 : 0;
     followZoom(camera);
     eye = camera.matrixWorld;
     renderer.setTransparentSort(farFirst);

@@ -1,5 +1,5 @@
 // @ts-check
-/* The menus of the window, as RViz's: File, Edit, Panels, Help. */
+/* The menus of the window, as RViz's: File, Edit, View, Panels, Help. */
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
@@ -11,7 +11,8 @@ import { copyPermalink } from "../wire/permalink.js";
 import { menuKey, usePressOutside } from "./menu.js";
 import { goTo } from "./palette.js";
 import { EDITS } from "./toolbar.js";
-import { useCommand, useData } from "../state.js";
+import { Cell, useCommand, useData } from "../state.js";
+import { FIRST, setLook } from "../view/look.js";
 
 /**
  * An entry of a menu, or null for a line between entries.
@@ -31,6 +32,21 @@ function edit(id, keys) {
     does: () => act(`edit/${id}`),
   };
 }
+
+/** @typedef {import("../view/look.js").Look} Look */
+/** How this browser draws the view, when it was chosen here. @type {Cell<Look | null>} */
+const chosenLook = new Cell(/** @type {Look | null} */ (null), "look");
+if (chosenLook.value) setLook(chosenLook.value);
+
+/** @param {Look} look @param {string} name @returns {Entry} */
+const lookEntry = (look, name) => ({
+  name,
+  checked: (chosenLook.value ?? FIRST) === look,
+  does: () => {
+    chosenLook.set(look);
+    setLook(look);
+  },
+});
 
 /** @param {() => PanelOf[]} panels @param {() => void} hideAll @returns {MenuOf[]} */
 export const listMenus = (panels, hideAll) => [
@@ -60,6 +76,10 @@ export const listMenus = (panels, hideAll) => [
       { name: "Go to…", keys: "Ctrl+K", does: goTo },
       { name: "Copy permalink", does: copyPermalink, off: !rows.can("permalink/copy") },
     ],
+  },
+  {
+    name: "View",
+    entries: () => [lookEntry("rviz", "Look: RViz"), lookEntry("studio", "Look: Studio")],
   },
   {
     name: "Panels",
