@@ -7,6 +7,7 @@ import shlex
 from pathlib import Path
 from typing import Any
 
+import manual_page
 import pytest
 from command_line_page import PAGE, page, parser_of
 
@@ -30,6 +31,12 @@ def written_commands() -> list[str]:
 def test_the_page_of_the_command_line_is_that_of_the_parsers() -> None:
     assert PAGE.read_text("utf-8") == page(), (
         "run: PYTHONPATH=tests/support python tests/support/command_line_page.py"
+    )
+
+
+def test_the_manual_page_is_that_of_the_parsers() -> None:
+    assert manual_page.PAGE.read_text("utf-8") == manual_page.page(), (
+        "run: PYTHONPATH=tests/support python tests/support/manual_page.py"
     )
 
 

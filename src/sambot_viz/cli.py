@@ -27,7 +27,16 @@ from sambot_viz.problems import write_problems
 
 OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
 
-COMMANDS = ("check", "config", "echo", "expand", "export", "frames", "snapshot")
+COMMANDS = (
+    "check",
+    "completion",
+    "config",
+    "echo",
+    "expand",
+    "export",
+    "frames",
+    "snapshot",
+)
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
 
 

@@ -46,6 +46,8 @@ def find_what_is_bundled() -> None:
     expect(Path(icon).is_file(), "the icon of the tile in JupyterLab is missing")
     expect(len(bundled.model_names()) >= 3, "models are missing")
     expect(len(bundled.config_names()) >= 2, "configs are missing")
+    manual = ENVIRONMENT / "share" / "man" / "man1" / "sambot-viz.1"
+    expect(manual.is_file(), "the manual page is missing")
     for path in (bundled.model_path(), bundled.config_path()):
         expect(path.is_relative_to(package), f"{path} is not in the package")
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sambot_viz.cli import COMMANDS
+from sambot_viz.commands.command_line import Parser
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
 
@@ -30,10 +31,10 @@ def page() -> str:
     return "\n".join([_HEAD, *(_section(name) for name in ("show", *COMMANDS))])
 
 
-def parser_of(command: str) -> argparse.ArgumentParser:
+def parser_of(command: str) -> Parser:
     """The parser of a command; "show" is the command without a name."""
     module = importlib.import_module(f"sambot_viz.commands.{command}")
-    parser: argparse.ArgumentParser = module.parser()
+    parser: Parser = module.parser()
     return parser
 
 
@@ -46,9 +47,8 @@ def _section(command: str) -> str:
     )
 
 
-def _rows(parser: argparse.ArgumentParser) -> Iterator[str]:
-    # argparse has no public list of what a parser takes.
-    for action in parser._actions:
+def _rows(parser: Parser) -> Iterator[str]:
+    for action in parser.actions:
         if "--help" in action.option_strings:
             continue
         help_text = (action.help or "") % {"default": action.default}

@@ -65,6 +65,11 @@ class Parser(argparse.ArgumentParser):
             "--debug", action="store_true", help="show where an internal error occurred"
         )
 
+    @property
+    def actions(self) -> Sequence[argparse.Action]:
+        """What the parser takes, in order; argparse has no public name for it."""
+        return self._actions
+
     def add_format(self) -> None:
         """Add ``--format``, for commands that print text or JSON."""
         self.add_argument(

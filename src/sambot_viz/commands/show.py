@@ -31,6 +31,7 @@ commands:
   sambot-viz export MODEL -o FILE.html
                                write the 3D view and a motion as one HTML file
   sambot-viz config FILE.rviz  report what of an RViz config is shown
+  sambot-viz completion SHELL  print what completes all this with the Tab key
 
 MODEL is a URDF or xacro file, whatever its ending, or a package folder; without
 one, the bundled sam_bot is shown. NAME:=VALUE is an argument for xacro, anywhere on
