@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -10,6 +11,28 @@ import pytest
 import viser
 
 from sambot_viz.session.clients.camera import ClientCamera
+from sambot_viz.views.camera import UP, Camera, vector
+
+
+def looking_from(x: float) -> Camera:
+    """A camera on the x axis that looks at the origin."""
+    return Camera(vector(x, 0.0, 0.0), vector(0.0, 0.0, 0.0), UP)
+
+
+def test_what_was_reported_before_another_camera_was_sent_is_no_answer_to_it() -> None:
+    reported = a_camera()
+    client = SimpleNamespace(
+        camera=reported, atomic=contextlib.nullcontext, flush=lambda: None
+    )
+    browser = ClientCamera(cast(viser.ClientHandle, client))
+    late = browser.report()
+    browser.point(looking_from(5.0))
+    browser.point(looking_from(6.0))
+    assert not browser.take(late)
+    # viser's handle has the camera that was sent; the page may not have it yet.
+    reported.position = (5.0, 0.0, 0.0)
+    assert not browser.take(browser.report())
+    assert browser.camera.position == pytest.approx((6.0, 0.0, 0.0))
 
 
 def a_camera() -> SimpleNamespace:
@@ -35,7 +58,7 @@ def test_a_camera_that_is_not_made_of_finite_numbers_changes_nothing(
     reported.position = (7.0, 1.0, 2.0)
     good = getattr(reported, name)
     setattr(reported, name, (*good[:-1], bad) if isinstance(good, tuple) else bad)
-    assert not browser.take()
+    assert not browser.take(browser.report())
     assert browser.camera is before
 
 
@@ -53,5 +76,5 @@ def test_numbers_that_are_not_a_camera_change_nothing(name: str, values: Any) ->
     browser = ClientCamera(cast(viser.ClientHandle, SimpleNamespace(camera=reported)))
     before = browser.camera
     setattr(reported, name, values)
-    assert not browser.take()
+    assert not browser.take(browser.report())
     assert browser.camera is before

@@ -39,6 +39,8 @@ FARTHEST = 1e12
 WIDEST_ORTHO = 2 * ORTHO_FIELD_OF_VIEW
 """A field of view below this is that of an orthographic view [rad]."""
 
+Report = tuple[int, Camera | None]
+"""The height of a browser's picture [pixels], and its camera."""
 _START = Camera(np.array(VISER_FIRST_POSITION), np.zeros(3), UP)
 
 
@@ -53,7 +55,7 @@ class ClientCamera:
     def __init__(self, client: viser.ClientHandle) -> None:
         self.client = client
         self._height = max(1, client.camera.image_height)
-        self.camera = self._reported() or _START
+        self.camera = self.report()[1] or _START
         self._answered_by: float | None = None
 
     @property
@@ -95,20 +97,22 @@ class ClientCamera:
             handle.fov = drawn.fov
         self.client.flush()
 
-    def take(self) -> bool:
-        """Take over what the browser reports.
+    def take(self, report: Report) -> bool:
+        """Take over what the browser has reported.
+
+        Args:
+            report: what `report` has returned.
 
         Returns:
             Whether a user moved the camera. False for the echo of `point`, for a new
             size of the window, and for numbers that are not a camera.
         """
-        height = max(1, self.client.camera.image_height)
+        height, reported = report
         resized, self._height = height != self._height, height
         if resized and self.camera.orthographic:
             # As many pixels per metre as before.
             self.point(self.camera)
             return False
-        reported = self._reported()
         if reported is None:
             return False
         if same_picture(reported, self.camera):
@@ -119,12 +123,18 @@ class ClientCamera:
         self.camera = reported
         return True
 
-    def _reported(self) -> Camera | None:
-        """The camera of the last report, in the fixed frame; None for nonsense.
+    def report(self) -> Report:
+        """Return the height of the picture, and the camera in the fixed frame.
 
-        viser does not check what a browser sends: any number may be NaN or missing,
-        and the camera may be in the point that it looks at.
+        That is what the browser has reported last only until `point` is called, which
+        gives viser's handle the new camera at once. The camera is None for nonsense:
+        viser does not check what a browser sends. Any number may be NaN or missing, and
+        the camera may be in the point that it looks at.
         """
+        height = max(1, self.client.camera.image_height)
+        return height, self._reported(height)
+
+    def _reported(self, height: int) -> Camera | None:
         handle = self.client.camera
         position, look_at, up = (
             _numbers(values, 3)
@@ -153,7 +163,7 @@ class ClientCamera:
                 return None
         angle = float(fov[0]) if 0.0 < fov[0] < np.pi else FIELD_OF_VIEW
         camera = Camera(position, look_at, up, fov=angle)
-        return camera.as_orthographic(self._height) if orthographic else camera
+        return camera.as_orthographic(height) if orthographic else camera
 
 
 def same_picture(one: Camera, two: Camera) -> bool:

@@ -20,7 +20,7 @@ from sambot_viz.displays.picking.pick_geometry import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import short_name
-from sambot_viz.session.clients.camera import ClientCamera, same_picture
+from sambot_viz.session.clients.camera import ClientCamera, Report, same_picture
 from sambot_viz.session.clients.robot_framing import RobotFraming, window_of
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import (
@@ -107,7 +107,10 @@ class ClientView:
 
         async def moved(handle: viser.CameraHandle) -> None:
             del handle
-            worker.post(self._moved, latest_of=self, client=client.client_id)
+            # Read here: until the worker comes to it, the camera may be another one,
+            # which would be taken for the page's own.
+            moved = partial(self._moved, self._camera.report())
+            worker.post(moved, latest_of=self, client=client.client_id)
 
         client.camera.on_update(moved)
         self._positions = robot.positions
@@ -300,10 +303,10 @@ class ClientView:
         if not same_picture(self.camera, self.view.camera(self._target)):
             self._apply(rounded(self.view.read(self.camera, self._target)))
 
-    def _moved(self) -> None:
+    def _moved(self, report: Report) -> None:
         """The browser reports its camera; most reports are echoes of what we sent."""
         with self._change.lock:
-            if not self._camera.take():
+            if not self._camera.take(report):
                 # The window may have another size now.
                 self._frame_robot()
                 return
