@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from inside import node_of, viser_server
-from protocol_client import ROW_PATCH, ProtocolClient
+from protocol_client import ROW_PATCH, ProtocolClient, wait_for_workers
 
 from sambot_viz import Visualizer
 
@@ -49,9 +49,11 @@ def test_one_step_of_a_joint_is_a_pose_and_a_changed_row_to_each_browser(
         client.settle(viser_server(viz))
     marks = [client.mark() for client in clients]
     first.edit(first.id_of("joints", JOINT), 0.5)
+    first.wait_until(lambda: viz.joint_positions[JOINT] == pytest.approx(0.5))
+    # What asks for rows while they are changed gets them in two parts.
+    wait_for_workers()
     for client in clients:
         client.settle(viser_server(viz))
-    assert viz.joint_positions[JOINT] == pytest.approx(0.5)
     for client, mark in zip(clients, marks, strict=True):
         sent = client.since(mark)
         (pose,) = (message for message in sent if message.type in TRANSFORMS)
