@@ -130,7 +130,7 @@ def test_what_is_half_typed_stays_in_the_hand_when_others_change_the_displays(
     user.type("cd")
     user.keys("Enter")
     user.until(lambda: robot.get("TF Prefix") == "abcd")
-    assert user.row("Displays", "Robot", "TF Prefix").state("focused")
+    user.until(lambda: user.row("Displays", "Robot", "TF Prefix").state("focused"))
 
 
 def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
@@ -141,7 +141,7 @@ def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
     box = user.box(user.row("Displays", "Grid").one("checkbox"))
     session.display_edits.rename_display(session.scene.displays[0].config, name)
     label = user.row("Displays", name).one("StaticText", name)
-    assert not user.is_cut_off(label)
+    user.until(lambda: not user.is_cut_off(label))
     # The boxes of short names stay in line.
     assert user.box(user.row("Displays", "Grid").one("checkbox")) == box
 
@@ -156,7 +156,10 @@ def test_a_refusal_moves_no_row_and_goes_with_the_next_edit(user: User) -> None:
     left, _, width, _ = user.box(user.find("treegrid", "Displays"))
     said = user.box(user.row("Displays", "Background Color").one("alert"))
     assert left + width <= said[0] and said[0] + said[2] < 1280 and said[3] < 90
-    assert user.row("Displays", "Background Color").one("textbox").value == "48; 48; 48"
+    before = "48; 48; 48"
+    user.until(
+        lambda: user.row("Displays", "Background Color").one("textbox").value == before
+    )
     user.click_on(user.row("Displays", "TF").one("checkbox"))
     user.until(lambda: "three whole numbers" not in user.see().text)
     # So it does with Tab, and of what is empty there is a reason too.
@@ -177,8 +180,9 @@ def test_the_first_click_selects_and_the_next_one_edits(
     user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
     user.reads("How opaque the lines are")
     user.click_on(user.row("Displays", "Grid", "Alpha").one("textbox"))
-    field = user.row("Displays", "Grid", "Alpha").one("textbox")
-    assert field.state("focused")
+    user.until(
+        lambda: user.row("Displays", "Grid", "Alpha").one("textbox").state("focused")
+    )
     user.type("0.25")
     user.keys("Escape")
     user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
@@ -223,13 +227,15 @@ def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
     assert not count.state("expanded")
     model.write_text(MODEL.replace("</link>", "</lnk>"), "utf-8")
     row = user.row("Problems", "Showing the last valid version")
-    assert user.can_see(row)
-    assert user.find("button", "Problems: 1 error").state("expanded")
+    user.until(lambda: user.can_see(row))
+    user.until(lambda: user.find("button", "Problems: 1 error").state("expanded"))
     user.reads("robot.urdf:4")
     user.keys("h")
     user.gone("treegrid", "Problems")
     user.click("button", "Problems: 1 error")
-    assert user.can_see(user.row("Problems", "Showing the last valid version"))
+    user.until(
+        lambda: user.can_see(user.row("Problems", "Showing the last valid version"))
+    )
     model.write_text(MODEL, "utf-8")
     user.find("button", "No problems")
     user.until(lambda: not user.there("treegrid", "Problems"))

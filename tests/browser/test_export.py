@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from inside import has_answered, node_of, session_of
+from inside import node_of, session_of
 from recorded_page import open_page
 from viewer_page import ViewerPage
 
@@ -59,12 +60,13 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
         viz.export(file)
         live = open_viewer(viz.url, width=800, height=600)
         live.wait_for_nodes(wheel)
+        live.settle(viz)
     # Its server has stopped.
     live.expects_errors = True
     viewer = open_file(file, 800, 600 + BAR)
     viewer.wait_for_nodes(wheel)
     assert viewer.page.evaluate("document.title") == "sam_bot"
-    assert differing(viewer, live) < 0.001
+    viewer.user.until(lambda: differing(viewer, live) < 0.001)
     user = viewer.user
     still = viewer.pose(wheel)
     user.click("button", "Play")
@@ -80,7 +82,7 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
     viewer.page.keyboard.press("Tab")
     viewer.page.keyboard.press("Home")
     user.until(lambda: np.allclose(viewer.pose(wheel), still, atol=1e-5))
-    assert user.find("slider", "Time").value in ("0", 0)
+    user.until(lambda: user.find("slider", "Time").value in ("0", 0))
     viewer.page.keyboard.press(" ")
     user.find("button", "Pause")
 
@@ -93,11 +95,11 @@ def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
         live.expects_errors = True
         live.wait_for_nodes(node_of(viz, LEFT_LINK))
         session = session_of(viz)
-        live.user.until(lambda: session.clients.all)
+        live.settle(viz)
         (browser,) = session.clients.all.values()
         for kind in ("TopDownOrtho", "XYOrbit"):
             browser.view.set_kind(f"rviz_default_plugins/{kind}")
-            live.wait_for_frames()
+            live.settle(viz)
             file = tmp_path / f"{kind}.html"
             page = page_file(
                 session.copy(), ViewState.of(browser), "none", look="studio"
@@ -107,11 +109,13 @@ def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
             alone.user.until(lambda a=alone: differing(a, live) < 0.001)
             before = alone.page.evaluate(CAMERA)
             alone.page.mouse.drag((400.0, 300.0), (470.0, 330.0), button="middle")
-            alone.wait_for_frames()
-            moved = np.subtract(alone.page.evaluate(CAMERA), before)
+
+            def moved(alone: ViewerPage = alone, before: Any = before) -> Any:
+                return np.abs(np.subtract(alone.page.evaluate(CAMERA), before))
+
             # Both move over the ground; viser's "up" is y.
-            assert np.abs(moved).max() > 0.05
-            assert abs(moved[1]) < 0.02
+            alone.user.until(lambda moved=moved: moved().max() > 0.05)
+            assert moved()[1] < 0.02
 
 
 def differing(one: ViewerPage, two: ViewerPage) -> float:
@@ -128,14 +132,12 @@ def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
         viewer = open_viewer(viz.url)
         viewer.wait_for_nodes(wheel)
         viewer.page.take_downloads(tmp_path)
-        viewer.wait_until_drawn()
-        # Until the page has answered a camera, no other is taken from it.
-        viewer.user.until(lambda: has_answered(session_of(viz)))
+        viewer.settle(viz)
         viewer.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
         still = viewer.pose(wheel)
         viz.set_joint_positions({"drivewhl_l_joint": 1.0})
         viewer.user.until(lambda: np.abs(viewer.pose(wheel) - still).max() > 0.5)
-        viewer.wait_until_drawn()
+        viewer.settle(viz)
         turned = viewer.pose(wheel)
         camera = viewer.page.evaluate(CAMERA)
         viewer.user.menu("File", "Export Page…")

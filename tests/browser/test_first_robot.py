@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from itertools import product
 
@@ -11,7 +10,6 @@ import pytest
 import yaml
 from desk import Desk
 from inside import node_of, session_of
-from patience import patience
 from viewer_page import Pixels, ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -31,6 +29,7 @@ def desk(sit: Callable[..., Desk]) -> Desk:
     view |= {"Distance": 1.2, "Yaw": 1.9, "Pitch": 0.4}
     desk = sit("S near", yaml.safe_dump(config))
     desk.viewer.wait_for_nodes(node_of(desk.viz, LINK))
+    desk.settle()
     return desk
 
 
@@ -85,14 +84,8 @@ def test_the_whole_robot_is_in_the_view_at_first_and_fills_a_third_of_its_height
     viewer.wait_for_nodes(node_of(at_first, LINK))
     # The panels come after the robot and make the view narrower.
     viewer.wait_for("document.body.innerText.includes('Fixed Frame')")
+    viewer.settle(at_first)
     session = session_of(at_first)
-    (browser,) = session.clients.all.values()
-    width = "__viserMutable.canvas.width"
-    end = time.monotonic() + patience(20.0)
-    while browser.client.camera.image_width != viewer.page.evaluate(width):
-        assert time.monotonic() < end
-        viewer.wait_until_drawn()
-    viewer.wait_until_drawn()
     box = session.picker.robot_box()
     assert box is not None
     places = [
@@ -129,8 +122,9 @@ def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(desk: Desk) -> None
     before = viewer.pixels()
     place = wheel_place(viz, viewer)
     viewer.user.drag_slider(viewer.user.find("slider", LEFT), 1.0)
+    viewer.user.until(lambda: slider(viewer, LEFT) == pytest.approx(1.0, abs=0.15))
+    desk.settle()
     shown = slider(viewer, LEFT)
-    assert shown == pytest.approx(1.0, abs=0.15)
     wait_for_turn(viz, viewer, shown)
     after = viewer.pixels()
     assert changed(around(before, place, 80), around(after, place, 80)) > 20
@@ -154,10 +148,11 @@ def test_two_browsers_stay_in_step(desk: Desk, open_viewer: Open) -> None:
 def test_fifty_quick_steps_end_with_pose_and_slider_equal(desk: Desk) -> None:
     viz, viewer = desk.viz, desk.viewer
     viewer.user.click("slider", LEFT)
-    viewer.user.until(lambda: abs(viz.joint_positions[LEFT]) < 0.2)
+    desk.settle()
     start = slider(viewer, LEFT)
     viewer.user.keys(*["ArrowRight"] * 50)
     wait_for_turn(viz, viewer, round(start + 0.5, 6))
+    desk.settle()
     assert slider(viewer, LEFT) == pytest.approx(start + 0.5, abs=0.011)
     assert viz.joint_positions[LEFT] == slider(viewer, LEFT)
 

@@ -40,6 +40,7 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
         viewer = open_viewer(viz.url)
         is_ready(viewer)
         viewer.wait_for_nodes(node_of(viz, LEFT_LINK))
+        viewer.settle(viz)
         viewer.page.mouse.drag((600.0, 300.0), (680.0, 340.0))
         user = viewer.user
         user.enter(user.row("Joints", LEFT).one("textbox"), "0.75")
@@ -47,7 +48,7 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
         (browser,) = session_of(viz).clients.all.values()
         browser.tools.select({Selectable("link", LEFT_LINK)}, None)
         user.reads(f"Selected: {LEFT_LINK}")
-        viewer.wait_until_drawn()
+        viewer.settle(viz)
         link = copied(viewer)
         camera = viewer.page.evaluate(CAMERA)
         assert link.startswith(f"{viz.url}/#view=Orbit&")
@@ -69,7 +70,9 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
                 lambda p=page: np.allclose(p.page.evaluate(CAMERA), camera, atol=1e-3)
             )
             page.user.reads(f"Selected: {LEFT_LINK}")
-            assert not page.user.row("Displays", "Grid").one("checkbox").is_on
+            page.user.until(
+                lambda p=page: not p.user.row("Displays", "Grid").one("checkbox").is_on
+            )
             # Loading the page again does not put the joints back.
             address = str(page.page.evaluate("location.href"))
             assert "#" not in address and "token" not in address

@@ -46,7 +46,7 @@ def test_lit_faces_background_and_names_have_rvizs_colours_and_names_no_box(
 ) -> None:
     viewer = open_viewer(viz.url)
     viewer.wait_for("window.sambotVizLook?.labels === 5")
-    viewer.wait_until_drawn()
+    viewer.settle(viz)
     pixels = viewer.pixels()
     # The numbers are RViz's own; without the script
     # faces are far lighter.

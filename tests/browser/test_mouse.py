@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +14,6 @@ import viser
 import yaml
 from desk import Desk
 from inside import node_of
-from patience import patience
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -36,6 +34,7 @@ FOV = math.tan(math.pi / 8)
 class Shown:
     """A page, and the camera that it reports."""
 
+    viz: Visualizer
     viewer: ViewerPage
     camera: viser.CameraHandle
 
@@ -76,14 +75,7 @@ class Shown:
 
     def rests(self) -> None:
         """Wait until the page has reported what it shows."""
-        end = time.monotonic() + patience(20.0)
-        while True:
-            ends: Any = self.viewer.page.evaluate(_ENDS)
-            now = (self.position, self.target)
-            if np.allclose(now, ends, atol=1e-6):
-                return
-            assert time.monotonic() < end, f"the server has {now}, the page {ends}"
-            self.viewer.wait_for_frames()
+        self.viewer.settle(self.viz)
 
 
 _ENDS = """(({ cameraControl, camera, nodeRefFromName }) => {
@@ -123,12 +115,11 @@ def show(sit: Callable[..., Desk]) -> Callable[..., Shown]:
             given = tuple(value.values()) if isinstance(value, dict) else value
             view.set(name.replace("_", " "), given)
         desk.viewer.wait_for(f"window.sambotVizMouse?.kind === {kind!r}")
-        shown = Shown(desk.viewer, desk.browser.client.camera)
+        shown = Shown(desk.viz, desk.viewer, desk.browser.client.camera)
         wanted = view.camera.position
         desk.user.until(
             lambda: np.allclose(desk.page.evaluate(_ENDS)[0], wanted, atol=1e-4)
         )
-        desk.viewer.wait_until_drawn()
         shown.rests()
         return shown
 
@@ -153,8 +144,7 @@ def show_alone(
             "Math.abs(__viserMutable.cameraControl.distance - Math.sqrt(27)) > 1e-3"
         )
         (client,) = viz.viser.get_clients().values()
-        shown = Shown(viewer, client.camera)
-        viewer.wait_until_drawn()
+        shown = Shown(viz, viewer, client.camera)
         shown.rests()
         return shown
 
@@ -315,10 +305,10 @@ def test_a_disc_shows_the_focal_point_while_the_mouse_moves_the_camera(
     mouse.move(*SKY)
     mouse.press()
     mouse.move(SKY[0] + 5, SKY[1] + 3)
-    assert middle() == pytest.approx(yellow, abs=6)
+    viewer.user.until(lambda: middle() == pytest.approx(yellow, abs=6))
     assert viewer.page.evaluate("__viserMutable.camera.layers.mask !== 1") is True
     mouse.release()
-    assert middle() == pytest.approx(np.full(3, 48), abs=2)
+    viewer.user.until(lambda: middle() == pytest.approx(np.full(3, 48), abs=2))
     mouse.drag(SKY, (SKY[0] + 5, SKY[1]), button="right")
     assert middle() == pytest.approx(np.full(3, 48), abs=2)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from inside import node_of
-from patience import patience
+from patience import patience, until
 from viewer_page import Pixels, ViewerPage
 
 from sambot_viz import Visualizer, bundled
@@ -55,6 +55,7 @@ def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(
     viewer = open_viewer(viz.url)
     viewer.wait_for_nodes(node_of(viz, LINK))
     viewer.wait_for(f"!({shows('Problems')})")
+    viewer.settle(viz)
     before = settled_picture(viewer)
     content = model.read_text("utf-8")
     line = content[: content.rindex("</robot>")].count("\n") + 1
@@ -65,11 +66,11 @@ def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(
     viewer.user.find("button", "Problems: 1 error")
     for frame in ("base_link", LINK):
         place = [float(v) for v in viz.frames.lookup("base_link", frame).translation]
-        assert not viewer.is_covered(*viewer.project("", place))
+        until(lambda p=place: not viewer.is_covered(*viewer.project("", p)))
     # The list takes room from the view; without it, the picture is the one before.
     viewer.user.click("button", "Close Problems")
-    viewer.wait_until_drawn()
-    assert np.count_nonzero(settled_picture(viewer) != before) == 0
+    viewer.settle(viz)
+    until(lambda: np.array_equal(settled_picture(viewer), before))
 
     model.write_text(content, "utf-8")
     viewer.wait_for(f"!({shows(NOTE)})")

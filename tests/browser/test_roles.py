@@ -86,7 +86,7 @@ def test_a_viewer_turns_the_view_and_is_told_what_needs_control(
     user = guest.user
     user.until(lambda: slider_is_off(user))
     guest.page.mouse.move(*user.go_to(user.row("Joints", LEFT).one("slider")))
-    assert user.tip_under_the_mouse().startswith("View only: request control")
+    user.has_tip("View only: request control")
     yaw = user.row("Views", "Yaw").text
     guest.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
     user.until(lambda: user.row("Views", "Yaw").text != yaw)
@@ -107,6 +107,8 @@ def test_a_private_copy_and_back(
 ) -> None:
     user = guest.user
     teacher.user.enter(teacher.user.row("Joints", LEFT).one("textbox"), "1")
+    # Else the copy may be made before.
+    user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     people(user, "Make my own copy")
     user.reads("Private copy")
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
@@ -182,6 +184,7 @@ def test_many_requests_leave_the_view_free(
         client = protocol(viz.viser.get_port())
         client.wait_until(lambda c=client: "role/request" in c.rows)
         client.act("role/request", f"Pupil {number}")
+        client.settle(viz.viser)
     user.reads("12 people request control.")
     covered = teacher.page.evaluate(
         "[...document.querySelectorAll('.asking .ask')].map(e => e.clientHeight)"

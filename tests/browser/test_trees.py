@@ -43,22 +43,34 @@ def viz() -> Iterator[Visualizer]:
 
 @pytest.fixture(scope="module")
 def viewer(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> ViewerPage:
-    return open_for_all(viz.url)
+    viewer = open_for_all(viz.url)
+    viewer.settle(viz)
+    return viewer
 
 
 def check_all(user: User) -> dict[str, int]:
     """Check every control of every tree that is shown; how wide each scroll bar is."""
-    answer = user.page.evaluate(_LOOK)
-    assert answer["dead"] == []
-    assert answer["count"] >= 5
-    return answer["bars"]
+
+    def all_answer() -> dict[str, int]:
+        answer = user.page.evaluate(_LOOK)
+        assert answer["dead"] == []
+        assert answer["count"] >= 5
+        return answer["bars"]
+
+    return user.until(all_answer)
 
 
 def move_divider(user: User, panel: str, part: float) -> None:
     """Drag the line between names and values of a tree to a part of its width."""
     left, top, width, _ = user.box(user.find("treegrid", panel))
-    lines = map(user.box, user.see().all("separator", "Width of the names"))
-    (x,) = (x for x, y, _, _ in lines if left <= x <= left + width and abs(y - top) < 2)
+
+    def lines() -> list[float]:
+        boxes = map(user.box, user.see().all("separator", "Width of the names"))
+        return [
+            x for x, y, _, _ in boxes if 0 <= x - left <= width and abs(y - top) < 2
+        ]
+
+    (x,) = user.until(lines)
     user.page.mouse.drag((x + 3, top + 40), (left + part * width, top + 40), steps=5)
 
 

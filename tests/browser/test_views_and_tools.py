@@ -62,6 +62,7 @@ def desk(sit: Callable[..., Desk]) -> Desk:
     desk = sit("S tools", config(), 1.0)
     desk.viewer.wait_for_nodes(node_of(desk.viz, "drivewhl_l_link"))
     is_seen(desk.viewer)
+    desk.settle()
     return desk
 
 
@@ -99,15 +100,15 @@ def view_of(session: Session) -> ClientView:
     return browser.view
 
 
-def chosen(session: Session, viewer: ViewerPage, label: str) -> None:
+def chosen(viz: Visualizer, viewer: ViewerPage, label: str) -> None:
     """Wait until a tool is current, on the server and in the page: a click that comes
     before the page has heard what to do with clicks is lost."""
-    tools = tools_of(session)
+    tools = tools_of(session_of(viz))
     until(viewer, lambda: tools.current.label == label)
     viewer.user.until(
         lambda: viewer.user.find("button", label, ("toolbar", "Tools")).is_on
     )
-    viewer.wait_until_drawn()
+    viewer.settle(viz)
 
 
 def value(session: Session, path: str) -> Any:
@@ -146,6 +147,7 @@ def test_moving_a_view_from_straight_above_keeps_its_yaw(desk: Desk) -> None:
     view_of(session).set("Pitch", 2.0)
     assert value(session, "Pitch") == STEEPEST
     viewer.wait_for("__viserMutable.cameraControl.polarAngle < 0.002")
+    desk.settle()
     yaws: list[float] = []
     (browser,) = session.clients.all.values()
     end = connect([browser.view.changed], lambda: yaws.append(value(session, "Yaw")))
@@ -161,6 +163,7 @@ def test_another_type_of_view_has_its_own_mouse(desk: Desk) -> None:
     view_of(session).set_kind("rviz_default_plugins/TopDownOrtho")
     viewer.wait_for("window.sambotVizMouse.kind === 'TopDownOrtho'")
     viewer.wait_for("__viserMutable.camera.fov < 1")
+    desk.settle()
     scale = value(session, "Scale")
     viewer.page.mouse.drag(SKY, (SKY[0] + 20, SKY[1]))
     until(viewer, lambda: abs(value(session, "Angle") - 0.1) < 1e-3)
@@ -173,7 +176,7 @@ def test_keys_choose_tools_and_clicks_select_and_measure(desk: Desk) -> None:
     session, viewer = desk.session, desk.viewer
     keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, tools_of(session)
     keyboard.press("s")
-    chosen(session, viewer, "Select")
+    chosen(desk.viz, viewer, "Select")
     mouse.click(*place(viewer, (0.0, 0.0, 0.09)))
     until(viewer, lambda: [t.name for t in tools.selection] == ["base_link"])
     yaw = value(session, "Yaw")
@@ -189,10 +192,10 @@ def test_keys_choose_tools_and_clicks_select_and_measure(desk: Desk) -> None:
     keyboard.press("Escape")
     viewer.wait_for(f"!({RECTANGLE})")
     mouse.release()
-    chosen(session, viewer, "Move Camera")
+    chosen(desk.viz, viewer, "Move Camera")
     assert tools.selection == selected
     keyboard.press("n")
-    chosen(session, viewer, "Measure")
+    chosen(desk.viz, viewer, "Measure")
     mouse.click(*place(viewer, (0.6, 0.0, 0.0)))
     until(viewer, lambda: "second point" in tools.status)
     mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
@@ -210,6 +213,7 @@ def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
     session, viewer = session_of(own), open_viewer(own.url, resolution=1)
     viewer.wait_for_nodes(node_of(own, "drivewhl_l_link"))
     is_seen(viewer)
+    viewer.settle(own)
     tools, mouse = tools_of(session), viewer.page.mouse
     session.document.set_option("Background Color", (255, 0, 255))
     for display in session.scene.displays:
@@ -219,7 +223,8 @@ def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
                 display, "Alpha", 1.0 if is_robot else 0.0
             )
     viewer.page.keyboard.press("s")
-    chosen(session, viewer, "Select")
+    chosen(own, viewer, "Select")
+    viewer.settle(own)
     until(viewer, lambda: bool((viewer.pixels()[5, 5, :3] == (255, 0, 255)).all()))
     # Edges are smoothed: what is only tinged is not taken for a pixel of the robot.
     robot = viewer.pixels()[..., 1] > 0
@@ -262,6 +267,7 @@ def test_from_above_every_zoom_shows_the_scene_on_its_background(
     view_of(session).set("Scale", 10.0)
     viewer.wait_for("__viserMutable.camera.fov < 1")
     viewer.wait_for("window.sambotVizMouse?.kind === 'TopDownOrtho'")
+    viewer.settle(own)
     mouse, middle = viewer.page.mouse, (450.0, 150.0)
 
     def shows_the_scene() -> bool:
@@ -281,20 +287,20 @@ def test_from_above_every_zoom_shows_the_scene_on_its_background(
 
 
 def test_a_button_of_the_toolbar_leaves_select(desk: Desk) -> None:
-    session, viewer = desk.session, desk.viewer
     for label in ("Select", "Measure", "Select", "Move Camera"):
-        viewer.user.click("button", label)
-        chosen(session, viewer, label)
+        desk.user.click("button", label)
+        chosen(desk.viz, desk.viewer, label)
 
 
 def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     session = session_of(own)
     viewer = open_viewer(own.url, width=1024, height=768, touch=True, resolution=1)
     viewer.wait_for_nodes(node_of(own, "drivewhl_l_link"))
+    viewer.settle(own)
     touch, tools = viewer.page.touch, tools_of(session)
     tools_bar = ("toolbar", "Tools")
     viewer.user.click("button", "Select", tools_bar)
-    chosen(session, viewer, "Select")
+    chosen(own, viewer, "Select")
     touch.tap(*place(viewer, (0.0, 0.0, 0.09)))
     until(viewer, lambda: [item.name for item in tools.selection] == ["base_link"])
     corners = [place(viewer, (x, y, 0.0)) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
@@ -307,9 +313,9 @@ def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     assert view_of(session).camera == before
     # The page has drawn what the rectangle has selected before the next tap.
     viewer.user.reads(f"{len(tools.selection)} items selected")
-    viewer.wait_for_frames()
+    viewer.settle(own)
     viewer.user.click("button", "Measure", tools_bar)
-    chosen(session, viewer, "Measure")
+    chosen(own, viewer, "Measure")
     touch.tap(*place(viewer, (0.0, 0.0, 0.09)))
     until(viewer, lambda: tools.status == "Click on the second point.")
     touch.tap(*place(viewer, (0.1, 0.0, 0.09)))

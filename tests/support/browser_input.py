@@ -81,12 +81,17 @@ def _modifier_bits(names: tuple[str, ...]) -> int:
 
 
 class Mouse:
-    """The page's mouse; positions in CSS pixels from the page's upper left corner."""
+    """The page's mouse; positions in CSS pixels from the page's upper left corner.
+
+    Attributes:
+        turns: how often its wheel was turned.
+    """
 
     def __init__(self, page: Caller) -> None:
         self._page = page
         self._at: Point = (0.0, 0.0)
         self._pressed: Button | None = None
+        self.turns = 0
 
     @property
     def at(self) -> Point:
@@ -143,6 +148,7 @@ class Mouse:
     def wheel(self, x: float, y: float, dy: float, dx: float = 0.0) -> None:
         """Turn the wheel over (x, y) by `dy` [CSS pixels]; positive scrolls down."""
         self._at = (x, y)
+        self.turns += 1
         self._event("mouseWheel", None, (), extra={"deltaX": dx, "deltaY": dy})
 
     def _event(
@@ -177,18 +183,25 @@ class Keyboard:
     def __init__(self, page: Caller) -> None:
         self._page = page
 
-    def press(self, key: str, *modifiers: str) -> None:
+    def press(self, key: str, *modifiers: str, at: float = 0.0) -> None:
         """Press and release a key, named as in JavaScript ("ArrowLeft", "a", "Home").
+
+        Args:
+            key: the key.
+            modifiers: those that are held.
+            at: when the browser is to believe that it was (`time.time`) [s].
 
         Raises:
             ValueError: no such key or modifier.
         """
-        self.hold(key, *modifiers)
+        self.hold(key, *modifiers, at=at)
         self.release(key, *modifiers)
 
-    def hold(self, key: str, *modifiers: str) -> None:
+    def hold(self, key: str, *modifiers: str, at: float = 0.0) -> None:
         """Press a key and keep it down; again while it is down, it repeats."""
         fields = self._fields(key, modifiers)
+        if at:
+            fields["timestamp"] = at
         if "Control" in modifiers and key.lower() in _COMMANDS:
             fields["commands"] = [_COMMANDS[key.lower()]]
         self._page.call("Input.dispatchKeyEvent", {"type": "keyDown", **fields})
@@ -203,6 +216,15 @@ class Keyboard:
         """Press the key of each character, one after the other."""
         for character in text:
             self.press(character)
+
+    def type_quickly(self, text: str) -> None:
+        """The same as a quick hand, however slow this machine is.
+
+        A list takes letters for the beginning of a name only in quick succession.
+        """
+        start = time.time()
+        for number, character in enumerate(text):
+            self.press(character, at=start + 0.01 * number)
 
     def insert(self, text: str) -> None:
         """Put `text` in as a whole, as an input method does."""

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import robots
-from protocol_client import wait_for_workers
 from recorded_page import RecordedPage, open_page
 from user import User
 from viewer_page import COARSE, ViewerPage, viewer_url
@@ -17,10 +16,11 @@ from sambot_viz.export.chromium import Chromium
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 
-MODELS: dict[str, Callable[[], str]] = {
-    "T": robots.humanoid,
-    "C": robots.chain,
-    "L": robots.long_names,
+MODELS: dict[str, Callable[[Path], str]] = {
+    "T": lambda _: robots.humanoid(),
+    "C": lambda _: robots.chain(),
+    "L": lambda _: robots.long_names(),
+    "A": robots.arm,
 }
 """Letter of the tasks → URDF; "S" is the robot that comes with the program."""
 
@@ -33,7 +33,7 @@ class Desk:
     """One robot, one server, one page.
 
     Args:
-        letter: the robot, "S", "T", "C" or "L"; or the text of a model.
+        letter: the robot, "S", "T", "C", "L" or "A"; or the text of a model.
         chromium: the browser.
         folder: an empty folder for the model and what is saved.
         config: the text of its config; None for the one of the program.
@@ -68,18 +68,23 @@ class Desk:
             self.model = folder / "sam_bot.urdf.xacro"
         else:
             self.model = folder / f"{letter.lower()}.urdf"
-            self.model.write_text(MODELS[letter](), "utf-8")
+            self.model.write_text(MODELS[letter](folder), "utf-8")
         if self._config is not None and config is not None:
             self._config.write_text(config, "utf-8")
         self._chromium = chromium
         self._start()
 
     def open(
-        self, width: int = 1280, height: int = 720, *, touch: bool = False
+        self,
+        width: int = 1280,
+        height: int = 720,
+        *,
+        touch: bool = False,
+        address: str = "",
     ) -> ViewerPage:
-        """Open one more page of it; `close` closes it too."""
+        """Open one more page of it, perhaps by a permalink; `close` closes it too."""
         page = open_page(self._chromium, width, height, touch=touch)
-        page.goto(viewer_url(self.viz.url, self._resolution))
+        page.goto(viewer_url(address or self.viz.url, self._resolution))
         page.take_downloads(self.downloads)
         page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
         return ViewerPage(page, viewer_url(self.viz.url), touch)
@@ -120,6 +125,7 @@ class Desk:
         self.viz = Visualizer(self.model, self._config, port=0, watch=True)
         self.viewer = self.open()
         self._wait_for_robot()
+        self.settle()
         view = self.browser.view
         self._kind, self._view = view.view.kind, dict(view.values)
         self._tool = self.browser.tools.current.label
@@ -139,7 +145,7 @@ class Desk:
         tools, history = browser.tools, self.session.history
         self.viewer.set_resolution(self._resolution)
         user.keys("Escape", "Escape")
-        wait_for_workers()
+        self.settle()
         if tools.selection:
             self.choose_tool("Select")
             self.page.mouse.click(*_NOTHING)
@@ -163,7 +169,8 @@ class Desk:
         elif browser.view.values != self._view:
             for button in ("Zero", "Focus"):
                 user.click("button", button, _TOOLS)
-            self._wait_for_robot()
+        # The next test finds the picture at rest.
+        self.settle()
 
     def _look_as_at_first(self) -> None:
         """Give the view of the config back, which no button does."""
@@ -181,10 +188,15 @@ class Desk:
             while undo.state(client).value.undo is not None:
                 undo.undo(client)
 
+    def settle(self) -> None:
+        """Wait until all that was done is in the picture of the page."""
+        self.viewer.settle(self.viz)
+
     def choose_tool(self, tool: str) -> None:
-        """Press the button of a tool, and wait until it is the current one."""
+        """Press the button of a tool, and wait until clicks are for it."""
         self.user.click("button", tool, _TOOLS)
         self.has_tool(tool)
+        self.settle()
 
     def has_tool(self, tool: str) -> None:
         """Wait until a tool is the current one."""

@@ -50,10 +50,3 @@ def all_have_rows(viz: Visualizer) -> bool:
 def files_of(viz: Visualizer) -> Files:
     """The disk, as the shared session's browsers use it."""
     return viz._configs  # pyright: ignore[reportPrivateUsage]
-
-
-def has_answered(session: Session) -> bool:
-    """Whether each page has reported the camera that was sent to it last."""
-    clients = session.clients.all.values()
-    cameras = [client.view._camera for client in clients]  # pyright: ignore[reportPrivateUsage]
-    return all(camera._answered_by is None for camera in cameras)  # pyright: ignore[reportPrivateUsage]

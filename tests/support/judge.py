@@ -19,6 +19,8 @@ def drawn_around(desk: Desk, frame: str, size: int = 60) -> Pixels:
 def look_near(desk: Desk) -> None:
     """Bring the robot to the whole of the view, and wait until it stands still."""
     desk.user.click("button", "Focus", ("toolbar", "Tools"))
+    desk.settle()
+    # Names take a moment to be laid out.
     before = desk.viewer.pixels()
     for _ in range(100):
         after = desk.viewer.pixels()
@@ -58,3 +60,18 @@ def changed(before: Pixels, after: Pixels) -> int:
         return before.size
     difference = np.abs(before.astype(int) - after.astype(int)).max(axis=2)
     return int(np.count_nonzero(difference > 10))
+
+
+def nothing_is_cut_off(desk: Desk) -> bool:
+    """Whether all controls are whole on the screen, or can be scrolled to."""
+    found: list[str] = []
+    for thing in desk.user.see().walk():
+        if thing.role not in ("button", "tab", "slider", "checkbox", "menuitem"):
+            continue
+        try:
+            if not desk.user.can_see(thing):
+                desk.user.go_to(thing)
+        except AssertionError as error:
+            found.append(str(error))
+    assert found == []
+    return True

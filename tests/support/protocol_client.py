@@ -471,13 +471,17 @@ def _fill_arrays(value: Any, arrays: list[bytes], used: list[bytes]) -> Any:
     return value
 
 
-def wait_for_workers(timeout: float = 10.0) -> None:
+def wait_for_workers(timeout: float = 10.0, put_off: float = 0.0) -> None:
     """Wait until the sessions' threads have run what was posted so far.
 
     That goes two rounds deep: what an action of the first round posts is waited for,
     and also the changes of rows that it has put off.
+
+    Args:
+        timeout: how long each round may take [s].
+        put_off: wait also for what was put off for so long before [s].
     """
-    for delay in (0.0, PERIOD):
+    for delay in (put_off, PERIOD):
         for thread in threading.enumerate():
             if isinstance(thread, Worker):
                 done = threading.Event()

@@ -13,6 +13,24 @@ from sambot_viz.export.browser_page import BrowserPage, explain_exception
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import DevTools, Fields
 
+# Keeps the page's own websocket, once it has sent something, for `page_fence`.
+_RECORD_CHANNEL = """(() => {
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (data) {
+    if (this.protocol === "sambot-viz-1") {
+      if (window.fenceSocket !== this) {
+        window.fenceSocket = this;
+        this.fence = { asked: 0, answered: 0 };
+        this.addEventListener("message", ({ data }) => {
+          if (data === '"pong"') this.fence.answered += 1;
+        });
+      }
+      if (data === '"ping"') this.fence.asked += 1;
+    }
+    return send.call(this, data);
+  };
+})()"""
+
 
 @dataclass(frozen=True, slots=True)
 class ConsoleMessage:
@@ -63,6 +81,7 @@ class RecordedPage(BrowserPage):
         super().begin()
         for domain in ("Runtime", "Network", "Log"):
             self.call(f"{domain}.enable")
+        self.call("Page.addScriptToEvaluateOnNewDocument", {"source": _RECORD_CHANNEL})
         self.call(
             "Target.setAutoAttach",
             {"autoAttach": True, "waitForDebuggerOnStart": True, "flatten": True},

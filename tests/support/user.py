@@ -78,6 +78,10 @@ _PICK = """function () {
     this.dispatchEvent(new Event(kind, {bubbles: true}));
   }
 }"""
+_HAS_OPTION = """function () {
+  const fits = [...this.options].map(o => o.label.toLowerCase().startsWith(OPTION));
+  return [fits.includes(true), fits[this.selectedIndex] === true];
+}"""
 _MARKED = """function () {
   return this.type === "number"
     ? false : this.selectionEnd - this.selectionStart === this.value.length;
@@ -197,10 +201,14 @@ class User:
         """Whether some of a text does not fit and is left out, as by an ellipsis."""
         return bool(self._ask(thing, _CUT_OFF))
 
-    def tip_under_the_mouse(self) -> str:
-        """The text that a browser shows after a moment where the mouse is."""
+    def has_tip(self, text: str) -> None:
+        """Wait until the text that a browser shows where the mouse is begins so."""
         x, y = self.page.mouse.at
-        return str(self.page.evaluate(_TIP.replace("X", str(x)).replace("Y", str(y))))
+        tip = _TIP.replace("X", str(x)).replace("Y", str(y))
+        self.until(
+            lambda: str(self.page.evaluate(tip)).startswith(text),
+            why=f"the mouse is not over what says {text!r}",
+        )
 
     @property
     def clipboard(self) -> str:
@@ -319,8 +327,12 @@ class User:
     def choose(self, thing: Thing, option: str) -> None:
         """Choose from a list by the keyboard: go to it and type the option."""
         self.go_to(thing)
+        has = _HAS_OPTION.replace("OPTION", json.dumps(option.lower()))
+        # The list may be the one that was there before.
+        self.until(lambda: self._ask(thing, has)[0], why=f"there is no {option}")
         self.page.call("DOM.focus", {"backendNodeId": thing.node})
-        self.type(option)
+        self.page.keyboard.type_quickly(option)
+        self.until(lambda: self._ask(thing, has)[1], why=f"{option} is not chosen")
 
     def menu(self, *names: Name) -> None:
         """Open a menu of the window and click an entry of it."""

@@ -24,10 +24,13 @@ from urllib.parse import urlsplit
 
 import numpy as np
 import numpy.typing as npt
+from page_fence import settle
 from patience import patience
 from PIL import Image
 from recorded_page import RecordedPage
 from user import User
+
+from sambot_viz import Visualizer
 
 COARSE = 0.1
 """Pixels per CSS pixel where nobody looks: software takes a small part of the time."""
@@ -158,8 +161,16 @@ class ViewerPage:
         )
         self.wait_until_drawn(timeout)
 
+    def settle(self, viz: Visualizer) -> None:
+        """Wait until all that was done, here or in Python, is in the picture."""
+        settle(self.page, viz)
+        self.wait_until_drawn()
+
     def wait_until_drawn(self, timeout: float = 10.0) -> None:
-        """Wait until every pose that has reached the page is in the picture."""
+        """Wait until every pose that has reached the page is in the picture.
+
+        What is still on its way is not waited for: `settle` does that.
+        """
         self.wait_for(
             # Hidden labels have a pose but, until they are shown, no object to pose.
             "__viserMutable.messageQueue.length === 0 && "

@@ -12,6 +12,7 @@ import pytest
 
 if TYPE_CHECKING:
     from desk import Desk
+    from viewer_page import ViewerPage
 
     from sambot_viz.export.chromium import Chromium
 
@@ -25,6 +26,22 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     random.Random(int(os.environ["SAMBOT_VIZ_TASK_SEED"])).shuffle(tasks)
     for place, task in zip(places, tasks, strict=True):
         items[place] = task
+
+
+def pages_of(desk: Desk) -> Iterator[Callable[..., ViewerPage]]:
+    """Open more pages of a desk: ``open_more(390, 844, touch=True)``."""
+    opened: list[ViewerPage] = []
+
+    def more(*size: int, touch: bool = False, address: str = "") -> ViewerPage:
+        opened.append(desk.open(*size, touch=touch, address=address))
+        return opened[-1]
+
+    yield more
+    desk.undo_of_others()
+    for viewer in opened:
+        viewer.page.close()
+    for viewer in opened:
+        assert viewer.errors() == []
 
 
 @pytest.fixture
@@ -71,6 +88,18 @@ def t(sit: Callable[..., Desk]) -> Desk:
 def c(sit: Callable[..., Desk]) -> Desk:
     """A chain of 300 joints."""
     return sit("C")
+
+
+@pytest.fixture
+def a(sit: Callable[..., Desk]) -> Desk:
+    """An arm of five links with meshes."""
+    return sit("A")
+
+
+@pytest.fixture
+def open_more(s: Desk) -> Iterator[Callable[..., ViewerPage]]:
+    """Open one more page of the shared desk, closed with it."""
+    yield from pages_of(s)
 
 
 @pytest.fixture

@@ -64,7 +64,7 @@ def test_task_32_save_the_config_under_a_new_name(desk: Desk) -> None:
     desk.user.keys("Enter")
     desk.user.gone(*DIALOG)
     desk.user.reads(f"Saved my look.rviz in {desk.folder}")
-    assert size_in(file) == 0.5
+    desk.user.until(lambda: size_in(file) == 0.5)
     # No letter of the name was the key of a tool.
     assert desk.user.find("button", "Interact", ("toolbar", "Tools")).is_on
     desk.user.until(lambda: desk.user.see().name.startswith("my look.rviz -"))
@@ -74,14 +74,15 @@ def test_task_32_save_the_config_under_a_new_name(desk: Desk) -> None:
     save_as(desk, "of another")
     desk.user.reads("already exists. Replace it?")
     assert size_in(other) == 0.5
-    assert desk.user.find("button", "Cancel", DIALOG).state("focused")
+    desk.user.until(lambda: desk.user.find("button", "Cancel", DIALOG).state("focused"))
     desk.user.click("button", "Replace", DIALOG)
     desk.user.gone(*DIALOG)
-    assert size_in(other) == 0.75
+    desk.user.until(lambda: size_in(other) == 0.75)
     save_as(desk, "in/another/folder")
     desk.user.until(lambda: desk.user.find(*DIALOG).all("alert"))
     desk.user.reads("Enter a name without a folder")
-    assert desk.user.find("textbox", "Name", DIALOG).value == "in/another/folder"
+    typed = "in/another/folder"
+    desk.user.until(lambda: desk.user.find("textbox", "Name", DIALOG).value == typed)
     desk.user.keys("Escape")
     desk.user.gone(*DIALOG)
 
@@ -107,7 +108,7 @@ def test_task_33_open_that_config_again(desk: Desk) -> None:
     user.gone("dialog")
     user.until(lambda: user.row("Displays", "Grid").state("expanded"))
     user.until(lambda: shown_size(desk) == "0.3")
-    assert not user.row("Displays", "RobotModel").state("expanded")
+    user.until(lambda: not user.row("Displays", "RobotModel").state("expanded"))
     user.until(lambda: user.row("Views", "Distance").one("textbox").value == "2.5")
 
 
@@ -145,7 +146,7 @@ def test_task_36_break_the_model_and_fix_it(desk: Desk) -> None:
     user.until(lambda: user.there("button", re.compile("Problems: 1 error")), AT_ONCE)
     user.reads(f"{desk.model.name}:")
     user.reads("last valid")
-    assert drawn(desk) > 0.01
+    user.until(lambda: drawn(desk) > 0.01, AT_ONCE)
     extra = good.replace(
         "</robot>",
         '<link name="flag"/><joint name="pole" type="fixed"><parent link="base_link"/>'
@@ -154,8 +155,8 @@ def test_task_36_break_the_model_and_fix_it(desk: Desk) -> None:
     desk.model.write_text(extra, "utf-8")
     user.until(lambda: set(desk.viz.frames.frames) == {*frames, "flag"}, AT_ONCE)
     user.find("button", problems)
-    assert desk.viz.joint_positions[joint] == 0.5
-    assert user.row("Joints", joint).one("textbox").value == "0.5"
+    user.until(lambda: desk.viz.joint_positions[joint] == 0.5)
+    user.until(lambda: user.row("Joints", joint).one("textbox").value == "0.5")
     desk.model.write_text(good, "utf-8")
     user.until(lambda: set(desk.viz.frames.frames) == frames, AT_ONCE)
 
@@ -212,4 +213,4 @@ def test_task_38_close_the_page_with_unsaved_changes(
     desk.viewer = desk.open()
     desk.user.unfold("Displays", "Grid")
     desk.user.until(lambda: shown_size(desk) == "0.4")
-    assert "*" in name_of_config(desk)
+    desk.user.until(lambda: "*" in name_of_config(desk))

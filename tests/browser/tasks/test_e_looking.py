@@ -7,14 +7,12 @@ import re
 import pytest
 from ax_tree import Thing
 from desk import Desk
-from judge import drawn, look_near
+from judge import drawn, look_near, on_page
 from PIL import Image
 
 pytestmark = pytest.mark.browser
 
 AT_ONCE = 12.0
-GROUND = (350.0, 600.0)
-"""A place of the page with nothing but the ground, between lines of the grid."""
 SKY = (420.0, 120.0)
 """A place of the page with nothing but background."""
 
@@ -28,7 +26,9 @@ def number(desk: Desk, name: str) -> float:
 
 
 def set_number(desk: Desk, name: str, value: str) -> None:
+    """Type a number of the view; the camera is there before a mouse may move it."""
     desk.user.enter(row(desk, "Current View", name).one("textbox"), value)
+    desk.settle()
 
 
 def is_near(desk: Desk, name: str, value: float, within: float = 0.01) -> bool:
@@ -41,8 +41,10 @@ def test_task_39_look_exactly_from_above(s: Desk) -> None:
     views = ("region", "Views")
     s.user.choose(s.user.find("combobox", "Type", views), "TopDownOrtho")
     s.user.row("Views", "Current View", "Scale")
+    s.settle()
     look_near(s)
     s.user.until(lambda: drawn(s) > 0.05, AT_ONCE)
+    s.settle()
     middle = s.viewer.pixels()[::, ::, :3]
     height, width, _ = middle.shape
     assert tuple(middle[5, 5]) == (48, 48, 48)
@@ -68,14 +70,13 @@ def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
     set_number(s, "Yaw", "1")
     set_number(s, "Pitch", "0.5")
     s.user.until(lambda: is_near(s, "Pitch", 0.5))
-    s.viewer.wait_until_drawn()
     mouse, (x, y) = s.page.mouse, SKY
     mouse.drag(SKY, (x - 40, y))
     s.user.until(lambda: is_near(s, "Yaw", 1.2))
     mouse.drag(SKY, (x, y + 40))
     s.user.until(lambda: is_near(s, "Pitch", 0.7))
     mouse.wheel(*SKY, dy=-100.0)
-    s.user.until(lambda: number(s, "Distance") < 2.8)
+    s.user.until(lambda: is_near(s, "Distance", 2.64))
     mouse.drag(SKY, (x, y + 40), button="right")
     s.user.until(lambda: abs(number(s, "Distance") - 2.64) > 0.1)
     point = row(s, "Focal Point").one("textbox").value
@@ -84,11 +85,13 @@ def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
         mouse.drag(SKY, (x + 50, y), *shift, **moves)
         s.user.until(lambda p=point: row(s, "Focal Point").one("textbox").value != p)
         point = row(s, "Focal Point").one("textbox").value
+    s.settle()
     assert is_near(s, "Yaw", 1.2) and is_near(s, "Pitch", 0.7)
     set_number(s, "Pitch", "1.5697")
     s.user.until(lambda: is_near(s, "Pitch", 1.5697, 0.001))
     mouse.drag(SKY, (x + 60, y + 30), button="middle")
     s.user.until(lambda: row(s, "Focal Point").one("textbox").value != point)
+    s.settle()
     assert is_near(s, "Yaw", 1.2)
 
 
@@ -103,7 +106,9 @@ def test_task_41_bring_a_lost_robot_back(s: Desk) -> None:
     # Neither does the ground between the lines of the grid take the view away.
     set_number(s, "Distance", "2.5")
     s.user.until(lambda: drawn(s) < 0.5 * near, AT_ONCE)
-    s.page.mouse.click(*GROUND)
+    # The middle of a cell of the grid, on this side of the robot.
+    cells = [on_page(s, x, y, 0.0) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+    s.page.mouse.click(*max(cells, key=lambda at: at[1]))
     s.user.keys("f")
     s.user.until(lambda: drawn(s) == pytest.approx(near, rel=0.2), AT_ONCE)
 
@@ -112,8 +117,12 @@ def test_task_42_keep_a_view_and_return_to_it(s: Desk) -> None:
     set_number(s, "Distance", "1.7")
     set_number(s, "Yaw", "2.2")
     s.user.until(lambda: is_near(s, "Yaw", 2.2))
+    before = s.user.rows("Views")
     s.user.click("button", "Save", ("region", "Views"))
-    saved = s.user.until(lambda: [n for n in s.user.rows("Views") if "Orbit" in n])[-1]
+    saved = s.user.until(lambda: [n for n in s.user.rows("Views") if n not in before])[
+        0
+    ]
+    assert "Orbit" in saved
     set_number(s, "Distance", "5")
     set_number(s, "Yaw", "0.3")
     s.user.until(lambda: is_near(s, "Yaw", 0.3))
@@ -143,7 +152,7 @@ def test_task_44_see_more_of_the_scene(s: Desk) -> None:
     s.user.gone("treegrid")
     s.user.until(lambda: s.viewer.pixels().shape[:2] == (720, 1280), AT_ONCE)
     back = s.user.find("button", re.compile("Show panels"))
-    assert s.user.can_see(back)
+    s.user.until(lambda: s.user.can_see(back))
     s.user.click_on(back)
     s.user.find("treegrid", "Joints")
     s.user.until(lambda: s.viewer.pixels().shape == before, AT_ONCE)
