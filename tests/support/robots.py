@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Iterator
+from itertools import pairwise, product
+from pathlib import Path
 
 HUMANOID_JOINTS = 32
 _SIDE = (
@@ -21,6 +24,8 @@ _SIDE = (
     "ankle_pitch",
     "ankle_roll",
 )
+ARM_LINKS = ("foot", "upper", "lower", "hand", "tip")
+"""From below, each 0.3 m above the one before, while all joints are at zero."""
 LONG_NAME = "upper_left_arm_to_lower_left_arm_elbow_flexion_joint_two"
 """56 letters."""
 SLIDE = "gantry_slide"
@@ -46,6 +51,35 @@ def long_names() -> str:
     slide = _joint(SLIDE, "base", "carriage", "0 0 0.1", "1 0 0", "prismatic", 0.0, 0.5)
     turn = _joint(LONG_NAME, "carriage", "arm", "0 0 0.1", "0 1 0")
     return _robot("gantry", "base", [slide, turn])
+
+
+def arm(folder: Path) -> str:
+    """Four turning joints one above the other; each link is a mesh, a cube."""
+    mesh = folder / "cube.stl"
+    mesh.write_bytes(_cube(0.1))
+    pairs = pairwise(ARM_LINKS)
+    parts = [_joint(f"{b}_joint", a, b, "0 0 0.3", "0 1 0") for a, b in pairs]
+    shape = f'<mesh filename="file://{mesh}"/>'
+    return _robot("arm", ARM_LINKS[0], parts, shape=shape)
+
+
+def _cube(edge: float) -> bytes:
+    """A cube about the origin, as a binary STL file."""
+    triangles: list[bytes] = []
+    for axis, sign in product(range(3), (-1, 1)):
+        for turn in (0, 2):
+            corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            flat = [corners[0], corners[1 + turn // 2], corners[2 + turn // 2]]
+            points = [[0.0] * 3 for _ in flat]
+            for point, (u, v) in zip(points, flat[::sign], strict=True):
+                point[axis] = sign * edge / 2
+                point[(axis + 1) % 3], point[(axis + 2) % 3] = (
+                    u * edge / 2,
+                    v * edge / 2,
+                )
+            numbers = [0.0] * 3 + [value for point in points for value in point]
+            triangles.append(struct.pack("<12fH", *numbers, 0))
+    return bytes(80) + struct.pack("<I", len(triangles)) + b"".join(triangles)
 
 
 def _humanoid() -> Iterator[tuple[str, str]]:
@@ -88,10 +122,15 @@ def _joint(
 
 
 def _robot(
-    name: str, root: str, parts: list[tuple[str, str]], size: str = "0.06 0.06 0.08"
+    name: str,
+    root: str,
+    parts: list[tuple[str, str]],
+    size: str = "0.06 0.06 0.08",
+    shape: str = "",
 ) -> str:
     links = [root, *(child for child, _ in parts)]
-    visual = f'<visual><geometry><box size="{size}"/></geometry></visual>'
+    shape = shape or f'<box size="{size}"/>'
+    visual = f"<visual><geometry>{shape}</geometry></visual>"
     return (
         f'<robot name="{name}">'
         + "".join(f'<link name="{link}">{visual}</link>' for link in links)

@@ -1,0 +1,172 @@
+"""Tasks with an arm of meshes, and with the links of robots."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import pytest
+from ax_tree import Thing
+from desk import Desk
+from judge import changed, drawn, look_near, on_page
+from PIL import Image
+from robots import ARM_LINKS
+from viewer_page import ViewerPage
+
+pytestmark = pytest.mark.browser
+
+AT_ONCE = 12.0
+FIRST, SECOND = "upper_joint", "lower_joint"
+
+
+def enter(viewer: ViewerPage, joint: str, text: str) -> None:
+    viewer.user.enter(viewer.user.row("Joints", joint).one("textbox"), text)
+
+
+def number(viewer: ViewerPage, joint: str) -> float:
+    return float(viewer.user.row("Joints", joint).one("textbox").value)
+
+
+def save_pose(desk: Desk, name: str) -> None:
+    desk.user.click("button", "Poses")
+    desk.user.enter(desk.user.find("textbox", "Name of the pose"), name)
+    desk.user.find("button", f"Remove pose {name}")
+    desk.user.keys("Escape")
+
+
+def take_pose(desk: Desk, name: str) -> None:
+    desk.user.click("button", "Poses")
+    desk.user.click("button", name)
+
+
+def test_task_61_two_poses_of_an_arm_while_another_watches(
+    make_desk: Callable[[str], Desk],
+) -> None:
+    a = make_desk("A")
+    other = a.open()
+    save_pose(a, "home")
+    for joint, value in ((FIRST, 0.5), (SECOND, -0.75)):
+        enter(a.viewer, joint, str(value))
+        other.user.until(lambda j=joint, v=value: number(other, j) == v)
+    save_pose(a, "reach")
+    other.settle(a.viz)
+    reaching = other.pixels()
+    take_pose(a, "home")
+    for joint in (FIRST, SECOND):
+        a.user.until(lambda j=joint: a.viz.joint_positions[j] == 0.0)
+        other.user.until(lambda j=joint: number(other, j) == 0.0)
+    other.user.until(lambda: changed(reaching, other.pixels()) > 50, AT_ONCE)
+    take_pose(a, "reach")
+    for joint, value in ((FIRST, 0.5), (SECOND, -0.75)):
+        a.user.until(lambda j=joint, v=value: a.viz.joint_positions[j] == v)
+        other.user.until(lambda j=joint, v=value: number(other, j) == v)
+    other.user.until(lambda: changed(reaching, other.pixels()) < 20, AT_ONCE)
+    # One undo for the whole of a pose.
+    a.user.click("button", "Undo")
+    a.user.until(lambda: set(a.viz.joint_positions.values()) == {0.0})
+
+
+def look_along_y(desk: Desk) -> None:
+    """Look at the middle of the arm from a side."""
+    for name, value in (
+        ("Focal Point", "0; 0; 0.6"),
+        ("Distance", "3"),
+        ("Yaw", "1.5708"),
+        ("Pitch", "0"),
+    ):
+        field = desk.user.row("Views", "Current View", name).one("textbox")
+        desk.user.enter(field, value)
+    desk.settle()
+
+
+def test_task_63_measure_between_two_meshes(a: Desk) -> None:
+    look_along_y(a)
+    a.choose_tool("Measure")
+    # Both on the sides of cubes that face the view, above each other.
+    a.page.mouse.click(*on_page(a, 0.0, 0.05, 0.3))
+    a.user.reads("second point")
+    a.page.mouse.click(*on_page(a, 0.0, 0.05, 0.9))
+    length = a.user.until(lambda: re.search(r"Length: ([\d.]+) ?m", a.user.see().text))
+    assert float(length[1]) == pytest.approx(0.6, abs=0.015)
+
+
+def test_task_64_hide_all_links_but_one(a: Desk) -> None:
+    def is_on(link: str) -> bool:
+        return row(link).one("checkbox").is_on
+
+    def row(link: str) -> Thing:
+        return a.user.row("Displays", "RobotModel", "Links", link)
+
+    for other in ("TF", "Grid"):
+        a.user.click_on(a.user.row("Displays", other).one("checkbox"))
+    look_near(a)
+    before = drawn(a)
+    a.user.unfold("Displays", "RobotModel")
+    a.user.unfold("Displays", "RobotModel", "Links")
+    # Two clicks.
+    a.user.click_on(row("All Links Enabled").one("checkbox"))
+    a.user.until(lambda: not is_on("hand"))
+    a.user.click_on(row("hand").one("checkbox"))
+    a.user.until(lambda: [n for n in ARM_LINKS if is_on(n)] == ["hand"])
+    a.user.until(lambda: 0.05 * before < drawn(a) < 0.4 * before, AT_ONCE)
+    for _ in range(2):
+        a.user.click("button", "Undo")
+    a.user.until(lambda: all(map(is_on, ARM_LINKS)))
+    a.user.until(lambda: drawn(a) == pytest.approx(before, rel=0.02), AT_ONCE)
+
+
+def test_task_65_a_second_robot_from_a_file(a: Desk) -> None:
+    user = a.user
+    other = a.folder / "other.urdf"
+    other.write_text('<robot name="o"><link name="post"/></robot>', "utf-8")
+    frames = set(a.viz.frames.frames)
+    user.click("button", "Add", ("region", "Displays"))
+    user.click("option", re.compile("^RobotModel"))
+    user.enter(user.find("textbox", "Name", ("dialog", "Add Display")), "Second")
+    user.gone("dialog")
+    second = "Displays", "Second"
+    user.until(lambda: user.row(*second).state("expanded"))
+    source = user.row(*second, "Description Source").one("combobox")
+    user.choose(source, "File")
+    user.until(
+        lambda: user.row(*second, "Description Source").one("combobox").value == "File"
+    )
+    # A file that is not there is refused, with the folders that count.
+    field = user.row(*second, "Description File").one("textbox")
+    user.enter(field, "nofile.urdf")
+    user.reads(f"the folders that were opened: {a.folder.name}")
+    user.enter(user.row(*second, "TF Prefix").one("textbox"), "b")
+    user.enter(user.row(*second, "Description File").one("textbox"), str(other))
+    user.until(lambda: set(a.viz.frames.frames) == {*frames, "b/post"})
+    user.until(lambda: "Error" in user.row("Displays", "Second", "Status").text)
+    user.tab("Frames")
+    user.click("button", "Add static transform …")
+    form = "form", "Static transform"
+    user.enter(user.find("combobox", "Parent", form), ARM_LINKS[0], end="")
+    user.enter(user.find("textbox", "x", form), "50 cm", end="")
+    user.enter(user.find("textbox", "Child", form), "b/post", end="")
+    user.click("button", "Add", form)
+    user.until(lambda: place(a) == pytest.approx((0.5, 0.0, 0.0)))
+    user.until(lambda: "Ok" in user.row("Displays", "Second", "Status").text)
+    user.click("button", "Add static transform …")
+
+
+def place(desk: Desk) -> tuple[float, ...]:
+    found = desk.viz.frames.lookup(ARM_LINKS[0], "b/post")
+    return tuple(float(v) for v in found.translation)
+
+
+def test_task_74_a_picture_of_a_robot_with_meshes(a: Desk) -> None:
+    a.viewer.set_resolution(1.0)
+    a.user.menu("File", re.compile("^Save Image"))
+    for side, size in (("Width", "1280"), ("Height", "720")):
+        a.user.enter(a.user.find("spinbutton", side), size, end="")
+    a.user.click("button", "Save", ("dialog", "Save Image"))
+    file = a.user.until(lambda: [*a.downloads.glob("*.png")], 30.0)[0]
+    with Image.open(file) as image:
+        assert image.size == (1280, 720)
+        colors = image.convert("RGB").getcolors(1280 * 720)
+    assert colors is not None
+    # The grid, the arm with its lit sides, and the names, none of them blurred away.
+    assert len(colors) > 50
+    file.unlink()

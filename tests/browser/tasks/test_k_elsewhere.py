@@ -1,0 +1,118 @@
+"""Tasks with what leaves the page: links, exported pages, other screens, a class."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from desk import Desk
+from inside import node_of
+from judge import nothing_is_cut_off
+from recorded_page import open_page
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.export.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+LEFT = "drivewhl_l_joint"
+CAMERA = "__viserMutable.camera.position.toArray()"
+
+
+def number(viewer: ViewerPage) -> str:
+    return str(viewer.user.row("Joints", LEFT).one("textbox").value)
+
+
+def test_task_72_a_link_for_another_browser(
+    s: Desk, open_more: Callable[..., ViewerPage]
+) -> None:
+    user = s.user
+    user.enter(user.row("Joints", LEFT).one("textbox"), "0.75")
+    user.enter(user.row("Views", "Yaw").one("textbox"), "2")
+    user.click_on(user.row("Displays", "Grid").one("checkbox"))
+    s.settle()
+    user.menu("Edit", "Copy permalink")
+    user.until(lambda: user.clipboard.startswith(f"{s.viz.url}/#"))
+    camera = s.page.evaluate(CAMERA)
+    other = open_more(address=user.clipboard)
+    other.user.reads("Opened the link")
+    other.user.until(lambda: number(other) == "0.75")
+    other.user.until(lambda: other.user.row("Views", "Yaw").one("textbox").value == "2")
+    other.user.until(
+        lambda: np.allclose(other.page.evaluate(CAMERA), camera, atol=1e-3)
+    )
+    other.user.until(
+        lambda: not other.user.row("Displays", "Grid").one("checkbox").is_on
+    )
+
+
+def test_task_73_a_page_that_needs_no_program(s: Desk, chromium: Chromium) -> None:
+    user, wheel = s.user, node_of(s.viz, "drivewhl_l_link")
+    user.menu("File", "Export Page…")
+    user.click("radio", re.compile("^All joints"), ("dialog", "Export Page"))
+    user.click("button", "Export", ("dialog", "Export Page"))
+    file = s.downloads / "sam_bot.html"
+    user.until(lambda: file.exists() and b"</html>" in file.read_bytes(), 30.0)
+    page = open_page(chromium, 800, 640)
+    try:
+        page.goto(f"file://{file}?fixedDpr=0.1")
+        page.wait_for("document.querySelector('#sambot[data-ready]')", 30.0)
+        alone = ViewerPage(page, page.requests[0])
+        still = alone.pose(wheel)
+        alone.user.click("button", "Play")
+        alone.user.until(lambda: np.abs(alone.pose(wheel) - still).max() > 0.5, 30.0)
+        asked = [url for url in page.requests if not url.startswith("file:")]
+        assert asked == [] and alone.errors() == []
+    finally:
+        page.close()
+        file.unlink()
+
+
+@pytest.mark.parametrize(
+    ("size", "scale"), [((1920, 1080), 2.0), ((1910, 1075), 0.67), ((1024, 600), 1.0)]
+)
+def test_task_75_large_and_small_screens(
+    s: Desk, size: tuple[int, int], scale: float
+) -> None:
+    s.page.set_viewport(*size, scale)
+    try:
+        s.settle()
+        s.user.until(lambda: nothing_is_cut_off(s))
+        width, height = s.page.evaluate(
+            "(c => [c.clientWidth, c.clientHeight])(__viserMutable.canvas)"
+        )
+        assert width * height > 0.3 * size[0] * size[1]
+        assert s.page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    finally:
+        s.page.set_viewport(1280, 720)
+        s.user.find("button", "Interact", ("toolbar", "Tools"))
+
+
+def test_task_76_a_viewer_of_a_class_requests_control(
+    make_viz: Callable[..., Visualizer], open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viz = make_viz(presenter="")
+    assert viz.presenter_url is not None
+    teacher, pupil = open_viewer(viz.presenter_url), open_viewer(viz.url)
+
+    def is_off() -> bool:
+        return pupil.user.row("Joints", LEFT).one("slider").state("disabled")
+
+    pupil.user.until(is_off)
+    pupil.page.mouse.move(
+        *pupil.user.go_to(pupil.user.row("Joints", LEFT).one("slider"))
+    )
+    pupil.user.has_tip("View only")
+    pupil.user.click("button", "People")
+    pupil.user.enter(pupil.user.find("textbox", "Your name"), "Ann")
+    teacher.user.reads("Ann requests control")
+    teacher.user.click("button", "Give control to Ann")
+    pupil.user.until(lambda: not is_off())
+    pupil.user.enter(pupil.user.row("Joints", LEFT).one("textbox"), "0.5")
+    teacher.user.until(lambda: number(teacher) == "0.5")
+    teacher.user.click("button", "People")
+    teacher.user.click("button", "Take back control", ("dialog", "People"))
+    pupil.user.until(is_off)
