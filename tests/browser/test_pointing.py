@@ -37,7 +37,7 @@ def viz() -> Iterator[Visualizer]:
 def viewer(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> ViewerPage:
     viewer = open_for_all(viz.url)
     viewer.user.find("slider", LEFT)
-    viewer.wait_until_drawn()
+    viewer.settle(viz)
     return viewer
 
 

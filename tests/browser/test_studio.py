@@ -19,8 +19,10 @@ LOOK = "window.sambotVizLook"
 @pytest.fixture
 def viewer(make_viz: Callable[..., Visualizer], open_viewer: Open) -> ViewerPage:
     """A page that begins with RViz's look."""
-    viewer = open_viewer(make_viz(look="rviz").url)
+    viz = make_viz(look="rviz")
+    viewer = open_viewer(viz.url)
     viewer.wait_for(f"{LOOK}?.labels === 5")
+    viewer.settle(viz)
     return viewer
 
 
@@ -32,7 +34,6 @@ def choose(viewer: ViewerPage, look: str) -> None:
 def test_the_menu_changes_the_look_and_back_and_the_browser_keeps_it(
     viewer: ViewerPage,
 ) -> None:
-    viewer.wait_until_drawn()
     before = viewer.pixels()
     assert viewer.page.evaluate(f"{LOOK}.studio") == 0
     choose(viewer, "Studio")
