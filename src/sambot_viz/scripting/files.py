@@ -56,17 +56,30 @@ def _checked(size: Size) -> Size:
 
 
 def page_of(
-    session: Session, *, sweep: bool, motion: Motion | None, look: str
+    session: Session,
+    opened: Robot | None,
+    *,
+    sweep: bool,
+    motion: Motion | None,
+    look: str,
 ) -> bytes:
-    """Return what a session shows as one HTML file, as `Visualizer.export` says."""
+    """Return what a session shows as one HTML file, as `Visualizer.export` says.
+
+    Args:
+        session: what is shown.
+        opened: the robot whose joints rows of a motion are in order.
+        sweep: whether each joint moves to its limits and back.
+        motion: another motion in place of that.
+        look: "rviz" or "studio".
+    """
     shown = session.copy()
     first = ViewState.at_first(session.document_view, session.robot.model is not None)
     if motion is None:
         return page_file(shown, first, "sweep" if sweep else "none", look=look)
     joints = session.robot.joints
-    if shown.robot is None or joints is None:
+    if opened is None or joints is None:
         raise JointError("there is no robot yet that could move")
-    past = _motion_of(shown.robot, joints, motion)
+    past = _motion_of(opened, joints, motion)
     return page_file(shown, first, "past", past, look)
 
 

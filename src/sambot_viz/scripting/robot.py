@@ -12,12 +12,13 @@ from sambot_viz.errors import JointError
 from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
-from sambot_viz.robot.model import Positions
+from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.scripting.camera import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.scripting.files import Motion, page_of, picture_of
 from sambot_viz.scripting.links import FrameControl, LinkControl, Links
+from sambot_viz.scripting.robots import AddedRobot, Robots
 from sambot_viz.server.server import Server
 from sambot_viz.session.robot.frames import FrameView
 
@@ -32,6 +33,7 @@ class RobotControl:
         self._camera = CameraControl(server.sessions)
         self._displays = Displays(server.sessions)
         self._links = Links(server.sessions)
+        self._robots = Robots(server.sessions, self._move)
 
     @property
     def joint_positions(self) -> Mapping[str, float]:
@@ -95,13 +97,51 @@ class RobotControl:
             ServerError: the visualizer was stopped.
         """
         self._server.sessions.require_open()
-        robot = self._server.sessions.robot
+        robot = self._server.sessions.opened
         if robot is not None:
             positions = robot.named_positions(positions)
         elif not isinstance(positions, Mapping):
             raise JointError("there is no robot yet whose joints a vector could move")
+        self._move(positions)
+
+    def _move(self, positions: Mapping[str, float]) -> None:
+        self._server.sessions.require_open()
         for session in self._server.sessions.all(copies=False):
             session.robot.set_positions(positions)
+
+    def add_robot(
+        self,
+        model: Path | str | Robot,
+        name: str,
+        *,
+        parent: str | None = None,
+        xyz: Pose = (0.0, 0.0, 0.0),
+        rpy: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> AddedRobot:
+        """Show another robot beside the one that was opened, with its own joints.
+
+        The page shows both as one: in the RobotModel display, and in the Joints panel
+        with a group for each. Its model is not followed on the disk. Vectors of
+        `set_joint_positions` go on to mean the robot that was opened.
+
+        Args:
+            model: a file, the XML text, or a Robot.
+            name: what its links, joints and frames begin with, such as "left" for
+                "left/base_link".
+            parent: the link that it hangs at; the root of the opened robot by default.
+            xyz: where its root link is in that [m]; or its whole pose, as a `Transform`
+                or a (4, 4) matrix.
+            rpy: its roll, pitch and yaw about fixed axes [rad], or a quaternion
+                (x, y, z, w).
+
+        Raises:
+            UsageError: another robot has the name, there is no such parent, or no
+                robot yet.
+            RobotError: the model cannot be shown.
+            FrameError: what is no pose.
+            ServerError: the visualizer was stopped.
+        """
+        return self._robots.add(model, name, parent, xyz, rpy)
 
     def on_joint_positions(self, callback: _F) -> _F:
         """Call a function whenever joints have moved, whoever has moved them.
@@ -187,6 +227,7 @@ class RobotControl:
             UsageError: the times of the motion do not grow, or are too many.
             OSError: it cannot be written.
         """
-        session, look = first(self._server.sessions), self._server.options.look
-        content = page_of(session, sweep=sweep, motion=motion, look=look or "rviz")
+        sessions, look = self._server.sessions, self._server.options.look or "rviz"
+        shown, opened = first(sessions), sessions.opened
+        content = page_of(shown, opened, sweep=sweep, motion=motion, look=look)
         write_atomically(Path(path), content)

@@ -65,7 +65,10 @@ class Sessions:
     Attributes:
         options: what every session begins with.
         meshes: what was read of mesh files, for all of them.
-        robot: what is shown in all of them that have no model of their own.
+        opened: the robot that was shown last.
+        robot: what is shown in all of them that have no model of their own: the opened
+            one, with those that a program has added.
+        assemble: makes the second of the first.
         on_joined: called when a client has its rows, in any thread.
         on_files: called after other files may be shown than before, in any thread.
     """
@@ -91,7 +94,9 @@ class Sessions:
         self.meshes = MeshCache()
         self.meshes.on_read = self._tell_files
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
+        self.opened: Robot | None = None
         self.robot: Robot | None = None
+        self.assemble: Callable[[Robot], Robot] = lambda robot: robot
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         # By client, and with None that of all; changed under the lock.
         self._places: dict[int | None, _Place] = {}
@@ -177,13 +182,19 @@ class Sessions:
     def show_robot(self, robot: Robot) -> None:
         """Show a robot in every session, present and to come, without its own model."""
         with self._lock:
-            self.robot = robot
+            self.opened = robot
+            self.robot = robot = self.assemble(robot)
         self.on_files()
         try:
             self.for_each(lambda session: session.show_robot(robot))
         finally:
             self._forget_unused_files()
             self.for_each(lambda session: session.checks.run())
+
+    def show_again(self) -> None:
+        """Show the opened robot, after `assemble` makes something else of it."""
+        if self.opened is not None:
+            self.show_robot(self.opened)
 
     def _tell_files(self) -> None:
         self.on_files()

@@ -155,10 +155,22 @@ def joint_groups(names: Sequence[str]) -> list[JointGroup]:
 
     Returns:
         All joints, each in one group; a single group without a label if they are few,
-        or if their names have nothing in common.
+        or if their names have nothing in common. Of several robots, each further one
+        has groups of its own: the names of its joints begin with its own and a slash.
     """
+    robots: dict[str, list[str]] = {}
+    for name in names:
+        robots.setdefault(name.rpartition("/")[0], []).append(name)
+    if len(robots) < 2:
+        return _of_one_robot("", names)
+    return [
+        group for robot, own in robots.items() for group in _of_one_robot(robot, own)
+    ]
+
+
+def _of_one_robot(robot: str, names: Sequence[str]) -> list[JointGroup]:
     if len(names) <= UNGROUPED:
-        return [JointGroup("", tuple(names))]
+        return [JointGroup(robot, tuple(names))]
     words = {name: [*_WORD.finditer(name)] for name in names}
     return [*_groups(words, 0)]
 

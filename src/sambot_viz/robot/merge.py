@@ -1,0 +1,73 @@
+"""Several robots as one: each further one hangs at a link, its names with a prefix."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Origin
+
+
+@dataclass(frozen=True, slots=True)
+class HungRobot:
+    """A further robot.
+
+    Attributes:
+        name: comes before the names of its links and joints, with a slash, as with the
+            frame_prefix of robot_state_publisher.
+        robot: what hangs there.
+        parent: the link that it hangs at.
+        origin: the pose of its root link in that.
+    """
+
+    name: str
+    robot: Robot
+    parent: str
+    origin: Origin
+
+    @property
+    def root(self) -> str:
+        """Its root link, with the prefix."""
+        return f"{self.name}/{self.robot.root}"
+
+
+def merged(first: Robot, hung: Sequence[HungRobot]) -> Robot:
+    """Return a robot with all links and joints.
+
+    Its text and its files are those of the first. A further robot whose parent link is
+    not there hangs at the root.
+
+    Args:
+        first: its names stay as they are.
+        hung: the others; each may hang at one before it.
+    """
+    links, joints = dict(first.links), dict(first.joints)
+    roots = first.file_roots
+    for one in hung:
+        for link in one.robot.links.values():
+            name = f"{one.name}/{link.name}"
+            links[name] = replace(link, name=name)
+        for joint in one.robot.joints.values():
+            moved = _prefixed(joint, one.name)
+            joints[moved.name] = moved
+        parent = one.parent if one.parent in links else first.root
+        name = f"{one.name}/fixed_to_{parent.replace('/', '_')}"
+        joints[name] = Joint(name, "fixed", parent, one.root, one.origin)
+        others = one.robot.file_roots
+        roots = None if roots is None or others is None else (*roots, *others)
+    problems = (*first.problems, *(p for one in hung for p in one.robot.problems))
+    return replace(
+        first, links=links, joints=joints, problems=problems, file_roots=roots
+    )
+
+
+def _prefixed(joint: Joint, name: str) -> Joint:
+    mimic = joint.mimic
+    return replace(
+        joint,
+        name=f"{name}/{joint.name}",
+        parent=f"{name}/{joint.parent}",
+        child=f"{name}/{joint.child}",
+        mimic=mimic and replace(mimic, joint=f"{name}/{mimic.joint}"),
+    )
