@@ -252,14 +252,44 @@ def test_edits_of_a_program_count_but_cannot_be_undone(session: Session) -> None
 # Saved or not
 
 
-def test_modified_is_about_what_was_saved_last(session: Session) -> None:
+def test_modified_is_about_what_was_saved_last(
+    session: Session, tmp_path: Path
+) -> None:
     act(session, A, set_alpha(session, 0.5))
-    session.history.saved()
+    session.document.save(tmp_path / "saved.rviz")
     assert not session.history.modified.value
     session.history.undo(A)
     assert session.history.modified.value
     session.history.redo(A)
     assert not session.history.modified.value
+
+
+def test_an_edit_that_takes_another_back_leaves_nothing_to_save(
+    session: Session,
+) -> None:
+    def tick(on: bool) -> Callable[[], None]:
+        return lambda: session.display_edits.set_enabled(named(session, "Grid"), on)
+
+    for _ in range(2):
+        act(session, A, tick(False))
+        assert session.history.modified.value
+        act(session, A, tick(True))
+        assert not session.history.modified.value
+    session.history.undo(A)
+    assert session.history.modified.value
+    for _ in range(3):
+        session.history.undo(A)
+    assert not session.history.modified.value
+
+
+def test_a_drag_does_not_look_at_the_whole_document(session: Session) -> None:
+    looks = []
+    session.history.is_as_saved = lambda: looks.append(1) is None and False
+    for value in (0.5, 0.6, 0.7):
+        act(session, A, set_alpha(session, value), by="drag")
+    assert looks == []
+    act(session, A, set_alpha(session, 0.8))
+    assert len(looks) == 1
 
 
 def test_a_drag_that_goes_on_after_a_save_is_not_saved(session: Session) -> None:

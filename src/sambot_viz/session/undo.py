@@ -122,6 +122,10 @@ def _check(step: _Step, may_edit: bool) -> None:
         raise UsageError(VIEW_ONLY)
 
 
+def _never() -> bool:
+    return False
+
+
 class History:
     """The edits of a session, for each of its clients.
 
@@ -130,10 +134,13 @@ class History:
 
     Attributes:
         modified: whether the document has edits that are not saved.
+        is_as_saved: tells if the document says what its file says; it looks at all of
+            it, so it is asked after single edits only, and not in a drag.
     """
 
     def __init__(self, change: Change) -> None:
         self.modified = Signal(change, False)
+        self.is_as_saved: Callable[[], bool] = _never
         self._change = change
         self._steps: dict[int, _Steps] = {}
         self._action: _Action | None = None
@@ -263,7 +270,7 @@ class History:
         if number is not None:
             self._applied.add(number)
         history.tell()
-        self._tell_modified()
+        self._tell_modified(look=step.gesture is None)
 
     def _next_number(self) -> int:
         self._count += 1
@@ -296,7 +303,7 @@ class History:
             history.undone.append(step)
             self._applied.discard(step.number or 0)
             history.tell(step)
-            self._tell_modified()
+            self._tell_modified(look=True)
             return step.edits[0].label
 
     def redo(self, client_id: int, *, may_edit: bool = True) -> str | None:
@@ -325,7 +332,7 @@ class History:
             if step.number is not None:
                 self._applied.add(step.number)
             history.tell(step)
-            self._tell_modified()
+            self._tell_modified(look=True)
             return step.edits[0].label
 
     def _run(
@@ -373,8 +380,13 @@ class History:
             self._saved = (frozenset(self._applied), self._by_program)
             self._tell_modified()
 
-    def _tell_modified(self) -> None:
-        self.modified.set(self._saved != (self._applied, self._by_program))
+    def _tell_modified(self, look: bool = False) -> None:
+        modified = self._saved != (self._applied, self._by_program)
+        if modified and look and self.is_as_saved():
+            # One edit has taken another back, as by ticking a box twice.
+            self._saved = (frozenset(self._applied), self._by_program)
+            modified = False
+        self.modified.set(modified)
 
     def clear(self) -> None:
         """Forget all edits: another document is shown, as it is in its file."""

@@ -46,6 +46,7 @@ class ShownDocument:
         self._scene = scene
         self._history = history
         self._change = change
+        history.is_as_saved = lambda: not self.config.modified
         self._take(config, trusted=True)
 
     def show(self) -> None:
