@@ -289,7 +289,7 @@ class User:
         self.go_to(thing)
         left, top, width, height = self.box(thing)
         least, most = thing.states["valuemin"], thing.states["valuemax"]
-        handle = min(16.0, height)
+        handle = 22.0 if self.finger else 14.0
         at = [
             left + handle / 2 + (width - handle) * (value - least) / (most - least)
             for value in (float(thing.value), *values)

@@ -6,7 +6,15 @@ import { act, newGesture, rows, send } from "../wire/channel.js";
 import { Field } from "./field.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
-import { clamped, fittingNumber, formatNumber, parseNumber, snapped, stepped } from "./numbers.js";
+import {
+  clamped,
+  fittingNumber,
+  formatNumber,
+  parseNumber,
+  snapped,
+  stepped,
+  writtenNumber,
+} from "./numbers.js";
 import { degrees, useData } from "../state.js";
 import { formula, outside, shownUnit, withinTurn } from "./units.js";
 
@@ -250,7 +258,15 @@ function Handle({ row, tab, held }) {
     event.preventDefault();
     event.stopPropagation();
   };
-  return html`<input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
+  // Filled from zero on; where there is no zero, from the end that is next to it.
+  /** @param {number} at */
+  const part = (at) => (high > low ? (Math.max(low, Math.min(high, at)) - low) / (high - low) : 0);
+  const [zero, now] = [part(0), part(value)];
+  const style = `--from: ${Math.min(zero, now)}; --to: ${Math.max(zero, now)}; --zero: ${zero}`;
+  /** @param {number} end */
+  const written = (end) => writtenNumber(end * factor, unit.startsWith("°") ? 0 : 2);
+  return html`<span class=${low < 0 && high > 0 ? "track zero" : "track"} style=${style}>
+    <input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
     aria-label=${row.name || ""} disabled=${row.fixed || row.off}
     aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
     ...${finger} onChange=${held.release} onPointerUp=${() => {
@@ -261,7 +277,9 @@ function Handle({ row, tab, held }) {
       finger.onPointerCancel();
       held.release();
     }}
-    onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />`;
+    onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />
+    <span class="ends" aria-hidden="true"><i>${written(low)}</i><i>${written(high)}</i></span>
+  </span>`;
 }
 
 /** Starts a wheel, or stops it. @param {{row: Row, tab: number}} props */
