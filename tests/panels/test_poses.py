@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from inside import session_of
+from inside import node_of, session_of
 from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import JointError, UsageError
-from sambot_viz.panels.joints.poses import PosesPanel
+from sambot_viz.panels.joints.poses import MOVE_TIME, GhostPanel, PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer
 from sambot_viz.session import Session
+from sambot_viz.session.clients.client import Client
 from sambot_viz.session.limits import MOST_POSES
 
-LEFT = "drivewhl_l_joint"
+LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
 
 @pytest.fixture
@@ -128,3 +130,58 @@ def test_a_visitor_keeps_poses_in_memory_only(
     assert send(panel, "poses/save", "half") == Answer(
         "Saved pose 'half' in memory only"
     )
+
+
+def test_a_pose_is_gone_to_in_steps_and_undone_at_once(
+    panel: PosesPanel, session: Session, viz: Visualizer, client: Client
+) -> None:
+    motion = session.motion
+    motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    viz.set_joint_positions({LEFT: 1.0})
+    send(panel, "poses/save", "one")
+    viz.set_joint_positions({LEFT: 0.0})
+    with session.history.acting(client.client_id):
+        assert send(panel, "poses/move", "one") is None
+    seen: list[float] = []
+    for _ in range(3):
+        motion.advance(MOVE_TIME / 3)
+        seen.append(viz.joint_positions[LEFT])
+    assert seen == [pytest.approx(0.25), pytest.approx(0.75), 1.0]
+    assert not motion.moving
+    assert session.history.undo(client.client_id) == "Pose one"
+    assert viz.joint_positions[LEFT] == 0.0
+
+
+def test_a_joint_that_is_moved_on_the_way_to_a_pose_stays_there(
+    panel: PosesPanel, session: Session, viz: Visualizer
+) -> None:
+    motion = session.motion
+    motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    viz.set_joint_positions({LEFT: 1.0, RIGHT: 1.0})
+    send(panel, "poses/save", "both")
+    viz.set_joint_positions({LEFT: 0.0, RIGHT: 0.0})
+    send(panel, "poses/move", "both")
+    motion.advance(MOVE_TIME / 2)
+    viz.set_joint_positions({LEFT: -0.5})
+    motion.advance(MOVE_TIME)
+    assert viz.joint_positions == {LEFT: -0.5, RIGHT: 1.0}
+
+
+def test_a_ghost_has_the_poses_of_the_links_and_moves_no_joint(
+    session: Session, viz: Visualizer
+) -> None:
+    viz.set_joint_positions({LEFT: 1.0})
+    session.poses.save("one", {LEFT: 1.0})
+    viz.set_joint_positions({LEFT: 0.0})
+    ghost = panel_of(GhostPanel, session)
+    assert data_of(ghost)["poses/ghost"] is None
+    edit(ghost, "poses/show", ["one"])
+    shown = data_of(ghost)["poses/ghost"]
+    wheel = shown["links"][node_of(viz, "drivewhl_l_link").rpartition("/")[2]]
+    assert wheel[:3] == pytest.approx([-0.12, 0.18, -0.05])
+    assert abs(wheel[3]) == pytest.approx(math.cos(0.5))
+    assert viz.joint_positions[LEFT] == 0.0
+    with pytest.raises(JointError, match="no pose 'two'"):
+        edit(ghost, "poses/show", ["two"])
+    edit(ghost, "poses/show", [""])
+    assert data_of(ghost)["poses/ghost"] is None

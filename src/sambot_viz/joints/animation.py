@@ -59,6 +59,14 @@ def _stopped(now: float, following: float, lower: float, upper: float) -> float:
     return max(following, min(lower, now))
 
 
+def eased(part: float) -> float:
+    """Return how much of a way is behind after a part of its time, both from 0 to 1.
+
+    A motion begins and ends slowly.
+    """
+    return (1.0 - math.cos(math.pi * part)) / 2.0
+
+
 def sweep(state: JointState, period: float) -> Iterator[tuple[float, dict[str, float]]]:
     """Yield the steps of a motion that moves every joint and ends where it begins.
 
@@ -96,8 +104,7 @@ def _position(state: JointState, name: str, part: float) -> float:
     start, joint = state.positions[name], state.joints[name]
     if not 0.0 < part < 1.0:
         return start
-    # It begins and ends slowly.
-    way = (1.0 - math.cos(math.pi * part)) / 2.0
+    way = eased(part)
     if joint.type == "continuous":
         return start + 2.0 * math.pi * way
     lower, upper = sorted(joint.range)

@@ -10,6 +10,7 @@ import { followFile } from "./window/files.js";
 import { listenToKeys } from "./window/keys.js";
 import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
+import { followGhost } from "./panels/poses.js";
 import { followPointedJoint } from "./panels/pointed_joint.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
@@ -35,6 +36,7 @@ const start = () => {
   });
   tellView();
   followPointedJoint();
+  followGhost();
   followFile();
   followConnection();
   followRole();

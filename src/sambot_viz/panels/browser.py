@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
+from sambot_viz.panels.joints.poses import GhostPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
@@ -79,6 +80,7 @@ class BrowserPanels:
             views,
             SelectionPanel(client, scene, robot, remake),
             ToolPropertiesPanel(client, document),
+            GhostPanel(session.poses, robot, scene, remake),
             FramesPanel(frames, robot, scene, self.say, remake),
             PermalinkPanel(
                 client,

@@ -81,7 +81,7 @@ class Window:
             arrow = JointArrow(scene, session.worker)
             panels += [
                 JointsPanel(robot, session.motion, history, arrow, remake),
-                PosesPanel(session.poses, robot, history, remake),
+                PosesPanel(session.poses, robot, session.motion, history, remake),
                 DrivePanel(session.drive, robot, session.follow_view),
             ]
         return panels

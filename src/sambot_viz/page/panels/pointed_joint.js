@@ -4,7 +4,7 @@
 
 import { Cell, useAfter } from "../state.js";
 import { reveal } from "../tree/tree.js";
-import { glow } from "../view/joint_glow.js";
+import { glow } from "../view/drawn_here.js";
 import { tell } from "../window/notices.js";
 import { openPanel } from "../window/panels.js";
 import { rows } from "../wire/channel.js";

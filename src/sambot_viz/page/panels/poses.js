@@ -2,11 +2,39 @@
 /* Named poses: choose one, save the present one, remove one. */
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act } from "../wire/channel.js";
+import { act, rows } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
-import { refusals } from "../window/notices.js";
+import { refusals, tell } from "../window/notices.js";
 import { Popup } from "../window/popup.js";
 import { useData, useRow } from "../state.js";
+import { haunt } from "../view/drawn_here.js";
+
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+/** Move the joints to a pose. @param {string} name */
+const takePose = (name) => act(still.matches ? "poses/use" : "poses/move", [name]);
+
+/** The ghost is made of what the scene has: meshes that come later are looked for so often, after
+ * so long each time [ms]. */
+const TRIES = 3,
+  LATER = 500;
+
+/** Draw the ghost that the server tells of. */
+export function followGhost() {
+  let turn = 0;
+  rows.listen("poses/ghost", () => {
+    const ghost = rows.data("poses/ghost");
+    const now = ++turn;
+    const draw = (/** @type {number} */ left) => {
+      if (now !== turn) return;
+      const why = haunt(ghost);
+      if (why) {
+        tell(why, "warn");
+        act("poses/show", [""]);
+      } else if (left && ghost) setTimeout(() => draw(left - 1), LATER);
+    };
+    draw(TRIES);
+  });
+}
 
 export function Poses() {
   if (!useData("poses/names")) return null;
@@ -20,6 +48,7 @@ function Form({ close }) {
   /** @type {string[]} */
   const names = useData("poses/names") || [],
     place = useData("poses/place");
+  const ghost = useData("poses/ghost")?.name;
   useRow("poses/save");
   const why = refusals.get("poses/save");
   /** @type {Ref<HTMLInputElement>} */
@@ -41,7 +70,7 @@ function Form({ close }) {
     act("poses/remove", [name]);
   };
   useLayoutEffect(() => {
-    const buttons = list.current.querySelectorAll(".pose .flat");
+    const buttons = list.current.querySelectorAll(".pose .remove");
     if (removed.current >= 0)
       (buttons[Math.min(removed.current, buttons.length - 1)] || field.current).focus();
     removed.current = -1;
@@ -50,10 +79,15 @@ function Form({ close }) {
     ${names.map(
       (name) => html`<div class="pose" key=${name}>
       <button class="needs-control" title=${`Move the joints to '${name}'`} onClick=${() => {
-        act("poses/use", [name]);
+        takePose(name);
         close();
       }}>${name}</button>
-      <button class="flat" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`}
+      <button class="flat" aria-label=${`Show ${name} as ghost`}
+        aria-pressed=${String(ghost === name)}
+        title=${ghost === name ? "End the ghost" : `Show '${name}' as a ghost, in this browser alone`}
+        onClick=${() => act("poses/show", [ghost === name ? "" : name])}><${Icon} name="view" />
+        </button>
+      <button class="flat remove" aria-label=${`Remove pose ${name}`} title=${`Remove pose ${name}`}
         onClick=${() => remove(name)}><${Icon} name="trash" /></button>
     </div>`,
     )}

@@ -37,7 +37,7 @@ function buttons() {
   for (const { name, key } of rows.data("tools/list") || [])
     calls.push([name, "Tool", name, "tools/choose", [name], key?.toUpperCase()]);
   for (const pose of rows.data("poses/names") || [])
-    calls.push([pose, "Pose", "joint", "poses/use", [pose]]);
+    calls.push([pose, "Pose", "joint", "poses/move", [pose]]);
   return calls
     .filter(([, , , id]) => rows.can(id))
     .map(([name, where, icon, id, args, keys]) => ({

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Any
 
+from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.errors import UsageError
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.geometry import wxyz_from_matrix
 from sambot_viz.joints.presets import Presets
 from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data
+from sambot_viz.panels.row import Answer, Data, Json
 from sambot_viz.session.limits import MOST_POSES, require_room
+from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Signal
 from sambot_viz.session.undo import History
 
 LONGEST_POSE_NAME = 60
 """Of a pose [characters]."""
+MOVE_TIME = 0.3
+"""A motion to a pose takes so long [s]."""
 
 
 class PosesPanel(Panel):
@@ -23,6 +32,7 @@ class PosesPanel(Panel):
 
     Args:
         robot: its joints take them.
+        motion: moves them there.
         history: records that one is removed.
         remake: called when the poses have changed.
     """
@@ -33,12 +43,14 @@ class PosesPanel(Panel):
         self,
         poses: Presets,
         robot: RobotState,
+        motion: Motion,
         history: History,
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (robot.changed,)
         self._poses = poses
         self._robot = robot
+        self._motion = motion
         self._history = history
         self._remake = remake
 
@@ -63,7 +75,16 @@ class PosesPanel(Panel):
 
     @command("poses/use", TEXT)
     def _use(self, name: str) -> Answer | None:
-        left_out = self._robot.take_pose(name, self._poses.get(name))
+        """Put the joints into a pose at once."""
+        return self._without(self._robot.take_pose(name, self._poses.get(name)))
+
+    @command("poses/move", TEXT)
+    def _move(self, name: str) -> Answer | None:
+        """Move the joints to a pose, so that one sees how they go there."""
+        glide = partial(self._motion.glide, seconds=MOVE_TIME)
+        return self._without(self._robot.take_pose(name, self._poses.get(name), glide))
+
+    def _without(self, left_out: Sequence[str]) -> Answer | None:
         if left_out:
             return Answer(f"Without {', '.join(left_out)}, which cannot be set")
         return None
@@ -98,3 +119,62 @@ class PosesPanel(Panel):
         label = f"Remove pose {name}"
         self._history.record(label, save, remove, of_document=False)
         return Answer(f"Removed pose '{name}'; Undo brings it back")
+
+
+class GhostPanel(Panel):
+    """The pose that one client sees as a ghost, beside the robot as it stands.
+
+    The page draws it, with copies of what it has: it needs the poses of the links only.
+
+    Args:
+        remake: called when another pose was chosen.
+    """
+
+    name = "ghost"
+
+    def __init__(
+        self,
+        poses: Presets,
+        robot: RobotState,
+        scene: Scene,
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self.remade_by: Sequence[Signal[Any]] = (robot.changed,)
+        self._poses = poses
+        self._robot = robot
+        self._nodes = scene.context.nodes
+        self._remake = remake
+        self._name = ""
+
+    def data(self) -> Sequence[Data]:
+        """Return the name of the pose, and where its links are in the root link."""
+        return [Data("poses/ghost", self._shown())]
+
+    def _shown(self) -> Json:
+        robot, joints = self._robot.model, self._robot.joints
+        if robot is None or joints is None or self._name not in self._poses.names:
+            return None
+        pose = self._poses.get(self._name)
+        known = {n: q for n, q in pose.items() if n in joints.free}
+        links = joints.kinematics.forward({**joints.positions, **known})
+        return {
+            "name": self._name,
+            "root": self._node(robot.root),
+            "links": {
+                self._node(link): [*position_of(T), *wxyz_from_matrix(T)]
+                for link, T in links.items()
+                if robot.links[link].visuals
+            },
+        }
+
+    def _node(self, link: str) -> str:
+        path = self._nodes.path(plain_name(link))
+        return (path or "").rpartition("/")[2]
+
+    @command("poses/show", TEXT, client_local=True)
+    def _show(self, name: str) -> None:
+        """Show a pose as a ghost; an empty name ends that."""
+        if name:
+            self._poses.get(name)
+        self._name = name
+        self._remake(self)

@@ -7,9 +7,11 @@ nothing runs and nothing is sent.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sambot_viz.joints.animation import turn
+from sambot_viz.joints.animation import eased, turn
+from sambot_viz.joints.state import JointState
 from sambot_viz.session.robot.drive import Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal, connect
@@ -26,6 +28,23 @@ LONGEST_STEP = 0.25
 class _Turning:
     rate: float
     left: float
+
+
+@dataclass
+class _Glide:
+    """A motion to a pose.
+
+    Attributes:
+        ways: joint → where it was, and where it goes [rad or m].
+        reached: joint → where it was put last.
+        seconds: how long it takes.
+        time: since it has begun [s].
+    """
+
+    ways: dict[str, tuple[float, float]]
+    reached: dict[str, float]
+    seconds: float
+    time: float = 0.0
 
 
 class Motion:
@@ -59,6 +78,7 @@ class Motion:
         self._worker = worker
         self._clock = clock
         self._turning: dict[str, _Turning] = {}
+        self._glide: _Glide | None = None
         self._ticking = False
         self._closed = False
         self._last = 0.0
@@ -67,7 +87,7 @@ class Motion:
     @property
     def moving(self) -> bool:
         """Whether something moves."""
-        return bool(self._turning) or self._drive.moving
+        return bool(self._turning or self._glide) or self._drive.moving
 
     def turn(self, joint: str, rate: float, seconds: float = math.inf) -> None:
         """Turn a joint at a rate, until the next call or the time is up.
@@ -91,6 +111,22 @@ class Motion:
             self._tell()
         self.start()
 
+    def glide(self, positions: Mapping[str, float], seconds: float) -> None:
+        """Move joints to a pose; one that is moved meanwhile stays where it was put.
+
+        Args:
+            positions: free joint → position [rad or m].
+            seconds: how long it takes, whatever the way.
+        """
+        with self._change.lock:
+            state = self._robot.joints
+            if state is None:
+                return
+            now = {name: state.positions[name] for name in positions}
+            ways = {name: (now[name], goal) for name, goal in positions.items()}
+            self._glide = _Glide(ways, now, seconds)
+        self.start()
+
     def turns(self, joint: str) -> bool:
         """Whether a joint turns at the moment."""
         return joint in self._turning
@@ -99,6 +135,7 @@ class Motion:
         """Stop all motion."""
         with self._change.lock:
             self._turning.clear()
+            self._glide = None
             self._drive.stop()
             self._tell()
 
@@ -108,7 +145,7 @@ class Motion:
             state = self._robot.joints
             if state is None:
                 return
-            positions: dict[str, float] = {}
+            positions = self._glided(state, dt)
             for name, turning in list(self._turning.items()):
                 if name not in state.free:
                     del self._turning[name]
@@ -121,6 +158,24 @@ class Motion:
             driven, frames = self._drive.advance(dt)
             self._robot.move({**positions, **driven}, frames)
             self._tell()
+
+    def _glided(self, state: JointState, dt: float) -> dict[str, float]:
+        """Return where the joints of a motion to a pose are after a time [s]."""
+        glide = self._glide
+        if glide is None:
+            return {}
+        glide.time += dt
+        part = min(1.0, glide.time / glide.seconds)
+        positions = {
+            name: goal if part == 1.0 else begin + (goal - begin) * eased(part)
+            for name, (begin, goal) in glide.ways.items()
+            # Who moves a joint meanwhile, or undoes the pose, has it.
+            if state.positions.get(name) == glide.reached.get(name)
+        }
+        glide.reached = positions
+        if part == 1.0 or not positions:
+            self._glide = None
+        return positions
 
     def start(self) -> None:
         """Start the steps, if something moves and they do not run yet."""

@@ -133,15 +133,38 @@ class RobotState:
         label = label or (f"Move {names[0]}" if len(names) == 1 else "Move joints")
         self._edit(label, partial(self._note, positions, {}), names)
 
-    def take_pose(self, name: str, pose: Mapping[str, float]) -> tuple[str, ...]:
+    def take_pose(
+        self,
+        name: str,
+        pose: Mapping[str, float],
+        glide: Callable[[Mapping[str, float]], None] | None = None,
+    ) -> tuple[str, ...]:
         """Move the joints to a named pose.
+
+        Args:
+            name: of the pose.
+            pose: joint → position [rad or m].
+            glide: moves the joints there, step by step; without it they jump.
 
         Returns:
             The joints of the pose that cannot be set in this robot.
         """
         free = self.joints.free if self.joints is not None else ()
         known = {joint: q for joint, q in pose.items() if joint in free}
-        self._edit(f"Pose {name}", partial(self._note, known, {}))
+        if glide is None:
+            self._edit(f"Pose {name}", partial(self._note, known, {}))
+        elif self.joints is not None:
+            now = self.joints.positions
+            after = {n: q for n, q in known.items() if now[n] != q}
+            before = {n: now[n] for n in after}
+            if after:
+                glide(after)
+                self._history.record(
+                    f"Pose {name}",
+                    partial(self.move, before, {}),
+                    partial(self.move, after, {}),
+                    of_document=False,
+                )
         return tuple(joint for joint in pose if joint not in known)
 
     def center(self) -> None:
