@@ -95,6 +95,17 @@ def test_a_viewer_turns_the_view_and_is_told_what_needs_control(
     user.click("button", "Add")
     user.reads("View only: request control, or open your own copy")
     assert not user.see().all("dialog")
+    user.click("menuitem", "File")
+    entry = user.find("menuitem", "Save Config As… Ctrl+Shift+S")
+    assert entry.state("disabled")
+    assert not user.find("menuitem", "Download Config").state("disabled")
+    user.keys("Escape")
+    yaw = user.row("Views", "Yaw").text
+    user.click("button", "Zero", ("toolbar", "Tools"))
+    user.until(lambda: user.row("Views", "Yaw").text != yaw)
+    user.keys("Control+s")
+    user.reads("View only: request control, or open your own copy")
+    assert not user.see().all("dialog")
     user.click("button", "Measure", ("toolbar", "Tools"))
     user.until(
         lambda: user.find("button", "Measure", ("toolbar", "Tools")).is_on,

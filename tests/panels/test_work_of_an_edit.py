@@ -16,9 +16,11 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Row
+from sambot_viz.panels.window import Window
+from sambot_viz.session import Session
 from sambot_viz.session.worker import Worker
 
-JOINT = "drivewhl_l_joint"
+JOINT, OTHER = "drivewhl_l_joint", "drivewhl_r_joint"
 STEPS = 4
 
 
@@ -226,3 +228,36 @@ def test_a_box_of_a_display_asks_no_disk(
     clients[0].act("edit/undo")
     clients[0].settle(viz.viser)
     assert disk.asked == []
+
+
+def test_numbers_that_come_faster_than_they_are_handled_are_one_edit(
+    viz: Visualizer,
+    session: Session,
+    protocol: Callable[..., ProtocolClient],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    counts = Counter[str]()
+
+    def counting(name: str) -> Callable[..., None]:
+        method = vars(Window)[name]
+
+        def counted(window: Window, *given: Any) -> None:
+            counts[name] += 1
+            method(window, *given)
+
+        return counted
+
+    for name in ("receive", "_take"):
+        monkeypatch.setattr(Window, name, counting(name))
+    rows = [client.id_of("joints", name) for name in (JOINT, OTHER)]
+    with session.lock:
+        for step in range(1, 11):
+            for row in rows:
+                client.edit(row, step / 10)
+        client.wait_until(lambda: counts["receive"] == 20)
+    client.settle(viz.viser)
+    # The first one has been taken out already, and waited for the lock.
+    assert counts["_take"] <= 3
+    assert dict(viz.joint_positions) == {JOINT: 1.0, OTHER: 1.0}

@@ -121,6 +121,8 @@ def test_a_value_of_another_type_changes_no_row_and_is_answered(
 ) -> None:
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
+    # That there is another one has arrived.
+    witness.settle(viz.viser)
     before, mark = witness.shown(*names), witness.mark()
     row, own = client.id_of(*names), client.mark()
     client.edit(row, value)

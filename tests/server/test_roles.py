@@ -405,6 +405,21 @@ def test_a_viewer_who_is_removed_does_not_come_back_by_itself(
     assert len(people(teacher)) == 2
 
 
+def test_folders_of_the_server_are_shown_to_those_in_control_only(
+    guest: ProtocolClient, teacher: ProtocolClient, settle: Callable[..., None]
+) -> None:
+    def folder(client: ProtocolClient) -> Any:
+        settle(teacher, guest)
+        return client.row("file/state")["value"].get("folder")
+
+    assert folder(teacher) and folder(guest) is None
+    give_control(teacher, guest, "Ann", settle)
+    settle(teacher)
+    assert folder(guest) == folder(teacher)
+    teacher.act("role/take-back")
+    assert folder(guest) is None and folder(teacher)
+
+
 def test_a_viewer_undoes_what_it_did_as_a_viewer_and_nothing_else(
     guest: ProtocolClient,
     teacher: ProtocolClient,

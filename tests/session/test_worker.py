@@ -43,15 +43,22 @@ def test_actions_run_in_the_order_in_which_they_were_posted(worker: Worker) -> N
     assert ran == list(range(100))
 
 
-def test_of_values_in_a_row_the_latest_wins(worker: Worker) -> None:
+def test_of_values_for_one_row_the_latest_wins(worker: Worker) -> None:
     ran: list[str] = []
-    slider, other = object(), object()
+    slider, other = ("a slider", None), ("another", None)
+    posted = (("a", slider), ("b", slider), ("c", other), ("d", ("a slider", None)))
     with worker.lock:
-        for name, of in (("a", slider), ("b", slider), ("c", other), ("d", slider)):
+        # The first one is taken out, and waits for the lock.
+        worker.post(lambda: ran.append("first"))
+        for name, of in posted:
             worker.post(lambda n=name: ran.append(n), latest_of=of)
-        # The first one may have been taken out already: it waits for the lock.
+        # What is done now may need what was set before.
+        worker.post(lambda: ran.append("save"))
+        worker.post(lambda: ran.append("e"), latest_of=slider)
+        worker.post(lambda: ran.append("f"), latest_of=slider, client=7)
     run_all(worker)
-    assert ran in (["b", "c", "d"], ["a", "b", "c", "d"])
+    assert [name for name in ran if name != "f"] == ["first", "c", "d", "save", "e"]
+    assert "f" in ran
 
 
 def test_an_action_that_fails_is_reported_and_the_next_one_runs(worker: Worker) -> None:

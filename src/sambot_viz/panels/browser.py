@@ -101,6 +101,7 @@ class BrowserPanels:
                 history,
                 clients,
                 files,
+                roles,
                 keep,
                 self.say,
                 remake,

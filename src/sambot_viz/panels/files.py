@@ -15,6 +15,7 @@ from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.config_file import UNNAMED, ConfigFile
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal
@@ -45,6 +46,7 @@ class FilesPanel(Panel):
     Args:
         client: who asks, and gets the downloads.
         files: the disk; None for a visitor, who may only download.
+        roles: tells whether the client may use the disk; others see no folder of it.
         keep_unfolded: writes into the document which rows are unfolded, from their
             ids.
         say: shows a sentence to this browser.
@@ -62,11 +64,13 @@ class FilesPanel(Panel):
         history: History,
         clients: Clients,
         files: Files | None,
+        roles: Roles,
         keep_unfolded: Callable[[Collection[str]], None],
         say: Callable[[str, Level], None],
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (document.file, robot.changed)
+        self.remade_by = (document.file, robot.changed, roles.changed)
+        self._roles = roles
         self._client = client
         self._document = document
         self._robot = robot
@@ -79,6 +83,7 @@ class FilesPanel(Panel):
         self._remake = remake
         self._file = ConfigFile(document, robot, scene)
         self._facts: dict[str, Json] = {}
+        self._folder = ""
         self._files_of: object = None
         self._robot_of: Robot | None = None
         self._names: Sequence[str] = ()
@@ -94,7 +99,8 @@ class FilesPanel(Panel):
         """Return where the document is, the files there are, and the last answer."""
         made = [Data("file/state", self._state()), Data("file/answer", self._answer)]
         if self._files is not None:
-            made.append(Data("file/names", self._names))
+            may = self._roles.may_edit(self._client.client_id)
+            made.append(Data("file/names", self._names if may else ()))
         return made
 
     def values(self) -> Mapping[str, Json]:
@@ -112,7 +118,10 @@ class FilesPanel(Panel):
         if files != self._files_of or robot is not self._robot_of:
             self._files_of, self._robot_of = files, robot
             self._facts = self._look_up()
-        return self._facts | {"modified": self._history.modified.value}
+        facts = self._facts | {"modified": self._history.modified.value}
+        if self._files is not None and self._roles.may_edit(self._client.client_id):
+            facts["folder"] = self._folder
+        return facts
 
     def _look_up(self) -> dict[str, Json]:
         file = self._file
@@ -121,8 +130,7 @@ class FilesPanel(Panel):
             "own": file.target is not None,
             "private": self._files is None,
         }
-        if self._files is not None:
-            facts["folder"] = str(file.folder)
+        self._folder = str(file.folder)
         return facts
 
     def offers(self, command_id: str) -> bool:

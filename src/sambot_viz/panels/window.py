@@ -25,6 +25,8 @@ from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.scene.joint_arrow import JointArrow
 
+_NUMBERS = ("int", "float", "slider")
+
 
 class Window:
     """The panels of one session.
@@ -50,7 +52,6 @@ class Window:
         self._ask_page = ask_page
         self._invite = invite
         self._browsers: dict[int, BrowserPanels] = {}
-        self._keys: dict[tuple[int, str, int | None], object] = {}
         self._displays = DisplaysPanel(
             session.document,
             session.display_edits,
@@ -135,14 +136,19 @@ class Window:
         sent = validation.read(message)
         if sent is None:
             return
-        # Of the values of one drag that wait, only the last one counts.
+        # Of the values of one drag that wait, only the last one counts; and of numbers
+        # that come faster than they are handled. A command may add to the one before.
         latest_of = None
-        if sent.gesture is not None:
-            key = (client_id, sent.id, sent.gesture)
-            self._keys = {key: self._keys.get(key, key)}
-            latest_of = self._keys[key]
+        if sent.gesture is not None or self._is_number(client_id, sent.id):
+            latest_of = (sent.id, sent.gesture)
         take = partial(self._take, client_id, sent)
         self._session.worker.post(take, latest_of=latest_of, client=client_id)
+
+    def _is_number(self, client_id: int, row_id: str) -> bool:
+        """Tell whether a row is a number, in any thread."""
+        rows = self.rows_of(client_id)
+        found = [store.get(row_id) for store in rows.stores] if rows else []
+        return any(row is not None and row.get("kind") in _NUMBERS for row in found)
 
     def _take(self, client_id: int, sent: validation.Sent) -> None:
         """Check what a browser wants and do it; a refusal is answered there."""

@@ -68,16 +68,17 @@ class Worker(threading.Thread):
 
         Args:
             action: what to run.
-            latest_of: of actions in a row that name the same object here, only the
-                last one runs: a flood of slider values costs one step.
+            latest_of: of a client's actions that say the same here, only the last one
+                runs, unless one that says nothing was posted in between: a flood of
+                slider values costs one step.
             client: who has caused it; None for the program itself.
         """
         with self._changed:
             if self._closed:
                 return
             waiting = self._inbox.setdefault(client, deque())
-            if latest_of is not None and waiting and waiting[-1][0] is latest_of:
-                waiting.pop()
+            if latest_of is not None:
+                _forget_earlier(waiting, latest_of)
             waiting.append((latest_of, action))
             self._wake()
 
@@ -183,6 +184,16 @@ class Worker(threading.Thread):
         if self.ident is None:
             self.start()
         self._changed.notify()
+
+
+def _forget_earlier(waiting: deque[tuple[object, Action]], latest_of: object) -> None:
+    for index in reversed(range(len(waiting))):
+        if waiting[index][0] is None:
+            # It may need what was set before.
+            return
+        if waiting[index][0] == latest_of:
+            del waiting[index]
+            return
 
 
 class Throttle:

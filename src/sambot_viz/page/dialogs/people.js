@@ -59,7 +59,9 @@ function PersonRow({ person, now: { state, me } }) {
     leads = state.presented && me.presenter && !person.presenter;
   const said = state.presented
     ? person.presenter
-      ? "presenter"
+      ? name.startsWith("Presenter")
+        ? ""
+        : "presenter"
       : person.control
         ? "in control"
         : person.requests

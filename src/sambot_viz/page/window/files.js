@@ -2,7 +2,7 @@
 /* The .rviz file: its name, saving and opening it, and pictures of the view. */
 
 import { html, useEffect } from "../vendor/preact.js";
-import { act, rows } from "../wire/channel.js";
+import { act, mayChange, rows } from "../wire/channel.js";
 import { show } from "../dialogs/dialog.js";
 import { ExportPage } from "../dialogs/export_page.js";
 import { OpenConfig } from "../dialogs/open.js";
@@ -35,16 +35,18 @@ const sayNoDisk = () =>
 
 export function save() {
   if (!hasDisk()) return sayNoDisk();
+  if (!mayChange()) return undefined;
   takeTyped();
   return state().own ? act("file/save", [unfolded()]) : show(SaveAs);
 }
 export function saveAs() {
   if (!hasDisk()) return sayNoDisk();
+  if (!mayChange()) return undefined;
   takeTyped();
   return show(SaveAs);
 }
 export function open() {
-  if (hasDisk()) {
+  if (hasDisk() && mayChange()) {
     takeTyped();
     show(OpenConfig);
   }

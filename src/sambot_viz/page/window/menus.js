@@ -16,11 +16,15 @@ import { FIRST, setLook } from "../view/look.js";
 
 /**
  * An entry of a menu, or null for a line between entries.
- * @typedef {{name: string, keys?: string, off?: boolean, checked?: boolean, does: () => void} |
- *   null} Entry
+ * @typedef {{name: string, keys?: string, off?: boolean, title?: string, checked?: boolean,
+ *   does: () => void} | null} Entry title: why it is off
  * @typedef {{name: string, entries: () => Entry[]}} MenuOf
  * @typedef {{name: string, title: string, shown: boolean, toggle: () => void}} PanelOf
  */
+
+/** A command that viewers may not call is grey for them, with the reason. @param {string} id */
+const forControl = (id) =>
+  rows.watching && !rows.can(id) ? { off: true, title: "View only: request control first" } : {};
 
 /** @param {"undo" | "redo"} id @param {string} keys @returns {Entry} */
 function edit(id, keys) {
@@ -55,10 +59,15 @@ export const listMenus = (panels, hideAll) => [
     entries: () => [
       ...(hasDisk()
         ? [
-            { name: "Open Config…", does: open },
+            { name: "Open Config…", does: open, ...forControl("file/open") },
             null,
-            { name: "Save Config", keys: "Ctrl+S", does: save },
-            { name: "Save Config As…", keys: "Ctrl+Shift+S", does: saveAs },
+            { name: "Save Config", keys: "Ctrl+S", does: save, ...forControl("file/save") },
+            {
+              name: "Save Config As…",
+              keys: "Ctrl+Shift+S",
+              does: saveAs,
+              ...forControl("file/save-as"),
+            },
           ]
         : []),
       { name: "Download Config", does: download },
@@ -181,6 +190,7 @@ export function MenuBar({ panels, hideAll, small }) {
 function Menu({ menu, choose, leave }) {
   useData("edit/labels");
   useCommand("file/page");
+  useData("role/me");
   /** @type {Ref} */
   const element = useRef(null);
   /** @returns {HTMLElement[]} */
@@ -203,7 +213,7 @@ function Menu({ menu, choose, leave }) {
         : html`<div key=${entry.name}
           role=${entry.checked === undefined ? "menuitem" : "menuitemcheckbox"} tabindex="-1"
           aria-checked=${entry.checked === undefined ? undefined : String(entry.checked)}
-          aria-disabled=${entry.off ? "true" : undefined}
+          aria-disabled=${entry.off ? "true" : undefined} title=${entry.title}
             aria-keyshortcuts=${entry.keys?.replace("Ctrl", "Control")}
           onClick=${() => {
             if (!entry.off) choose(entry);
