@@ -429,3 +429,16 @@ def test_after_the_end_nothing_is_changed_in_silence(
         with pytest.raises(ServerError, match="was stopped"):
             change()
     assert viz.joint_positions[LEFT] == 0.0
+
+
+def test_joints_outside_their_limits_are_named() -> None:
+    arm = (
+        '<robot name="arm"><link name="a"/><link name="b"/><joint name="lift" '
+        'type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>'
+        '<limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>'
+    )
+    with Visualizer(arm, port=0) as viz:
+        assert viz.joints_over_limit == ()
+        viz.set_joint_positions([1.5])
+        assert viz.joints_over_limit == ("lift",)
+        assert viz.joint_positions["lift"] == 1.5

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 from inside import session_of, viser_server
+from PIL import Image
 from protocol_client import ProtocolClient
 
 from sambot_viz import Robot, UsageError, Visualizer, load_robot
@@ -132,6 +134,34 @@ def test_a_link_is_coloured_highlighted_and_has_its_own_look_again(
     for color in wrong:
         with pytest.raises(UsageError, match="color"):
             link.color = color
+
+
+def test_a_texture_is_back_when_the_colour_is_gone(
+    tmp_path: Path, protocol: Protocol
+) -> None:
+    Image.new("RGB", (4, 4), (9, 9, 9)).save(tmp_path / "t.png")
+    file = tmp_path / "box.urdf"
+    file.write_text(
+        '<robot name="box"><link name="box"><visual><geometry><box size="1 1 1"/>'
+        '</geometry><material name="m"><texture filename="file://t.png"/></material>'
+        "</visual></link></robot>".replace("file://", f"file://{tmp_path}/")
+    )
+    with Visualizer(file, port=0) as viz:
+        client = protocol(urlsplit(viz.url).port or 0)
+        client.wait_until(lambda: "GlbMessage" in client.types())
+        client.settle(viz.viser)
+        link = viz.link("box")
+
+        def drawn(color: Any) -> set[str]:
+            mark = client.mark()
+            link.color = color
+            client.settle(viz.viser)
+            kinds = {"GlbMessage", "BoxMessage", "MeshMessage"}
+            return {m.type for m in client.since(mark)} & kinds
+
+        assert drawn((255, 0, 0)) == {"BoxMessage"}
+        assert drawn((0, 255, 0)) == set()
+        assert drawn(None) == {"GlbMessage"}
 
 
 def test_alpha_and_box_of_a_link_are_its_rows(

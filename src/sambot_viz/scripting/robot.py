@@ -47,6 +47,18 @@ class RobotControl:
             return MappingProxyType({} if joints is None else joints.all_positions())
 
     @property
+    def joints_over_limit(self) -> tuple[str, ...]:
+        """The joints whose position is outside their limits: they are shown there.
+
+        The Joints panel names them too. With private sessions, those of the browser
+        that came first.
+        """
+        session = first(self._server.sessions)
+        with session.lock:
+            joints = session.robot.joints
+            return () if joints is None else joints.over_limit()
+
+    @property
     def frames(self) -> FrameView:
         """The frames, for look-ups: ``viz.frames.lookup(target, source)``."""
         session = first(self._server.sessions)
@@ -85,7 +97,9 @@ class RobotControl:
         return self._links.frame(name)
 
     def set_joint_positions(self, positions: Positions) -> None:
-        """Move some joints, in every browser.
+        """Move some joints, in every browser; also outside their limits.
+
+        `joints_over_limit` names those that are outside then.
 
         Args:
             positions: joint → position [rad or m], or a vector of all joints that take

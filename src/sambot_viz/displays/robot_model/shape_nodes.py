@@ -166,7 +166,8 @@ class ShapeNode:
         ):
             if look.error or look.alpha * piece.alpha > 0.0:
                 T = self._shape.origin.matrix @ T_shape_solid
-                yield DrawnTriangles(triangles, T, frame, item, solid, piece.color)
+                color = look.color or piece.color
+                yield DrawnTriangles(triangles, T, frame, item, solid, color)
 
     def remove(self) -> None:
         """Take the nodes out of the scene."""
