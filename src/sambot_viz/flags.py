@@ -29,6 +29,7 @@ SHORTEST_TOKEN = 8
 
 _KEY = "option"
 _BASE_PATH = re.compile(r"/|(/[A-Za-z0-9._~-]+)+")
+_HEADER = re.compile(r"[A-Za-z0-9-]+")
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
 
 
@@ -158,6 +159,14 @@ def check_choice(option: Field[Any], value: object) -> None:
 def new_token() -> str:
     """Return a token that cannot be guessed: 22 characters, 128 bits."""
     return secrets.token_urlsafe(16)
+
+
+def check_header(name: str | None) -> None:
+    """Raise UsageError for what cannot be the name of a header."""
+    if name is not None and not _HEADER.fullmatch(name):
+        raise UsageError(
+            f"'{name}' cannot be the name of a header; give one such as X-Remote-User"
+        )
 
 
 def check_base_path(text: str) -> str:

@@ -21,6 +21,7 @@ from sambot_viz.flags import (
     assignments,
     check_base_path,
     check_choice,
+    check_header,
     check_token,
     declared,
     new_token,
@@ -197,6 +198,14 @@ class Options:
         optional_value="=",
         variable="SAMBOT_VIZ_PRESENTER",
     )
+    trust_user_header: str | None = option(
+        None,
+        "call viewers as this header of a request says, such as X-Remote-User; only "
+        "behind a proxy that sets it and that alone can reach the port: others could "
+        "send any name",
+        "--trust-user-header",
+        metavar="HEADER",
+    )
     session: SessionMode = option(
         "shared",
         "one robot for all pages that are open, or one for each",
@@ -268,6 +277,7 @@ class Options:
                 "as base_link"
             )
         object.__setattr__(self, "base_path", check_base_path(self.base_path))
+        check_header(self.trust_user_header)
         for name in ("token", "presenter"):
             if (secret := getattr(self, name)) is not None:
                 token = check_token(secret, f"--{name}") if secret else new_token()

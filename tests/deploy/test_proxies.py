@@ -10,12 +10,16 @@ import socket
 import ssl
 import subprocess
 import time
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec.msgpack
 import pytest
 import viser
+from a_jupyter import wait_until
+from inside import session_of
+from protocol_client import CAMERA
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
@@ -53,6 +57,7 @@ class Proxy:
     viz: Visualizer
     trust: ssl.SSLContext
     plain_port: int = 0
+    second: Visualizer | None = None
 
     def get(self, path: str, headers: Mapping[str, str]) -> tuple[int, str]:
         """The status and the text of an answer."""
@@ -99,27 +104,37 @@ def certificate(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     return public, private
 
 
+def with_ports(site: str, upstream: list[str]) -> str:
+    """A configuration with other ports of the two robots."""
+    for before, after in zip(
+        ("127.0.0.1:8080", "127.0.0.1:8081"), upstream, strict=True
+    ):
+        assert before in site
+        site = site.replace(before, f"127.0.0.1:{after}")
+    return site
+
+
 @contextlib.contextmanager
 def behind(
-    command: list[str],
+    command: Callable[[list[str]], list[str]],
     port: int,
     certificate: Path,
-    upstream: tuple[int, int],
     plain_port: int = 0,
 ) -> Generator[Proxy]:
-    """Robots at `upstream`, and a proxy on `port` that runs as long as this."""
+    """Two robots, and a proxy on `port` in front of their ports, while this runs."""
     origins = [f"https://localhost:{port}"]
     trust = ssl.create_default_context(cafile=certificate)
-    secrets = {"token": "for-the-class", "presenter": "for-the-teacher"}
+    secrets = {
+        "token": "for-the-class",
+        "presenter": "for-the-teacher",
+        "trust_user_header": "X-Remote-User",
+    }
     with (
-        Visualizer(
-            port=upstream[0], base_path="/robot", allowed_origins=origins
-        ) as viz,
-        Visualizer(
-            port=upstream[1], base_path="/robot2", allowed_origins=origins, **secrets
-        ),
+        Visualizer(base_path="/robot", allowed_origins=origins) as viz,
+        Visualizer(base_path="/robot2", allowed_origins=origins, **secrets) as second,
     ):
-        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        upstream = [str(each.viser.get_port()) for each in (viz, second)]
+        process = subprocess.Popen(command(upstream), stderr=subprocess.PIPE, text=True)
         try:
             for _ in range(200):
                 with contextlib.suppress(OSError):
@@ -127,7 +142,7 @@ def behind(
                     break
                 assert process.poll() is None, process.communicate()[1]
                 time.sleep(0.05)
-            yield Proxy(port, viz, trust, plain_port)
+            yield Proxy(port, viz, trust, plain_port, second)
         finally:
             process.terminate()
             process.communicate(timeout=10.0)
@@ -142,7 +157,7 @@ def an_nginx(
 ) -> Generator[Proxy]:
     """nginx with the file of deploy/, names and ports changed, and these texts."""
     needs("nginx", "openssl")
-    port, plain_port, upstream = free_port(), free_port(), (free_port(), free_port())
+    port, plain_port = free_port(), free_port()
     public, private = certificate
     passwords = tmp_path / "robot.htpasswd"
     hashed = run("openssl", "passwd", "-apr1", PASSWORD).strip()
@@ -156,8 +171,6 @@ def an_nginx(
         ("/etc/ssl/certs/lab.pem", str(public)),
         ("/etc/ssl/private/lab.key", str(private)),
         ("/etc/nginx/robot.htpasswd", str(passwords)),
-        ("8080", str(upstream[0])),
-        ("8081", str(upstream[1])),
     ):
         assert before in site
         site = site.replace(before, after)
@@ -166,13 +179,16 @@ def an_nginx(
         for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
     )
     config = tmp_path / "nginx.conf"
-    config.write_text(
-        f"daemon off; pid {tmp_path}/pid; user root; events {{}}\n"
-        f"http {{ access_log off; {folders}\n{site} }}\n",
-        "utf-8",
-    )
-    command = ["nginx", "-p", str(tmp_path), "-e", "stderr", "-c", str(config)]
-    with behind(command, port, public, upstream, plain_port) as proxy:
+
+    def command(upstream: list[str]) -> list[str]:
+        config.write_text(
+            f"daemon off; pid {tmp_path}/pid; user root; events {{}}\n"
+            f"http {{ access_log off; {folders}\n{with_ports(site, upstream)} }}\n",
+            "utf-8",
+        )
+        return ["nginx", "-p", str(tmp_path), "-e", "stderr", "-c", str(config)]
+
+    with behind(command, port, public, plain_port) as proxy:
         yield proxy
 
 
@@ -189,7 +205,7 @@ def caddy(
     repository: Path, tmp_path: Path, certificate: tuple[Path, Path]
 ) -> Iterator[Proxy]:
     needs("caddy")
-    port, upstream = free_port(), (free_port(), free_port())
+    port = free_port()
     public, private = certificate
     hashed = run("caddy", "hash-password", "--plaintext", PASSWORD).strip()
     site = (repository / "deploy" / "Caddyfile").read_text("utf-8")
@@ -199,16 +215,17 @@ def caddy(
             f"\nlocalhost:{port} {{\n\tbind 127.0.0.1\n\ttls {public} {private}",
         ),
         ("HASH", hashed),
-        ("127.0.0.1:8080", f"127.0.0.1:{upstream[0]}"),
-        ("127.0.0.1:8081", f"127.0.0.1:{upstream[1]}"),
     ):
         assert before in site
         site = site.replace(before, after)
     config = tmp_path / "Caddyfile"
     options = "{\n\tadmin off\n\tauto_https disable_redirects\n}\n"
-    config.write_text(options + site, "utf-8")
-    command = ["caddy", "run", "--adapter", "caddyfile", "--config", str(config)]
-    with behind(command, port, public, upstream) as proxy:
+
+    def command(upstream: list[str]) -> list[str]:
+        config.write_text(options + with_ports(site, upstream), "utf-8")
+        return ["caddy", "run", "--adapter", "caddyfile", "--config", str(config)]
+
+    with behind(command, port, public) as proxy:
         yield proxy
 
 
@@ -250,6 +267,23 @@ def test_a_second_robot_has_the_same_name_and_another_path(proxy: Proxy) -> None
         known = {**LOGIN, "Cookie": cookie}
         assert proxy.get("/robot2/", known)[0] == 200
         assert proxy.connect(known, path="/robot2") > 0
+
+
+def test_viewers_are_called_as_they_have_logged_in(proxy: Proxy) -> None:
+    assert proxy.second is not None
+    roles = session_of(proxy.second).roles
+    spoofed = {**LOGIN, "X-Remote-User": "teacher"}
+    with connect(
+        f"wss://localhost:{proxy.port}/robot2?token=for-the-class",
+        origin=Origin(f"https://localhost:{proxy.port}"),
+        subprotocols=[PROTOCOL],
+        additional_headers=spoofed,
+        ssl=proxy.trust,
+    ) as page:
+        # A client joins with its first camera.
+        camera = {"type": "ViewerCameraMessage", **CAMERA}
+        page.send(msgspec.msgpack.encode(camera))
+        wait_until(lambda: [p.name for p in roles.people.values()] == [NAME], 20.0)
 
 
 def test_nginx_sends_http_to_https(nginx: Proxy) -> None:

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from inside import viser_server
+from inside import session_of, viser_server
 from protocol_client import ROW_PATCH, ProtocolClient
+from websockets.datastructures import Headers
 
 from sambot_viz import UsageError, Visualizer, viser_private
 from sambot_viz.displays.picking.pick_geometry import Selectable
@@ -569,3 +570,30 @@ def test_private_sessions_know_nothing_of_people(protocol: Protocol) -> None:
         client.wait_until(lambda: "people/state" in client.rows)
         state = client.row("people/state")["value"]
         assert not state["copy"] and not state["presented"]
+
+
+@pytest.mark.parametrize(
+    ("trusted", "sent", "name"),
+    [
+        (None, ["Ada"], "Viewer 1"),
+        ("X-Remote-User", ["Ada"], "Ada"),
+        ("X-Remote-User", ["Ada", "Eve"], "Viewer 1"),
+        ("X-Remote-User", [], "Viewer 1"),
+    ],
+)
+def test_only_a_trusted_header_names_a_viewer(
+    make_viz: Callable[..., Visualizer],
+    trusted: str | None,
+    sent: list[str],
+    name: str,
+) -> None:
+    viz = make_viz(presenter="teach-the-class", trust_user_header=trusted)
+    headers = Headers()
+    for one in sent:
+        headers["X-Remote-User"] = one
+    client = ProtocolClient(viz.viser.get_port(), headers=headers)
+    roles = session_of(viz).roles
+    client.wait_until(lambda: bool(roles.people), 20.0)
+    named = [person.name for person in roles.people.values()]
+    client.close()
+    assert named == [name]

@@ -134,3 +134,20 @@ def test_a_presenter_who_loads_the_page_again_is_no_second_one(roles: Roles) -> 
     roles.leave(TEACHER)
     roles.join(5, presenter=True)
     assert roles.people[5].name == "Presenter"
+
+
+def test_a_login_names_its_viewer_who_keeps_that_name(roles: Roles) -> None:
+    cat, again, dog = 4, 5, 6
+    roles.join(cat, presenter=False, login="cat@school\n")
+    roles.join(again, presenter=False, login="cat@school")
+    roles.join(dog, presenter=False, login="Presenter 2")
+    people = roles.people
+    assert people[cat].name == "cat@school"
+    assert people[again].name == "cat@school 2"
+    assert people[dog].name.startswith("Viewer")
+    roles.greet(cat, "Ben")
+    roles.request(cat, "Ben")
+    assert roles.people[cat].requests and roles.people[cat].name == people[cat].name
+    for by in (cat, TEACHER):
+        with pytest.raises(UsageError, match="that of the login"):
+            roles.rename(by, cat, "Ben")

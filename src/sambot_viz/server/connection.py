@@ -37,12 +37,14 @@ class ClientContext:
         copy: whether it is to show a private copy of the shared session.
         ticket: which page it belongs to; "" for a program that has sent none.
         channel: whether it is a page's channel, and not viser's connection.
+        login: the name by which a trusted proxy knows the user; "" without one.
     """
 
     presenter: bool = False
     copy: bool = False
     ticket: str = ""
     channel: bool = False
+    login: str = ""
 
 
 class Connection(ServerConnection):

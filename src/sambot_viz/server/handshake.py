@@ -105,7 +105,7 @@ def checked(
             request.path = without_base(request.path, options.base_path)
             request.path, copy = without_copy(request.path)
             presenter = check_token.is_presenter(request)
-            connection.context = _context(request, presenter, copy)
+            connection.context = _context(request, presenter, copy, options)
             is_page = page_files.is_page(request) and not connection.context.channel
             if is_page and not presenter and limiter.is_full(_pages(connection)):
                 return limiter.refusal()
@@ -160,14 +160,21 @@ def checked(
         module.serve = original  # type: ignore[assignment, misc]
 
 
-def _context(request: Request, presenter: bool, copy: bool) -> ClientContext:
+def _context(
+    request: Request, presenter: bool, copy: bool, options: Options
+) -> ClientContext:
     """Return what a request says of its client."""
     query = parse_qs(request.path.partition("?")[2])
     ticket = query.get("ticket", [""])[-1]
     offered = ",".join(request.headers.get_all("Sec-WebSocket-Protocol"))
     channel = SUBPROTOCOL in map(str.strip, offered.split(","))
     known = ticket if _TICKET.fullmatch(ticket) else ""
-    return ClientContext(presenter, copy, known, channel)
+    logins: list[str] = []
+    if options.trust_user_header is not None:
+        logins = request.headers.get_all(options.trust_user_header)
+    # Of two, one may be the client's own.
+    login = logins[0].strip() if len(logins) == 1 else ""
+    return ClientContext(presenter, copy, known, channel, login)
 
 
 def _panels(request: Request, options: Options) -> bool:

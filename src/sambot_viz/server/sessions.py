@@ -401,7 +401,7 @@ class Sessions:
     def _give_view(
         self, session: Session, client: viser.ClientHandle, context: ClientContext
     ) -> None:
-        session.join(client, presenter=context.presenter)
+        session.join(client, presenter=context.presenter, login=context.login)
         with self._joined:
             self._joined.notify_all()
         self.on_joined()

@@ -123,10 +123,18 @@ class Session:
         for frame in options.transforms:
             self.frames.add(frame.parent, frame.child, frame.transform)
 
-    def join(self, handle: viser.ClientHandle, *, presenter: bool = False) -> Client:
-        """Add a client that has opened the page, maybe at the presenter's address."""
+    def join(
+        self, handle: viser.ClientHandle, *, presenter: bool = False, login: str = ""
+    ) -> Client:
+        """Add a client that has opened the page.
+
+        Args:
+            handle: the client.
+            presenter: whether the page was opened by the presenter's link.
+            login: the name by which a trusted proxy knows the user; "" without one.
+        """
         with self.lock:
-            self.roles.join(handle.client_id, presenter)
+            self.roles.join(handle.client_id, presenter, login)
             return self.clients.join(handle)
 
     def leave(self, client_id: int) -> None:

@@ -15,8 +15,11 @@ from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
 from sambot_viz.session.signals import Change, Signal
+from sambot_viz.text import text
 
 LONGEST_NAME = 40
+_LONGEST_LOGIN = 36
+"""A number may follow, when several pages have the same login."""
 VIEW_ONLY = "view only: request control, or open your own copy"
 
 
@@ -30,6 +33,7 @@ class Participant:
         name: what the others read.
         has_control: whether it may change the session.
         requests: whether it waits for control.
+        known: whether the name is that of a login, which cannot be changed.
     """
 
     number: int
@@ -37,6 +41,7 @@ class Participant:
     name: str
     has_control: bool
     requests: bool = False
+    known: bool = False
 
 
 class Roles:
@@ -66,8 +71,14 @@ class Roles:
         """The number of each client, and its user."""
         return dict(self._people)
 
-    def join(self, client_id: int, presenter: bool) -> None:
-        """Add the user of a client that has opened the page."""
+    def join(self, client_id: int, presenter: bool, login: str = "") -> None:
+        """Add the user of a client that has opened the page.
+
+        Args:
+            client_id: the client.
+            presenter: whether it was opened by the presenter's link.
+            login: the name by which a trusted proxy knows the user; "" without one.
+        """
         taken = {person.number for person in self._people.values() if person.presenter}
         free = next(n for n in itertools.count(1) if n not in taken)
         number = free if presenter else next(self._viewers)
@@ -75,7 +86,14 @@ class Roles:
         if presenter:
             name = self._presenters.setdefault(number, f"Presenter {number}")
         has_control = presenter or not self.presented
-        self._people[client_id] = Participant(number, presenter, name, has_control)
+        person = Participant(number, presenter, name, has_control)
+        self._people[client_id] = person
+        if login:
+            # One that looks like a presenter's is not taken.
+            with suppress(UsageError):
+                login = text(login, _LONGEST_LOGIN)
+                self._name(client_id, self._free_name(login, client_id))
+                person.known = not presenter
         self.changed.touch()
 
     def leave(self, client_id: int) -> None:
@@ -101,7 +119,7 @@ class Roles:
             UsageError: as for `rename`.
         """
         person = self._people[client_id]
-        self._name(client_id, name)
+        self._name(client_id, "" if person.known else name)
         person.requests = not person.has_control
         self.changed.touch()
 
@@ -134,6 +152,8 @@ class Roles:
 
     def _name(self, client_id: int, name: str) -> None:
         person = self._people[client_id]
+        if person.known and name:
+            raise UsageError("this name is that of the login")
         if len(name) > LONGEST_NAME:
             raise UsageError(f"a name has at most {LONGEST_NAME} characters")
         name = " ".join(name.split())
