@@ -81,6 +81,19 @@ def test_a_robot_is_removed_with_those_that_hang_at_it(viz: Visualizer) -> None:
     assert repr(again) == "<robot 'arm' as 'arm'>"
 
 
+def test_a_robot_that_has_just_moved_is_removed(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    arm = viz.add_robot(ARM, "arm")
+    for position in (0.1, 0.2, 0.3):
+        arm.set_joint_positions([position])
+    arm.remove()
+    viz.set_joint_positions([0.5, 0.5])
+    client.settle(viz.viser)
+    client.wait_until(lambda: client.shown("joints", LEFT) == 0.5)
+    assert session_of(viz).problems.shown.value.listed == ()
+
+
 def test_what_is_wrong_is_said(viz: Visualizer) -> None:
     viz.add_robot(ARM, "arm")
     for name in ("", "arm", "/arm", "arm/"):

@@ -83,6 +83,8 @@ class RobotState:
         known = self.first
         self.first = {n: known.get(n, q) for n, q in self.joints.positions.items()}
         self.recorder.clear(self.joints.positions)
+        # The tree is built with these positions; joints that moved may be gone.
+        self._moved.clear()
         joints = model.joints.values()
         moving = {plain_name(j.child): j.type for j in joints if j.movable}
         self._scene.take_robot(model, moving)
