@@ -126,6 +126,9 @@ def test_a_private_copy_and_back(
     user.enter(user.row("Joints", LEFT).one("textbox"), "-2")
     user.until(lambda: len(viz.server.sessions.all()) == 2)
     teacher.user.reads("You are in control, no viewers")
+    assert "new private copy" not in user.see().text
+    guest.page.goto(f"{viz.url}/copy/")
+    user.reads("This is a new private copy of the shared robot as it is now")
     people(user, "Back to the shared robot")
     user.reads("Presenter is in control, 1 viewer")
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")

@@ -143,3 +143,20 @@ def test_a_presenters_secret_of_ones_own_is_written_in_one_word(tmp_path: Path) 
     ) as process:
         assert address(process).startswith("http://127.0.0.1:")
         assert address(process).endswith("/?token=for-the-teacher")
+
+
+def test_behind_a_proxy_the_links_that_browsers_can_open_are_printed_too(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "arm.urdf").write_text(ARM)
+    words = ["--token=for-the-class", "--presenter=for-the-teacher", "arm.urdf"]
+    proxy = ["--allow-origin", "https://lab.example.org", "--base-path", "/robot"]
+    with running(*words, *proxy, "--port", "0", cwd=tmp_path) as process:
+        assert address(process).startswith("http://127.0.0.1:")
+        assert process.stderr is not None
+        lines = [process.stderr.readline().strip() for _ in range(2)]
+    page = "https://lab.example.org/robot/?token="
+    assert lines == [
+        f"sambot-viz: from other machines, viewers: {page}for-the-class",
+        f"sambot-viz: from other machines, presenter: {page}for-the-teacher",
+    ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from sambot_viz.options import Options
-from sambot_viz.server import links
+from sambot_viz.server import links, listener
 
 
 def options(**given: object) -> Options:
@@ -59,7 +59,7 @@ def test_the_link_of_presenters_is_another_one() -> None:
         token="secret-word",
         presenter="teach-the-class",
     )
-    assert links.public_url(given) == "https://lab.example.org/?token=secret-word"
-    presenter = links.public_url(given, presenter=True)
+    assert listener.public_url(given) == "https://lab.example.org/?token=secret-word"
+    presenter = listener.public_url(given, presenter=True)
     assert presenter == "https://lab.example.org/?token=teach-the-class"
-    assert links.public_url(options()) is None
+    assert listener.public_url(options()) is None

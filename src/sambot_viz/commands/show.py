@@ -72,7 +72,7 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
     from sambot_viz.server.access import only_this_machine
-    from sambot_viz.server.listener import listen, reachable_at
+    from sambot_viz.server.listener import listen, public_url, reachable_at
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)
@@ -86,9 +86,14 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
             _announce(link(presenter=True), given.open, "presenter: ")
         else:
             _announce(link(), given.open)
+        # What others can open: behind a proxy not the address that is listened on.
+        public = public_url(options)
+        if public is not None:
+            _invite(public, public_url(options, presenter=True) if presented else None)
         if not only_this_machine(options.host):
             here = reachable_at(options.host)
-            _invite(link(here), link(here, presenter=True) if presented else None)
+            if public is None:
+                _invite(link(here), link(here, presenter=True) if presented else None)
             if options.token is None:
                 sys.stderr.write(_OPEN_TO_ALL.format(listener.viser.get_port()))
         inputs.begin()

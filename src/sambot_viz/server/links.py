@@ -1,4 +1,4 @@
-"""The links that are given to others: for viewers, and for the presenter."""
+"""The link that is given to viewers, from the page."""
 
 from __future__ import annotations
 
@@ -7,25 +7,7 @@ from urllib.parse import urlsplit
 from sambot_viz.options import Options
 from sambot_viz.panels.people import Invitation
 from sambot_viz.server.access import only_this_machine
-from sambot_viz.server.listener import reachable_at
-
-
-def with_token(base: str, token: str | None) -> str:
-    """Return the address of a page with a secret in it."""
-    return base if token is None else f"{base.rstrip('/')}/?token={token}"
-
-
-def public_url(options: Options, *, presenter: bool = False) -> str | None:
-    """Return the link at the first allowed origin, where a proxy shows the page.
-
-    Returns:
-        None when no origin was allowed.
-    """
-    if not options.allowed_origins:
-        return None
-    path = "" if options.base_path == "/" else options.base_path
-    token = options.presenter if presenter else options.token
-    return with_token(f"{options.allowed_origins[0]}{path}", token)
+from sambot_viz.server.listener import public_url, reachable_at, with_token
 
 
 def invite(options: Options, opened_at: str) -> Invitation:

@@ -95,8 +95,7 @@ class Listener:
         host = host or _ANYWHERE.get(own, own)
         name = f"[{host}]" if ":" in host else host
         path = "" if options.base_path == "/" else options.base_path
-        query = "" if token is None else f"/?token={token}"
-        return f"http://{name}:{self.viser.get_port()}{path}{query}"
+        return with_token(f"http://{name}:{self.viser.get_port()}{path}", token)
 
     def __enter__(self) -> Listener:
         """Return this listener, which the end of the block closes."""
@@ -114,6 +113,24 @@ class Listener:
         if path is not None:
             with suppress(OSError):
                 os.unlink(path)
+
+
+def with_token(base: str, token: str | None) -> str:
+    """Return the address of a page with a secret in it."""
+    return base if token is None else f"{base.rstrip('/')}/?token={token}"
+
+
+def public_url(options: Options, *, presenter: bool = False) -> str | None:
+    """Return the link at the first allowed origin, where a proxy shows the page.
+
+    Returns:
+        None when no origin was allowed.
+    """
+    if not options.allowed_origins:
+        return None
+    path = "" if options.base_path == "/" else options.base_path
+    token = options.presenter if presenter else options.token
+    return with_token(f"{options.allowed_origins[0]}{path}", token)
 
 
 def reachable_at(host: str) -> str:

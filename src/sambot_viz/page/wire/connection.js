@@ -88,6 +88,7 @@ export function followConnection() {
     if (!before || !(lost || kept)) return;
     const then = before,
       silent = kept && !kept.stuck,
+      here = kept?.at === location.pathname,
       again = rows.data("names/session");
     const loaded = Boolean(kept);
     lost = false;
@@ -115,7 +116,8 @@ export function followConnection() {
       flush();
     };
     whenJoints();
-    say(again?.again || "", then, flush(), Boolean(silent));
+    const copied = Boolean(silent && here && rows.data("people/state")?.copy);
+    say(copied ? NEW_COPY : again?.again || "", then, flush(), Boolean(silent), copied);
   });
   rows.listen("joints/untouched", () => whenJoints());
   addEventListener("pagehide", (event) => {
@@ -131,9 +133,13 @@ export function followConnection() {
   });
 }
 
+/** What a user reads who has loaded the page of a private copy again. */
+const NEW_COPY =
+  "This is a new private copy of the shared robot as it is now; the one before has ended.";
+
 /** Say that the connection is back, and what is not as before.
- * @param {string} again why @param {Memory} before @param {number} dropped edits @param {boolean} [quiet] when all is as before */
-function say(again, before, dropped, quiet = false) {
+ * @param {string} again why @param {Memory} before @param {number} dropped edits @param {boolean} [quiet] when all is as before @param {boolean} [news] why is said also then */
+function say(again, before, dropped, quiet = false, news = false) {
   const lost = lostOf(before),
     other = otherConfig(before);
   if (dropped)
@@ -142,7 +148,7 @@ function say(again, before, dropped, quiet = false) {
         ? `${dropped} changes that you made meanwhile`
         : "a change that you made meanwhile",
     );
-  if (quiet && !lost.length && !other) return said.set(null);
+  if (quiet && !news && !lost.length && !other) return said.set(null);
   // A user who has loaded the page again has lost no connection.
   const back = {
     text: quiet ? again : `The connection is back. ${again}`.trim(),
