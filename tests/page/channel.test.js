@@ -145,6 +145,30 @@ test("a server that does not answer is left, and tried again", async () => {
   back();
 });
 
+test("a clock that is set forward or back neither ends a connection nor hides its end", async (context) => {
+  heard.length = 0;
+  const now = last();
+  let shift = 0;
+  const clock = Date.now;
+  context.mock.method(Date, "now", () => clock() + shift);
+  for (const hour of [1, -1]) {
+    const pings = now.pings;
+    for (let second = 0; second < 11 && now.pings === pings; second++) mock.timers.tick(1000);
+    assert.equal(now.pings, pings + 1);
+    shift += hour * 3600_000;
+    await say("pong");
+    for (let second = 0; second < 6; second++) mock.timers.tick(1000);
+    assert.deepEqual([last(), heard], [now, []]);
+  }
+  // Nothing comes any more, and what came last seems to come from the future.
+  shift -= 3600_000;
+  for (let second = 0; second < 16; second++) mock.timers.tick(1000);
+  assert.deepEqual(heard, [CUT]);
+  await wait(100);
+  await say({ of: "browser", all: true, panels: {} });
+  back();
+});
+
 test("a long message is unpacked, and those behind it wait for it", async () => {
   const content = JSON.stringify({ of: "browser", all: true, panels: { q: [{ id: "q" }] } });
   const packed = new Uint8Array([1, ...gzipSync(content)]);

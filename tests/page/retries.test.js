@@ -100,6 +100,16 @@ test("a connection that seems to be there while another one is not is opened aga
   assert.equal(server.opened, 1);
 });
 
+test("a clock that is set forward does not end the tries", async (context) => {
+  const { server, lose, ended } = page();
+  lose();
+  await pass(2);
+  const clock = Date.now;
+  context.mock.method(Date, "now", () => clock() + 3600_000);
+  await pass(10);
+  assert.deepEqual([server.asked.length, ended.includes(true)], [4, false]);
+});
+
 test("a page that is left asks no more", async () => {
   const { server, retries, lose } = page();
   lose();

@@ -63,7 +63,7 @@ export function followConnection() {
     lost = true;
     before = remember();
     goOffline();
-    said.set({ tries: 0, status: 0, ended: false });
+    said.set({ tries: 0, waited: 0, status: 0, ended: false });
   };
   rows.listen(CUT, cut);
   rows.listen(REMOVED, () => {

@@ -20,8 +20,9 @@ const HANGS = 6000;
  * One of the connections that a page needs.
  * @typedef {{ready: boolean, opening: boolean, open: () => void}} Part ready: it works;
  *   opening: it was opened, and may still come
- * @typedef {{tries: number, status: number, ended: boolean}} State tries: since the connection
- *   was lost; status: of the last answer, 0 for none; ended: the page asks no more by itself
+ * @typedef {{tries: number, waited: number, status: number, ended: boolean}} State tries: since
+ *   the connection was lost; waited: between them [ms], whatever a clock says that may be set
+ *   meanwhile; status: of the last answer, 0 for none; ended: the page asks no more by itself
  */
 
 export class Retries {
@@ -34,7 +35,6 @@ export class Retries {
     this.listeners = [];
     /** @type {State | null} */
     this.state = null;
-    this.since = 0;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     this.left = false;
@@ -48,8 +48,7 @@ export class Retries {
   }
 
   begin() {
-    this.state = { tries: 0, status: 0, ended: false };
-    this.since = Date.now();
+    this.state = { tries: 0, waited: 0, status: 0, ended: false };
   }
 
   /** A part is ready; when all are, there is nothing to try. */
@@ -71,7 +70,8 @@ export class Retries {
     const { state } = this;
     if (!state || this.left) return;
     const wait = WAITS[Math.min(state.tries, WAITS.length - 1)];
-    state.ended = Date.now() + wait - this.since > PATIENCE;
+    state.waited += wait;
+    state.ended = state.waited > PATIENCE;
     for (const listener of this.listeners) listener(state);
     clearTimeout(this.timer);
     if (!state.ended) this.timer = setTimeout(() => this.try(), wait);
@@ -87,7 +87,7 @@ export class Retries {
     if (status === 200) {
       // It is there again: what does not get through now may do so soon.
       if (state.status !== 200) state.tries = 1;
-      const hangs = state.tries > 2 && Date.now() - this.since > HANGS;
+      const hangs = state.tries > 2 && state.waited > HANGS;
       for (const part of this.parts) if (!part.opening && (!part.ready || hangs)) part.open();
     }
     state.status = status;

@@ -31,7 +31,7 @@ export class Socket {
     this.follower = follower;
     /** Whether messages have come: the server knows the page, and takes its edits. */
     this.ready = false;
-    /** When the server was heard last. */
+    /** How often the server was heard: a clock may be set meanwhile. */
     this.heard = 0;
     /** @type {WebSocket | null} */
     this.socket = null;
@@ -58,7 +58,7 @@ export class Socket {
     // Messages are taken in their order; one that has to be unpacked holds up the others.
     let last = Promise.resolve();
     socket.onmessage = ({ data }) => {
-      this.heard = Date.now();
+      this.heard += 1;
       last = last
         .then(async () => {
           const message = await decoded(data);
@@ -102,12 +102,12 @@ export class Socket {
 
   /** Ask whether the server is there, and give the connection up when it does not answer. */
   ask() {
-    const { socket } = this;
+    const { socket, heard } = this;
     if (!socket || !this.ready) return;
     const at = Date.now();
     socket.send('"ping"');
     setTimeout(() => {
-      if (this.socket !== socket || this.heard >= at) return;
+      if (this.socket !== socket || this.heard !== heard) return;
       // This timer ran late, perhaps after a sleep: what has come meanwhile was not read yet.
       if (Date.now() - at > 2 * ANSWER) return this.ask();
       this.end();
