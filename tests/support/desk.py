@@ -24,6 +24,8 @@ MODELS: dict[str, Callable[[Path], str]] = {
 }
 """Letter of the tasks → URDF; "S" is the robot that comes with the program."""
 
+_START_TIME = 30.0
+"""Until a page shows its robot; on a busy machine a large one takes long [s]."""
 _TOOLS = ("toolbar", "Tools")
 _NOTHING = (330.0, 60.0)
 """A place of the page where the 3D view shows nothing of a robot."""
@@ -134,7 +136,9 @@ class Desk:
     def _wait_for_robot(self) -> None:
         """Wait until the page shows the robot from near: Orbit begins 10 m away."""
         distance = ("Views", "Current View", "Distance")
-        self.user.until(lambda: self.user.row(*distance).one("textbox").value != "10")
+        self.user.until(
+            lambda: self.user.row(*distance).one("textbox").value != "10", _START_TIME
+        )
 
     def tidy(self) -> None:
         """Put everything back as it was, by what the page offers for that.
