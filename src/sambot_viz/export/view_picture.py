@@ -24,7 +24,7 @@ LONGEST_WAIT = 60.0
 _TICKET = "new URL(sambotSocket).searchParams.get('ticket')"
 _EVERYTHING_IS_THERE = """(() => {
   const look = window.sambotVizLook, page = window.__viserMutable;
-  if (!look || !page || !look.frames) return false;
+  if (!look || !page || !look.frames || look.waiting) return false;
   const nodes = Object.entries(window.__viserSceneTree.getState());
   if (nodes.length < %d) return false;
   const names = nodes.filter(([, node]) => node.message.type === "LabelMessage");

@@ -15,12 +15,13 @@
 
 import { currentLook } from "./look.js";
 import { keepSharp } from "./sharp.js";
-import { STUDIO_LIT, studioUniform } from "./studio.js";
+import { GLOW, prepareStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
 
 const look = {
   lit: 0,
   unlit: 0,
   studio: 0,
+  waiting: 0,
   names: 0,
   boxes: 0,
   frames: 0,
@@ -68,7 +69,13 @@ const adoptLabels = (material) => {
   const source = material.fragmentShader;
   if (source.includes("0.85 * vAlpha")) {
     material.fragmentShader =
-      ON_SCREEN + source.replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen");
+      ON_SCREEN +
+      TAG.begin +
+      source
+        .replace("0.85 * vAlpha", "0.85 * vAlpha * vOnScreen")
+        .replace(/\}\s*$/, `${TAG.color}}`);
+    material.vertexShader = TAG.begin + material.vertexShader;
+    material.uniforms = { ...material.uniforms, uStudio: studioUniform };
     boxes.add(material);
     look.boxes += 1;
   } else if (source.includes("gl_FragColor = vec4(0.0, 0.0, 0.0, a)")) {
@@ -83,10 +90,17 @@ const adoptLabels = (material) => {
     ON_SCREEN +
     material.vertexShader.replace(
       corner,
-      corner + "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;",
+      corner +
+        "\n  vOnScreen = aParams.x;\n  if (aParams.x < 0.5) local.y += 0.27 * 64.0 * scale;" +
+        (boxes.has(material) ? TAG.place : ""),
     );
   material.needsUpdate = true;
 };
+
+/** The objects that viser draws the background and the boxes of names on. @type {any} */
+let background = null;
+/** @type {any} */
+let tags = null;
 
 /**
  * Let the background fill the picture whatever the camera. viser draws it on a
@@ -101,6 +115,10 @@ const adoptBackground = (object) => {
     anchor,
     "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);",
   );
+  const color = "vec4 color = texture(colorMap, vUv);";
+  material.fragmentShader = GLOW.begin + material.fragmentShader.replace(color, color + GLOW.color);
+  material.uniforms.uStudio = studioUniform;
+  background = object;
   material.needsUpdate = true;
   object.frustumCulled = false;
   look.backgrounds += 1;
@@ -148,7 +166,10 @@ const visit = (object) => {
   if (material !== undefined) {
     if (Array.isArray(material)) for (const one of material) adopt(one, object);
     else adopt(material, object);
-    if (boxes.has(material)) labels += object.geometry.instanceCount;
+    if (boxes.has(material)) {
+      labels += object.geometry.instanceCount;
+      if (material.depthTest) tags = object;
+    }
   }
   for (const child of object.children) visit(child);
 };
@@ -201,13 +222,15 @@ const hook = () => {
     /** @type {any} */ camera,
   ) => {
     renderer.toneMapping = 0;
-    studioUniform.value = currentLook() === "studio" ? 1 : 0;
     followZoom(camera);
     eye = camera.matrixWorld;
     renderer.setTransparentSort(farFirst);
     labels = 0;
     visit(scene);
     look.labels = labels;
+    const studio = currentLook() === "studio";
+    look.waiting = prepareStudio(studio, scene, camera, background, tags);
+    if (look.waiting) mutable.requestRender?.();
     look.frames += 1;
   };
   if (mutable.requestRender) mutable.requestRender();

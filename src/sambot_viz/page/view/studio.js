@@ -1,9 +1,14 @@
 // @ts-check
-/* The look "Studio": soft light from above, a fill from the other side, a rim, and a shoulder
+/* The look "Studio": round shapes (studio_shapes.js), a shadow where the robot stands
+ * (studio_shadow.js), names beside each other (studio_names.js), and soft light from above, a fill from the other side, a rim, and a shoulder
  * in place of blown-out whites. The lights are at the camera and above, so that a robot is well
  * lit from wherever it is seen. All of it is in the shaders of the shapes themselves: no light
  * of three.js, no shadow map, no further picture.
  */
+
+import { moveNames } from "./studio_names.js";
+import { beginShapes, putBack, roundOff, waitingShapes } from "./studio_shapes.js";
+import { drawShadow, dropShadow } from "./studio_shadow.js";
 
 /** Linear light to what a screen shows; what is brighter than white bends to it. */
 const SHOULDER = `
@@ -36,3 +41,110 @@ export const STUDIO_LIT = { begin: SHOULDER, shade: LIT };
 
 /** 1 in Studio, 0 in RViz's look: the shaders of what both draw read it. */
 export const studioUniform = { value: 0 };
+
+/** The background glows where the robot is; its corners keep the colour of the config. */
+export const GLOW = {
+  begin: "uniform float uStudio;\n",
+  color: `
+  float sGlow = uStudio * (1.0 - smoothstep(0.0, 1.0, length((vUv - vec2(0.5, 0.52)) * 1.45)));
+  float sGrain = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
+  float sDark = 1.0 - dot(color.rgb, vec3(0.3, 0.59, 0.11));
+  color.rgb += sGlow * (0.17 * sDark * vec3(0.93, 1.0, 1.08) + sGrain / 128.0);
+`,
+};
+
+/** Behind a name is a dark tag with round ends. */
+export const TAG = {
+  begin: "uniform float uStudio;\nvarying vec2 vTag;\nvarying vec2 vTagSize;\n",
+  place: "\n  vTag = (corner - 0.5) * aRect.zw;\n  vTagSize = aRect.zw;",
+  color: `
+  if (uStudio > 0.5 && vOnScreen < 0.5) {
+    vec2 sHalf = 0.5 * vTagSize - vec2(0.0, 6.0);
+    float sRound = 0.6 * sHalf.y;
+    float sOut = length(max(abs(vTag) - sHalf + sRound, 0.0)) - sRound;
+    gl_FragColor = vec4(0.05, 0.06, 0.07, 0.5 * vAlpha * (1.0 - smoothstep(-3.0, 1.0, sOut)));
+  }
+`,
+};
+
+/** How far the camera is from what it looks at [m]. */
+const focus = { value: 1 };
+/** Which line materials have our shader. @type {WeakMap<object, {transparent: boolean}>} */
+const faded = new WeakMap();
+/** Let the lines of a grid fade to its rim and to the horizon. @param {any} object */
+function fade(object) {
+  const { material, geometry } = object;
+  if (faded.has(material)) return;
+  faded.set(material, { transparent: material.transparent });
+  if (!geometry.boundingSphere) geometry.computeBoundingSphere();
+  // A grid is a square: its corners are farther out than its sides.
+  const rim = Math.max(1e-3, geometry.boundingSphere.radius * Math.SQRT1_2).toExponential(4);
+  material.onBeforeCompile = (/** @type {any} */ shader) => {
+    shader.uniforms.uFocus = focus;
+    shader.vertexShader = `varying vec2 vFar;\n${shader.vertexShader}`.replace(
+      "#include <project_vertex>",
+      "#include <project_vertex>\n  vFar = vec2(length(position.xz), length(mvPosition.xyz));",
+    );
+    shader.fragmentShader =
+      `varying vec2 vFar;\nuniform float uFocus;\n${shader.fragmentShader}`.replace(
+        "#include <opaque_fragment>",
+        `diffuseColor.a *= (1.0 - smoothstep(0.6, 1.0, vFar.x / float(${rim})))
+        * (1.0 - smoothstep(1.6, 7.0, vFar.y / uFocus));
+      #include <opaque_fragment>`,
+      );
+  };
+  material.customProgramCacheKey = () => `sambot-fade-${rim}`;
+  material.transparent = true;
+  material.needsUpdate = true;
+}
+
+/** @param {any} object */
+function unfade({ material }) {
+  const had = faded.get(material);
+  if (!had) return;
+  faded.delete(material);
+  material.onBeforeCompile = () => undefined;
+  material.customProgramCacheKey = () => "";
+  material.transparent = had.transparent;
+  material.needsUpdate = true;
+}
+
+/** Whether the picture before was drawn in Studio. */
+let was = false;
+
+/**
+ * Prepare a picture; called before it is drawn.
+ * @param {boolean} studio
+ * @param {any} scene
+ * @param {any} camera
+ * @param {any} background the object that viser draws the background on
+ * @param {any} names the boxes behind all names
+ * @returns {number} how many meshes are not as they will be
+ */
+export function prepareStudio(studio, scene, camera, background, names) {
+  if (!studio && !was) return 0;
+  was = studio;
+  studioUniform.value = studio ? 1 : 0;
+  const distance = window.__viserMutable?.cameraControl?.distance;
+  focus.value = Math.max(0.5, distance || 1);
+  /** @type {any[]} */
+  const seen = [];
+  beginShapes();
+  const visit = (/** @type {any} */ object) => {
+    const { material } = object;
+    if (material?.isMeshStandardMaterial && object.isMesh) {
+      if (studio) roundOff(object);
+      else putBack(object);
+      if (!object.isInstancedMesh && material.opacity > 0.05) seen.push(object);
+    } else if (material?.isLineBasicMaterial && object.isLineSegments) {
+      if (studio) fade(object);
+      else unfade(object);
+    }
+  };
+  if (studio) scene.traverseVisible(visit);
+  else scene.traverse(visit);
+  if (names) moveNames(names, camera, studio);
+  if (studio && background) drawShadow(scene, background, seen);
+  else dropShadow();
+  return waitingShapes();
+}
