@@ -13,8 +13,8 @@ import { drawShadow, dropShadow } from "./studio_shadow.js";
 /** Linear light to what a screen shows; what is brighter than white bends to it. */
 const SHOULDER = `
 vec3 sambotShown(vec3 c) {
-  vec3 bent = 0.7 + 0.3 * tanh((c - 0.7) / 0.3);
-  c = mix(c, bent, step(0.7, c));
+  vec3 over = max(vec3(0.0), c - 0.7);
+  c = min(c, 0.7) + 0.3 * over / (0.3 + over);
   return mix(1.055 * pow(c, vec3(0.41666)) - 0.055, c * 12.92,
              vec3(lessThanEqual(c, vec3(0.0031308))));
 }
@@ -31,9 +31,13 @@ vec3 sLight = mix(vec3(0.15, 0.145, 0.14), vec3(0.36, 0.39, 0.43), sSky);
 sLight += vec3(0.80, 0.77, 0.72) * max(0.0, (dot(sN, sKey) + 0.15) / 1.15);
 sLight += vec3(0.13, 0.15, 0.18) * max(0.0, dot(sN, sFill));
 float sShine = max(0.0, dot(sN, normalize(sKey + sV)));
-float sRim = pow(1.0 - sFacing, 3.5) * (0.25 + 0.75 * sSky);
-vec3 sGloss = vec3(0.09 * pow(sShine, 40.0) + 0.03 * pow(sShine, 8.0))
-  + vec3(0.10, 0.11, 0.13) * sRim;
+sShine *= sShine;
+sShine *= sShine;
+sShine *= sShine;
+float sGlint = sShine * sShine;
+sGlint *= sGlint;
+float sRim = (1.0 - sFacing) * (1.0 - sFacing) * (1.0 - sFacing) * (0.25 + 0.75 * sSky);
+vec3 sGloss = vec3(0.09 * sGlint + 0.03 * sShine) + vec3(0.10, 0.11, 0.13) * sRim;
 outgoingLight = sambotShown(totalEmissiveRadiance + diffuseColor.rgb * sLight + sGloss);
 `;
 /** The material of a lit shape: what its shader is to have, as rviz_look.js rewrites it. */
@@ -46,10 +50,14 @@ export const studioUniform = { value: 0 };
 export const GLOW = {
   begin: "uniform float uStudio;\n",
   color: `
-  float sGlow = uStudio * (1.0 - smoothstep(0.0, 1.0, length((vUv - vec2(0.5, 0.52)) * 1.45)));
-  float sGrain = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
-  float sDark = 1.0 - dot(color.rgb, vec3(0.3, 0.59, 0.11));
-  color.rgb += sGlow * (0.17 * sDark * vec3(0.93, 1.0, 1.08) + sGrain / 128.0);
+  if (uStudio > 0.5) {
+    vec2 sOff = (vUv - vec2(0.5, 0.52)) * 1.45;
+    float sGlow = max(0.0, 1.0 - dot(sOff, sOff));
+    // Grain of less than a step of a screen's colours hides the edges between these.
+    float sGrain = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403))) - 0.5;
+    float sDark = 1.0 - color.g;
+    color.rgb += sGlow * (sGlow * 0.17 * sDark * vec3(0.93, 1.0, 1.08) + sGrain / 128.0);
+  }
 `,
 };
 
@@ -103,8 +111,9 @@ function unfade({ material }) {
   const had = faded.get(material);
   if (!had) return;
   faded.delete(material);
-  material.onBeforeCompile = () => undefined;
-  material.customProgramCacheKey = () => "";
+  // Those of its class are there again.
+  delete material.onBeforeCompile;
+  delete material.customProgramCacheKey;
   material.transparent = had.transparent;
   material.needsUpdate = true;
 }
