@@ -59,6 +59,8 @@ def test_few_commands_are_for_viewers_too() -> None:
         # What somebody did as a viewer.
         *("edit/undo", "edit/redo"),
         *("file/download", "file/page", "file/picture", "frames/show", "joints/copy"),
+        # What is drawn or listed in one page alone.
+        *("poses/show", "tools/double_click"),
         *("permalink/copy", "permalink/open"),
         *(
             "role/request",

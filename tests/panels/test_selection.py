@@ -89,7 +89,25 @@ def test_three_items_come_folded(panel: SelectionPanel, client: Client) -> None:
     assert [row.expanded for row in heads] == [True, True]
     client.tools.select({Selectable("link", "base_link")}, "shift")
     heads = [row for row in panel.rows() if row.kind == "group"]
-    assert [row.expanded for row in heads] == [False, False, False]
+    assert heads[0].name == "Distances [m]"
+    assert [row.expanded for row in heads[1:]] == [False, False, False]
+
+
+def test_more_than_two_items_have_a_table_of_distances(
+    panel: SelectionPanel, client: Client, viz: Visualizer
+) -> None:
+    client.tools.select({LEFT, RIGHT}, None)
+    client.tools.select({Selectable("link", "base_link")}, "shift")
+    before = rows_of(panel)["apart/table"].value
+    assert [line.split() for line in before.split("\n")] == [
+        ["1", "2", "3"],
+        ["1", LEFT.name, "-", "0.36", "0.222"],
+        ["2", RIGHT.name, "0.36", "-", "0.222"],
+        ["3", "base_link", "0.222", "0.222", "-"],
+    ]
+    assert panel.values()["apart/table"] == before
+    client.tools.select({Selectable("frame", "nowhere")}, "shift")
+    assert "?" in rows_of(panel)["apart/table"].value
 
 
 def test_a_long_selection_says_how_many_more_there_are(

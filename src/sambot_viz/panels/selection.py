@@ -24,6 +24,8 @@ SHOWN = 30
 """At most this many selected items are listed."""
 SHORT = 3
 """The rows of so many items, or more, come folded."""
+IN_TABLE = 10
+"""At most this many items are in the table of distances."""
 _FRAME = TfFrameProperty(
     "Relative to", default=FIXED_FRAME, help="The frame in which poses are shown."
 )
@@ -32,7 +34,7 @@ Fact = tuple[str, str]
 
 
 class SelectionPanel(Panel):
-    """Lists the selection, and how far two selected items are apart.
+    """Lists the selection, and how far the selected items are apart.
 
     Args:
         client: whose selection it is.
@@ -68,8 +70,7 @@ class SelectionPanel(Panel):
         if not items:
             return [Row("selection/none", "", "note", value=_NOTHING)]
         made = [self._frame_row()]
-        if len(items) == 2:
-            made.extend(_fact_rows("apart", "", self._apart(items[0], items[1])))
+        made.extend(self._distances(items))
         for item in items[:SHOWN]:
             head = _id(item)
             made.append(
@@ -91,9 +92,7 @@ class SelectionPanel(Panel):
     def values(self) -> dict[str, Json]:
         """Return what a motion may have changed."""
         items = list(self._client.tools.selection)
-        made: list[Row] = []
-        if len(items) == 2:
-            made.extend(_fact_rows("apart", "", self._apart(items[0], items[1])))
+        made = [*self._distances(items)]
         for item in items[:SHOWN]:
             made.extend(_fact_rows(_id(item), "", self._facts(item)))
         return {row.id: row.value for row in made}
@@ -119,6 +118,41 @@ class SelectionPanel(Panel):
         context = self._context
         frame = context.frame(self._frame)
         return facts_of(context.tree, self._robot, item.name, frame)
+
+    def _distances(self, items: Sequence[Selectable]) -> Iterator[Row]:
+        """Yield how far two items are apart, or a table of more of them."""
+        if len(items) == 2:
+            yield from _fact_rows("apart", "", self._apart(items[0], items[1]))
+        if len(items) < SHORT:
+            return
+        yield Row("apart", "", "group", "Distances [m]", expanded=True)
+        # A link and its frame are at one place.
+        names = list(dict.fromkeys(item.name for item in items[:IN_TABLE]))
+        table = self._table(names)
+        copied = {"copy": True}
+        yield Row("apart/table", "apart", "lines", "Distances", table, extra=copied)
+        if len(items) > IN_TABLE:
+            said = f"of the first {IN_TABLE} items"
+            yield Row("apart/more", "apart", "note", value=said)
+
+    def _table(self, names: Sequence[str]) -> str:
+        """Return the distances of all pairs [m], the columns by number."""
+        width = max(len(name) for name in names)
+        heads = [f"{number:>7}" for number in range(1, len(names) + 1)]
+        lines = [" " * (width + 3) + "".join(heads)]
+        for number, name in enumerate(names, 1):
+            parts = [f"{self._length(name, other):>7}" for other in names]
+            lines.append(f"{number:>2} {name:<{width}}{''.join(parts)}")
+        return "\n".join(lines)
+
+    def _length(self, first: str, second: str) -> str:
+        if first == second:
+            return "-"
+        try:
+            found = distance_between(self._context.tree, first, second)
+        except LookupRefused:
+            return "?"
+        return f"{found.length:.4g}"
 
     def _apart(self, first: Selectable, second: Selectable) -> Iterator[Fact]:
         try:

@@ -187,7 +187,7 @@ class ClientTools:
         """Key F: look at what is under the mouse, or show the whole robot.
 
         As in RViz, Select looks at what is selected; so does any tool when it is not
-        known where the mouse is.
+        known where the mouse is. Unlike there, the selection then fills the picture.
 
         Args:
             at: where the mouse is, from 0 (left, top) to 1 (right, bottom) of the
@@ -200,7 +200,7 @@ class ClientTools:
             if boxes:
                 low = np.min([box[0] for box in boxes], axis=0)
                 high = np.max([box[1] for box in boxes], axis=0)
-                self.look_at((low + high) / 2)
+                self._view.fit((low, high))
                 return
         if click is None:
             self._view.fit()
