@@ -31,8 +31,9 @@ export function Top({ panels, hideAll }) {
     const { scrollWidth, clientWidth } = element.current;
     if (scrollWidth > clientWidth && step < STEPS.length - 1) setTried({ width, step: step + 1 });
   });
-  return html`<div class=${`top ${STEPS[step]}`} ref=${element}>
+  return html`<header class=${`top ${STEPS[step]}`} ref=${element}>
+    <h1 class="spoken">sambot-viz</h1>
     <${MenuBar} panels=${panels} hideAll=${hideAll} small=${step >= 2} /><${Toolbar} />
     <${FileName} />
-  </div>`;
+  </header>`;
 }

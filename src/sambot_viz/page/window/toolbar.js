@@ -20,7 +20,7 @@ export const EDITS = { undo: "Undo", redo: "Redo" };
 export function Toolbar() {
   /** @type {Tool[]} */
   const tools = useData("tools/list") || [];
-  return html`<header class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
+  return html`<div class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
     ${tools.map((tool) => html`<${ToolButton} key=${tool.name} tool=${tool} />`)}
     <span class="rule"></span>
     <${Button} icon="focus" name="Focus" keys="F"
@@ -35,7 +35,7 @@ export function Toolbar() {
     <${Button} icon="hide" name="Hide panels" keys="H"
       help="The view fills the window; H shows the panels again." bare
       onClick=${togglePanels} />
-  </header>`;
+  </div>`;
 }
 
 /** Arrow keys go from button to button. @param {Key} event */

@@ -57,6 +57,7 @@ export function Window() {
 /** Keep viser's page exactly where the view is. @param {HTMLElement} view */
 function placeView(view) {
   const root = /** @type {HTMLElement} */ (document.getElementById("root"));
+  root.setAttribute("role", "main");
   const place = () => {
     const { left, top, width, height } = view.getBoundingClientRect();
     Object.assign(root.style, {
@@ -78,7 +79,7 @@ function Left() {
   useRow("panel:views");
   const views = rows.children("panel:views").length > 0 && !away.views;
   if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
-  return html`<aside class="left">
+  return html`<aside class="left" aria-label="Left panels">
     ${!away.displays && html`<${DisplaysPanel} />`}
     ${
       views &&
@@ -96,7 +97,7 @@ function Right() {
   const names = tabNames(TABS);
   const current = shownTab(TABS);
   if (away.right || !current) return html`<${Tab} side="right" />`;
-  return html`<aside class="right">
+  return html`<aside class="right" aria-label="Right panels">
     <${Tabs} names=${names} of=${TABS} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}>
     <${TABS[current].content} /></div>
@@ -114,7 +115,7 @@ function Sheet() {
   const names = tabNames(of);
   const current = shownTab(of) || "joints";
   if (beside && away.side) return html`<${Tab} side="side" />`;
-  return html`<aside class="sheet">
+  return html`<aside class="sheet" aria-label="Panels">
     <${Tabs} names=${names} of=${of} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}>
     <${of[current].content} /></div>
