@@ -136,7 +136,12 @@ def test_task_65_a_second_robot_from_a_file(a: Desk) -> None:
     user.enter(field, "nofile.urdf")
     user.reads(f"the folders that were opened: {a.folder.name}")
     user.enter(user.row(*second, "TF Prefix").one("textbox"), "b")
-    user.enter(user.row(*second, "Description File").one("textbox"), str(other))
+    # The tree may have moved, and what is far from the screen has no field.
+    user.go_to(user.row(*second, "Description File"))
+    user.enter(
+        user.until(lambda: user.row(*second, "Description File").one("textbox")),
+        str(other),
+    )
     user.until(lambda: set(a.viz.frames.frames) == {*frames, "b/post"})
     user.until(lambda: "Error" in user.row("Displays", "Second", "Status").text)
     user.tab("Frames")
