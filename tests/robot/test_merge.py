@@ -53,3 +53,7 @@ def test_files_may_be_read_from_the_folders_of_all_or_from_anywhere(
         *arm.file_roots,
         *arm.file_roots,
     )
+
+
+def test_without_another_robot_the_first_is_the_same_object(sam_bot: Robot) -> None:
+    assert merged(sam_bot, []) is sam_bot

@@ -33,7 +33,7 @@ class HungRobot:
 
 
 def merged(first: Robot, hung: Sequence[HungRobot]) -> Robot:
-    """Return a robot with all links and joints.
+    """Return a robot with all links and joints; without others, the first itself.
 
     Its text and its files are those of the first. A further robot whose parent link is
     not there hangs at the root.
@@ -42,6 +42,8 @@ def merged(first: Robot, hung: Sequence[HungRobot]) -> Robot:
         first: its names stay as they are.
         hung: the others; each may hang at one before it.
     """
+    if not hung:
+        return first
     links, joints = dict(first.links), dict(first.joints)
     roots = first.file_roots
     for one in hung:
