@@ -50,6 +50,6 @@ def test_a_joint_is_a_few_elements_and_a_folded_one_none(viewer: ViewerPage) -> 
     most = viewer.page.evaluate(
         f"Math.max(...[...{ROWS}].map(row => row.querySelectorAll('*').length))"
     )
-    assert most <= 12
+    assert most <= 13
     viewer.user.click("button", "Collapse all groups")
     viewer.wait_for(f"{ROWS}.length === 0")

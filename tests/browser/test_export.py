@@ -143,7 +143,7 @@ def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
         viewer.user.menu("File", "Export Page…")
         viewer.user.find("radio", re.compile("^The last minute"), ("dialog", None))
         viewer.user.click("button", "Export")
-        viewer.user.reads("Saved sam_bot.html, 0.9 MB", 30.0)
+        viewer.user.reads("Saved sam_bot.html, 1.0 MB", 30.0)
         file = tmp_path / "sam_bot.html"
         viewer.user.until(lambda: file.exists() and b"</html>" in file.read_bytes())
     viewer.expects_errors = True

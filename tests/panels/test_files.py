@@ -433,7 +433,7 @@ def test_a_page_of_what_has_moved_is_a_download_one_at_a_time(
     with pytest.raises(UsageError, match="a page is being made already"):
         page.act("file/page", "past", "rviz")
     peer.wait_until(lambda: bool(page.sentences))
-    assert page.sentences == ["ok: Saved sam_bot.html, 0.9 MB"]
+    assert page.sentences == ["ok: Saved sam_bot.html, 1.0 MB"]
     peer.wait_until(lambda: peer.types(mark)["FileTransferPart"] == 1)
     (part,) = (m for m in peer.since(mark) if m.type == "FileTransferPart")
     assert b"<title>sam_bot</title>" in part.fields["content"]

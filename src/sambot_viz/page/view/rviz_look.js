@@ -15,7 +15,7 @@
 
 import { currentLook } from "./look.js";
 import { keepSharp } from "./sharp.js";
-import { GLOW, prepareStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
+import { prepareStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
 
 const look = {
   lit: 0,
@@ -115,9 +115,6 @@ const adoptBackground = (object) => {
     anchor,
     "gl_Position = vec4(2.0 * position.xy, 0.5, 1.0);",
   );
-  const color = "vec4 color = texture(colorMap, vUv);";
-  material.fragmentShader = GLOW.begin + material.fragmentShader.replace(color, color + GLOW.color);
-  material.uniforms.uStudio = studioUniform;
   background = object;
   material.needsUpdate = true;
   object.frustumCulled = false;

@@ -1,9 +1,9 @@
 // @ts-check
 /* The look "Studio": round shapes (studio_shapes.js), a shadow where the robot stands
- * (studio_shadow.js), names beside each other (studio_names.js), and soft light from above, a fill from the other side, a rim, and a shoulder
- * in place of blown-out whites. The lights are at the camera and above, so that a robot is well
- * lit from wherever it is seen. All of it is in the shaders of the shapes themselves: no light
- * of three.js, no shadow map, no further picture.
+ * (studio_shadow.js), names beside each other (studio_names.js), and soft light from above, a fill
+ * from the other side, a rim, and a shoulder in place of blown-out whites. The lights are at the
+ * camera and above, so that a robot is well lit from wherever it is seen. The light is in the
+ * shaders of the shapes themselves: no light of three.js, no shadow map.
  */
 
 import { moveNames } from "./studio_names.js";
@@ -45,21 +45,6 @@ export const STUDIO_LIT = { begin: SHOULDER, shade: LIT };
 
 /** 1 in Studio, 0 in RViz's look: the shaders of what both draw read it. */
 export const studioUniform = { value: 0 };
-
-/** The background glows where the robot is; its corners keep the colour of the config. */
-export const GLOW = {
-  begin: "uniform float uStudio;\n",
-  color: `
-  if (uStudio > 0.5) {
-    vec2 sOff = (vUv - vec2(0.5, 0.52)) * 1.45;
-    float sGlow = max(0.0, 1.0 - dot(sOff, sOff));
-    // Grain of less than a step of a screen's colours hides the edges between these.
-    float sGrain = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403))) - 0.5;
-    float sDark = 1.0 - color.g;
-    color.rgb += sGlow * (sGlow * 0.17 * sDark * vec3(0.93, 1.0, 1.08) + sGrain / 128.0);
-  }
-`,
-};
 
 /** Behind a name is a dark tag with round ends. */
 export const TAG = {

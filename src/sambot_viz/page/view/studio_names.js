@@ -25,10 +25,16 @@ function placeOf(data, index) {
   return last && last.to.every((v, i) => v === now[i]) ? last.from : now;
 }
 
-/** @param {Float32Array} data @param {number} index @param {number[]} from @param {number[]} by */
+/**
+ * @param {Float32Array} data @param {number} index @param {number[]} from @param {number[]} by
+ * @returns {boolean} whether it is elsewhere now
+ */
 function move(data, index, from, by) {
+  const was = [...data.subarray(4 * index, 4 * index + 3)];
   data.set([from[0] + by[0], from[1] + by[1], from[2] + by[2]], 4 * index);
-  moved.set(index, { from, to: [...data.subarray(4 * index, 4 * index + 3)] });
+  const to = [...data.subarray(4 * index, 4 * index + 3)];
+  moved.set(index, { from, to });
+  return to.some((v, i) => v !== was[i]);
 }
 
 /**
@@ -47,6 +53,7 @@ export function moveNames(object, camera, apart) {
   const up = [...camera.matrixWorld.elements.slice(4, 7)];
   /** @type {Box[]} */
   const placed = [];
+  let changed = false;
   for (let i = 0; i < object.geometry.instanceCount; i += 1) {
     const index = aLabelIndex.array[i];
     const scale = aParams.array[2 * i + 1];
@@ -54,7 +61,7 @@ export function moveNames(object, camera, apart) {
     if (aParams.array[2 * i] > 0.5 || !data[4 * index + 3]) continue;
     const from = placeOf(data, index);
     if (!apart) {
-      if (moved.has(index)) move(data, index, from, [0, 0, 0]);
+      if (moved.has(index)) changed = move(data, index, from, [0, 0, 0]) || changed;
       continue;
     }
     const [x, y, z] = [0, 1, 2].map(
@@ -81,11 +88,11 @@ export function moveNames(object, camera, apart) {
     placed.push({ ...box, y: box.y + at * line * size });
     const by = at * line * scale;
     if (at || moved.has(index))
-      move(data, index, from, /** @type {number[]} */ (up.map((u) => u * by)));
+      changed = move(data, index, from, /** @type {number[]} */ (up.map((u) => u * by))) || changed;
   }
   if (!apart) {
     moved.clear();
     lines.clear();
   }
-  texture.needsUpdate = true;
+  if (changed) texture.needsUpdate = true;
 }

@@ -4,7 +4,7 @@
  * ground. It is drawn again only when something has moved: a camera that turns costs nothing. */
 
 /** Side of the picture [pixels]. */
-const SIDE = 256;
+const SIDE = 128;
 /** Shapes up to so high above the ground (of the side), how dark and how blurred their shadow is. */
 const LAYERS = [
   { high: 0.03, dark: 0.62, blur: 0.035 },
@@ -159,7 +159,7 @@ export function drawShadow(scene, background, objects) {
   const ground = Math.min(...outlines.map(({ low }) => low));
   const [left, back] = [Math.min(...xs), Math.min(...zs)];
   const wide = Math.max(Math.max(...xs) - left, Math.max(...zs) - back, 1e-3);
-  const side = 1.7 * wide;
+  const side = 1.5 * wide;
   const middle = { x: (left + Math.max(...xs)) / 2, z: (back + Math.max(...zs)) / 2 };
   paint(shadow.canvas, outlines, ground, side, middle);
   shadow.texture.needsUpdate = true;
