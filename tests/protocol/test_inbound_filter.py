@@ -263,7 +263,7 @@ def test_an_error_that_a_browser_causes_is_told_to_it_alone_and_logged_once(
     monkeypatch: pytest.MonkeyPatch,
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    def fail(self: object) -> bool:
+    def fail(self: object, report: object) -> bool:
         raise ZeroDivisionError("a camera of this kind")
 
     client = protocol(viz.viser.get_port())
