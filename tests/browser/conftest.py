@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from desk import Desk
     from viewer_page import ViewerPage
 
+    from sambot_viz import Visualizer
     from sambot_viz.export.chromium import Chromium
 
 _TASKS = Path(__file__).parent / "tasks"
@@ -51,6 +52,15 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     depends on the pixels that the view has before they are read asks for resolution=1.
     """
     yield from _viewers(chromium)
+
+
+@pytest.fixture(scope="module")
+def viz_for_all() -> Iterator[Visualizer]:
+    """The bundled robot, for all tests of a file, each after the other."""
+    from sambot_viz import Visualizer, bundled
+
+    with Visualizer(bundled.model_path(), port=0) as viz:
+        yield viz
 
 
 @pytest.fixture(scope="module")

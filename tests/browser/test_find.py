@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
 from inside import session_of
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
@@ -17,14 +17,8 @@ PALETTE = "Go to a display, joint, frame or command"
 
 
 @pytest.fixture(scope="module")
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(bundled.model_path(), port=0) as viz:
-        yield viz
-
-
-@pytest.fixture(scope="module")
-def user(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> User:
-    user = open_for_all(viz.url).user
+def user(viz_for_all: Visualizer, open_for_all: Callable[..., ViewerPage]) -> User:
+    user = open_for_all(viz_for_all.url).user
     user.find("slider", "drivewhl_l_joint")
     return user
 
@@ -43,7 +37,9 @@ def go_to(user: User, typed: str) -> None:
     user.gone("combobox", PALETTE)
 
 
-def test_what_a_search_finds_is_edited_where_it_is(user: User, viz: Visualizer) -> None:
+def test_what_a_search_finds_is_edited_where_it_is(
+    user: User, viz_for_all: Visualizer
+) -> None:
     user.click_on(user.find("searchbox", "Search displays"))
     user.type("grid alpha")
     user.until(lambda: user.rows("Displays") == ["Grid", "Alpha"])
@@ -53,7 +49,7 @@ def test_what_a_search_finds_is_edited_where_it_is(user: User, viz: Visualizer) 
     )
     user.type("0.25")
     user.keys("Enter")
-    shared = session_of(viz)
+    shared = session_of(viz_for_all)
     grid = shared.document.config.displays[0]
     user.until(lambda: grid.get("Alpha") == 0.25)
     user.click_on(user.find("searchbox", "Search displays"))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
 from inside import node_of
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
@@ -28,16 +28,12 @@ LEFT = "drivewhl_l_joint"
 
 
 @pytest.fixture(scope="module")
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(bundled.model_path(), port=0) as viz:
-        yield viz
-
-
-@pytest.fixture(scope="module")
-def viewer(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> ViewerPage:
-    viewer = open_for_all(viz.url)
+def viewer(
+    viz_for_all: Visualizer, open_for_all: Callable[..., ViewerPage]
+) -> ViewerPage:
+    viewer = open_for_all(viz_for_all.url)
     viewer.user.find("slider", LEFT)
-    viewer.settle(viz)
+    viewer.settle(viz_for_all)
     return viewer
 
 
@@ -60,12 +56,12 @@ def test_a_row_under_the_mouse_lights_its_link_and_nothing_stays(
 
 
 def test_a_double_click_on_a_link_goes_to_its_joint(
-    viz: Visualizer, viewer: ViewerPage
+    viz_for_all: Visualizer, viewer: ViewerPage
 ) -> None:
     user, page = viewer.user, viewer.page
     user.click("tab", "Frames")
     user.find("treegrid", "Frames")
-    x, y = page.evaluate(AT.replace("NODE", node_of(viz, "drivewhl_l_link")))
+    x, y = page.evaluate(AT.replace("NODE", node_of(viz_for_all, "drivewhl_l_link")))
     page.mouse.double_click(x, y)
     user.until(
         lambda: page.evaluate("document.activeElement.dataset.row ?? ''") == f"j/{LEFT}"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
@@ -36,15 +36,11 @@ _LOOK = """(() => {
 
 
 @pytest.fixture(scope="module")
-def viz() -> Iterator[Visualizer]:
-    with Visualizer(bundled.model_path(), port=0) as viz:
-        yield viz
-
-
-@pytest.fixture(scope="module")
-def viewer(viz: Visualizer, open_for_all: Callable[..., ViewerPage]) -> ViewerPage:
-    viewer = open_for_all(viz.url)
-    viewer.settle(viz)
+def viewer(
+    viz_for_all: Visualizer, open_for_all: Callable[..., ViewerPage]
+) -> ViewerPage:
+    viewer = open_for_all(viz_for_all.url)
+    viewer.settle(viz_for_all)
     return viewer
 
 
