@@ -15,7 +15,7 @@
 
 import { currentLook } from "./look.js";
 import { keepSharp } from "./sharp.js";
-import { prepareStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
+import { beginStudio, dress, finishStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
 
 const look = {
   lit: 0,
@@ -157,8 +157,14 @@ const adopt = (material, object) => {
 };
 
 let labels = 0;
-/** Look at an object and all below it. @param {any} object */
-const visit = (object) => {
+/**
+ * Look at an object and all below it.
+ * @param {any} object
+ * @param {boolean} studio
+ * @param {boolean} shown whether all above it are visible
+ */
+const visit = (object, studio, shown) => {
+  const visible = shown && object.visible;
   const material = object.material;
   if (material !== undefined) {
     if (Array.isArray(material)) for (const one of material) adopt(one, object);
@@ -167,8 +173,9 @@ const visit = (object) => {
       labels += object.geometry.instanceCount;
       if (material.depthTest) tags = object;
     }
+    dress(studio, object, visible);
   }
-  for (const child of object.children) visit(child);
+  for (const child of object.children) visit(child, studio, visible);
 };
 
 // RViz draws translucent things from far to near by the distance of their origins;
@@ -223,10 +230,11 @@ const hook = () => {
     eye = camera.matrixWorld;
     renderer.setTransparentSort(farFirst);
     labels = 0;
-    visit(scene);
-    look.labels = labels;
     const studio = currentLook() === "studio";
-    look.waiting = prepareStudio(studio, scene, camera, background, tags);
+    beginStudio(studio);
+    visit(scene, studio, true);
+    look.labels = labels;
+    look.waiting = finishStudio(studio, scene, camera, background, tags);
     if (look.waiting) mutable.requestRender?.();
     look.frames += 1;
   };

@@ -105,9 +105,40 @@ function unfade({ material }) {
 
 /** Whether the picture before was drawn in Studio. */
 let was = false;
+/** The lit shapes that are seen in this picture. @type {any[]} */
+let seen = [];
+
+/** Begin a picture; `dress` is called for its objects then. @param {boolean} studio */
+export function beginStudio(studio) {
+  seen = [];
+  if (!studio && !was) return;
+  studioUniform.value = studio ? 1 : 0;
+  focus.value = Math.max(0.5, window.__viserMutable?.cameraControl?.distance || 1);
+  beginShapes();
+}
 
 /**
- * Prepare a picture; called before it is drawn.
+ * Give an object the look of the picture.
+ * @param {boolean} studio
+ * @param {any} object
+ * @param {boolean} visible whether it is shown, and all above it
+ */
+export function dress(studio, object, visible) {
+  // Back in RViz's look, what is hidden has to be as it was, too.
+  if (studio ? !visible : !was) return;
+  const { material } = object;
+  if (material?.isMeshStandardMaterial && object.isMesh) {
+    if (studio) roundOff(object);
+    else putBack(object);
+    if (!object.isInstancedMesh && material.opacity > 0.05) seen.push(object);
+  } else if (material?.isLineBasicMaterial && object.isLineSegments) {
+    if (studio) fade(object);
+    else unfade(object);
+  }
+}
+
+/**
+ * End the preparation of a picture, behind all its objects.
  * @param {boolean} studio
  * @param {any} scene
  * @param {any} camera
@@ -115,28 +146,9 @@ let was = false;
  * @param {any} names the boxes behind all names
  * @returns {number} how many meshes are not as they will be
  */
-export function prepareStudio(studio, scene, camera, background, names) {
+export function finishStudio(studio, scene, camera, background, names) {
   if (!studio && !was) return 0;
   was = studio;
-  studioUniform.value = studio ? 1 : 0;
-  const distance = window.__viserMutable?.cameraControl?.distance;
-  focus.value = Math.max(0.5, distance || 1);
-  /** @type {any[]} */
-  const seen = [];
-  beginShapes();
-  const visit = (/** @type {any} */ object) => {
-    const { material } = object;
-    if (material?.isMeshStandardMaterial && object.isMesh) {
-      if (studio) roundOff(object);
-      else putBack(object);
-      if (!object.isInstancedMesh && material.opacity > 0.05) seen.push(object);
-    } else if (material?.isLineBasicMaterial && object.isLineSegments) {
-      if (studio) fade(object);
-      else unfade(object);
-    }
-  };
-  if (studio) scene.traverseVisible(visit);
-  else scene.traverse(visit);
   if (names) moveNames(names, camera, studio);
   if (studio && background) drawShadow(scene, background, seen);
   else dropShadow();
