@@ -102,3 +102,26 @@ def test_the_picture_is_sharp_at_rest_and_motions_have_visers_choice(
         assert page.evaluate("sambotVizLook.frames") - drawn <= 2
     finally:
         page.close()
+
+
+_DISPOSE = """(() => {
+  const { scene } = __viserMutable, batches = [];
+  scene.traverse(object => { if (object.isInstancedMesh2) batches.push(object); });
+  scene.__r3f.root.getState().gl.getContext().getError();
+  for (const batch of batches) batch.dispose();
+  return batches.length;
+})()"""
+_GL_ERROR = "__viserMutable.scene.__r3f.root.getState().gl.getContext().getError()"
+
+
+def test_a_batch_that_viser_makes_again_gives_no_error_of_webgl(
+    open_viewer: Open, make_viz: Callable[..., Visualizer]
+) -> None:
+    viz = make_viz()
+    viewer = open_viewer(viz.url)
+    viewer.wait_for("window.sambotVizLook?.labels === 5")
+    viewer.settle(viz)
+    # viser does so, and takes the old one out of the scene some pictures later.
+    assert viewer.page.evaluate(_DISPOSE) > 0
+    viewer.wait_for_frames()
+    assert viewer.page.evaluate(_GL_ERROR) == 0
