@@ -57,7 +57,7 @@ def test_few_commands_are_for_viewers_too() -> None:
     local = {found.id for found in DECLARED if found.client_local}
     assert local == {
         # What somebody did as a viewer.
-        *("edit/undo", "edit/redo"),
+        *("edit/undo", "edit/redo", "edit/resume"),
         *("file/download", "file/page", "file/picture", "frames/show", "joints/copy"),
         # What is drawn or listed in one page alone.
         *("poses/show", "tools/double_click"),

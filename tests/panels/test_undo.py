@@ -112,3 +112,26 @@ def test_other_edits_and_other_browsers_name_nothing(
         session.document.set_option("Frame Rate", 10)
     edit(panel, "edit/undo", None)
     assert touched(panel) is None
+
+
+def test_a_page_that_is_loaded_again_undoes_all_but_what_has_ended_with_it(
+    session: Session, join: Callable[[], Client], displays: DisplaysPanel
+) -> None:
+    before, after = join(), join()
+    with session.history.acting(before.client_id):
+        before.view.set("Distance", 3.0)
+    with session.history.acting(before.client_id):
+        before.view.set("Distance", 4.0)
+        session.document.set_option("Frame Rate", 12)
+    first, second = (
+        panel_of(UndoPanel, session, client, displays=displays)
+        for client in (before, after)
+    )
+    key = data_of(first)["edit/key"]
+    assert key != data_of(second)["edit/key"]
+    session.leave(before.client_id)
+    edit(second, "edit/resume", [key])
+    assert data_of(second)["edit/labels"]["undo"] == "Global Options: Frame Rate"
+    edit(second, "edit/undo", None)
+    assert session.document.config.global_options.get("Frame Rate") != 12
+    assert data_of(second)["edit/labels"]["undo"] == ""

@@ -19,7 +19,7 @@ from sambot_viz.session.document.saved_views import SavedViews
 from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
 from sambot_viz.session.scene.scene import walk
 from sambot_viz.session.signals import connect
-from sambot_viz.session.undo import LIMIT
+from sambot_viz.session.undo_steps import LIMIT, MOST_LEFT
 
 A, B = 1, 2
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -561,3 +561,64 @@ def test_listeners_hear_of_edits(session: Session) -> None:
         heard.clear()
         action()
         assert heard
+
+
+# A page that is loaded again is another client
+
+
+def test_a_page_that_is_loaded_again_undoes_and_redoes_what_it_has_done_before(
+    viz: Visualizer, session: Session
+) -> None:
+    history, before = session.history, alpha(session)
+    key = history.key(A)
+    act(session, A, lambda: session.robot.set_positions({LEFT: 0.5}))
+    act(session, A, set_alpha(session, 0.5), by=1)
+    act(session, A, lambda: session.document.set_option("Frame Rate", 12))
+    history.undo(A)
+    history.leave(A)
+    history.resume(B, key)
+    assert history.state(B).value.redo == "Global Options: Frame Rate"
+    # Its first drag has a number that the last one before may have had.
+    act(session, B, set_alpha(session, 0.6), by=1)
+    history.undo(B)
+    assert alpha(session) == 0.5
+    history.undo(B)
+    assert alpha(session) == before
+    history.undo(B)
+    assert viz.joint_positions[LEFT] == 0.0
+    assert not session.history.modified.value
+    assert history.undo(B) is None
+
+
+def test_edits_are_had_once_and_only_with_the_key_of_the_page(session: Session) -> None:
+    history = session.history
+    key = history.key(A)
+    act(session, A, set_alpha(session, 0.5))
+    history.resume(B, "another")
+    history.resume(B, history.key(B))
+    assert history.state(B).value.undo is None
+    # The server may still believe in the connection that was lost.
+    history.resume(B, key)
+    assert history.state(B).value.undo == "RobotModel: Alpha"
+    assert history.undo(A) is None
+    history.leave(A)
+    history.resume(3, key)
+    assert history.undo(3) is None
+
+
+def test_another_document_and_many_who_leave_end_what_could_be_taken_up(
+    session: Session,
+) -> None:
+    history = session.history
+    keys: list[str] = []
+    for client in range(MOST_LEFT + 1):
+        keys.append(history.key(client))
+        act(session, client, set_alpha(session, 0.3 + 0.01 * client))
+        history.leave(client)
+    history.resume(1000, keys[0])
+    assert history.undo(1000) is None
+    history.resume(1000, keys[1])
+    assert history.state(1000).value.undo == "RobotModel: Alpha"
+    history.clear()
+    history.resume(1001, keys[2])
+    assert history.undo(1001) is None

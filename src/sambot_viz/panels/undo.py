@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sambot_viz.panels.command import command
+from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Json
@@ -43,10 +43,16 @@ class UndoPanel(Panel):
         """Return what would be undone and done again, and what was touched last."""
         state = self._history.state(self._id).value
         labels = {"undo": state.undo or "", "redo": state.redo or ""}
-        return [Data("edit/labels", labels), Data("edit/touched", self._touched())]
+        return [
+            Data("edit/labels", labels),
+            Data("edit/touched", self._touched()),
+            Data("edit/key", self._history.key(self._id)),
+        ]
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there is something to undo, or to do again."""
+        if command_id == "edit/resume":
+            return True
         state = self._history.state(self._id).value
         return (state.undo if command_id == "edit/undo" else state.redo) is not None
 
@@ -59,6 +65,11 @@ class UndoPanel(Panel):
     def _redo(self) -> Answer | None:
         may_edit = self._roles.may_edit(self._id)
         return _said("Redone", self._history.redo(self._id, may_edit=may_edit))
+
+    @command("edit/resume", TEXT, client_local=True)
+    def _resume(self, key: str) -> None:
+        """Take over what the page has done before it was loaded again."""
+        self._history.resume(self._id, key)
 
     def _touched(self) -> Json:
         """Return the row that the page goes to, with another number each time."""

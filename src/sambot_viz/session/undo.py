@@ -6,8 +6,7 @@ edit puts back the values that it has set, never the whole document.
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
@@ -15,54 +14,10 @@ from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.rviz.undo_log import Restore, record_changes
 from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.session.signals import Change, Signal
-
-LIMIT = 200
-"""Number of edits of a client that can be undone."""
+from sambot_viz.session.undo_steps import ClientSteps, Edit, LeftSteps, Step, UndoState
 
 Apply = Callable[[Restore], None]
 """Puts something back in the document, and draws it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """A change that can be undone.
-
-    Attributes:
-        label: what was done, in a few words.
-        undo: undoes it, or raises SambotVizError when that is not possible any more.
-        redo: does it again, or raises SambotVizError.
-        touched: what was added, removed, moved or named; None for other changes.
-    """
-
-    label: str
-    undo: Callable[[], None]
-    redo: Callable[[], None]
-    touched: object = None
-
-
-@dataclass(frozen=True, slots=True)
-class _Step:
-    """All that one action of a client has changed.
-
-    Attributes:
-        edits: in the order in which they were made.
-        merge_keys: of each edit; steps of one gesture with the same keys are one.
-        gesture: of which it was a part.
-        number: in the set of changes of the document; None for other changes.
-        by_viewer: whether it was made without control, so that no other sees it.
-    """
-
-    edits: tuple[Edit, ...]
-    merge_keys: tuple[object, ...]
-    gesture: object
-    number: int | None
-    by_viewer: bool
-
-    def goes_on(self, last: _Step) -> bool:
-        """Whether this is one more movement of the gesture that made another step."""
-        if self.gesture is None or self.gesture != last.gesture:
-            return False
-        return None not in self.merge_keys and self.merge_keys == last.merge_keys
 
 
 @dataclass
@@ -77,46 +32,7 @@ class _Action:
     of_document: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class UndoState:
-    """What one client can undo.
-
-    Attributes:
-        undo: the label of what `undo` would undo; None for nothing.
-        redo: the label of what `redo` would do again; None for nothing.
-        times: how often the client has undone or redone.
-        touched: what the last of these touched.
-    """
-
-    undo: str | None = None
-    redo: str | None = None
-    times: int = 0
-    touched: object = None
-
-
-class _Steps:
-    """The steps of one client."""
-
-    def __init__(self, change: Change) -> None:
-        self.done: deque[_Step] = deque(maxlen=LIMIT)
-        self.undone: list[_Step] = []
-        self.state = Signal(change, UndoState())
-
-    def tell(self, step: _Step | None = None) -> None:
-        """Tell what can be undone now, after a step was undone or done again."""
-        times, touched = self.state.value.times, self.state.value.touched
-        if step is not None:
-            times, touched = times + 1, step.edits[0].touched
-        self.state.set(
-            UndoState(_label(self.done), _label(self.undone), times, touched)
-        )
-
-
-def _label(steps: Sequence[_Step]) -> str | None:
-    return steps[-1].edits[0].label if steps else None
-
-
-def _check(step: _Step, may_edit: bool) -> None:
+def _check(step: Step, may_edit: bool) -> None:
     """Let viewers touch only what they have done as viewers."""
     if not (may_edit or step.by_viewer):
         raise UsageError(VIEW_ONLY)
@@ -142,7 +58,8 @@ class History:
         self.modified = Signal(change, False)
         self.is_as_saved: Callable[[], bool] = _never
         self._change = change
-        self._steps: dict[int, _Steps] = {}
+        self._steps: dict[int, ClientSteps] = {}
+        self._left = LeftSteps()
         self._action: _Action | None = None
         self._undoing = False
         self._count = 0
@@ -195,6 +112,7 @@ class History:
         *,
         touched: object = None,
         of_document: bool = True,
+        of_page: bool = False,
     ) -> None:
         """Keep a change that has been made.
 
@@ -206,13 +124,14 @@ class History:
                 row are one edit.
             touched: see `Edit`.
             of_document: whether it is lost unless the document is saved.
+            of_page: see `Edit`.
         """
         with self._change.lock:
             if self._undoing:
                 return
             action = self._action
             if action is not None:
-                action.edits.append(Edit(label, undo, redo, touched))
+                action.edits.append(Edit(label, undo, redo, touched, of_page))
                 action.merge_keys.append(merge)
                 action.of_document |= of_document
             elif of_document:
@@ -251,7 +170,7 @@ class History:
     def _keep(self, action: _Action) -> None:
         history = self._steps_of(action.client_id)
         number = self._next_number() if action.of_document else None
-        step = _Step(
+        step = Step(
             tuple(action.edits),
             tuple(action.merge_keys),
             action.gesture,
@@ -338,8 +257,8 @@ class History:
     def _run(
         self,
         what: str,
-        history: _Steps,
-        step: _Step,
+        history: ClientSteps,
+        step: Step,
         actions: list[tuple[Callable[[], None], Callable[[], None]]],
     ) -> None:
         """Run the first functions of all pairs; the second ones undo them."""
@@ -363,13 +282,36 @@ class History:
         """What a client can undo and redo."""
         return self._steps_of(client_id).state
 
-    def leave(self, client_id: int) -> None:
-        """Forget the edits of a client that has closed the page."""
-        self._steps.pop(client_id, None)
+    def key(self, client_id: int) -> str:
+        """Return the secret under which a page that is loaded again gets its edits."""
+        return self._steps_of(client_id).key
 
-    def _steps_of(self, client_id: int) -> _Steps:
+    def leave(self, client_id: int) -> None:
+        """Keep the edits of a client that has closed the page for `resume`."""
+        steps = self._steps.pop(client_id, None)
+        if steps is not None:
+            self._left.keep(steps)
+
+    def resume(self, client_id: int, key: str) -> None:
+        """Give a client the edits of the page that it was before it was loaded again.
+
+        Nothing happens when they are not known any more.
+
+        Args:
+            client_id: the client.
+            key: what `key` has returned for that page.
+        """
+        with self._change.lock:
+            steps = self._steps_of(client_id)
+            # The server may still believe in the connection that was lost.
+            there = [s for s in self._steps.values() if s.key == key and s is not steps]
+            before = there[0] if there else self._left.take(key)
+            if before is not None:
+                steps.take_over(before)
+
+    def _steps_of(self, client_id: int) -> ClientSteps:
         if client_id not in self._steps:
-            self._steps[client_id] = _Steps(self._change)
+            self._steps[client_id] = ClientSteps(self._change)
         return self._steps[client_id]
 
     # Saving
@@ -392,8 +334,7 @@ class History:
         """Forget all edits: another document is shown, as it is in its file."""
         with self._change.lock:
             for steps in self._steps.values():
-                steps.done.clear()
-                steps.undone.clear()
-                steps.state.set(UndoState())
+                steps.clear()
+            self._left.clear()
             self._applied.clear()
             self.saved()

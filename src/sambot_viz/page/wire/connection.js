@@ -96,6 +96,7 @@ export function followConnection() {
     goOnline();
     showView(then, loaded);
     if (then.session === again?.id) {
+      if (then.edits) act("edit/resume", [then.edits]);
       sendHeldBack();
       if (!silent) say("", then, 0);
       return;

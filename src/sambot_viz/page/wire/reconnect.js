@@ -6,9 +6,10 @@ import { act, rows } from "./channel.js";
 import { folds } from "../state.js";
 
 /**
- * @typedef {{session: string | undefined, folds: Record<string, boolean>, places: Record<string, string>, view: Record<string, any>,
+ * @typedef {{session: string | undefined, edits: string | undefined, folds: Record<string, boolean>, places: Record<string, string>, view: Record<string, any>,
  *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[], turning: boolean,
  *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}} Memory
+ *   edits: the key of what can be undone
  *   places: where each display is, by its id
  *   joints: those that were moved, and where they were at first
  */
@@ -18,6 +19,7 @@ export function remember() {
   const { name, own, folder, modified } = rows.data("file/state") || {};
   return {
     session: rows.data("names/session")?.id,
+    edits: rows.data("edit/key"),
     folds: folds.value,
     places: places(),
     view: view(),
@@ -34,6 +36,7 @@ export function remember() {
 /** Of a memory what another robot can take over. @param {Memory} before @returns {Memory} */
 export const withoutRobot = ({ session, folds, places, view }) => ({
   session,
+  edits: undefined,
   folds,
   places,
   view,

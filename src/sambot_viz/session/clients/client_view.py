@@ -268,6 +268,7 @@ class ClientView:
                 partial(self._restore, config, self._config, after),
                 merge,
                 of_document=False,
+                of_page=True,
             )
 
     def _restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:

@@ -1,0 +1,157 @@
+"""The steps that each client can undo, also after its page was loaded again."""
+
+from __future__ import annotations
+
+import secrets
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from sambot_viz.session.signals import Change, Signal
+
+LIMIT = 200
+"""Number of edits of a client that can be undone."""
+MOST_LEFT = 50
+"""So many clients that have left could come back to their edits."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """A change that can be undone.
+
+    Attributes:
+        label: what was done, in a few words.
+        undo: undoes it, or raises SambotVizError when that is not possible any more.
+        redo: does it again, or raises SambotVizError.
+        touched: what was added, removed, moved or named; None for other changes.
+        of_page: whether it changed what ends with the page, such as its view.
+    """
+
+    label: str
+    undo: Callable[[], None]
+    redo: Callable[[], None]
+    touched: object = None
+    of_page: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """All that one action of a client has changed.
+
+    Attributes:
+        edits: in the order in which they were made.
+        merge_keys: of each edit; steps of one gesture with the same keys are one.
+        gesture: of which it was a part.
+        number: in the set of changes of the document; None for other changes.
+        by_viewer: whether it was made without control, so that no other sees it.
+    """
+
+    edits: tuple[Edit, ...]
+    merge_keys: tuple[object, ...]
+    gesture: object
+    number: int | None
+    by_viewer: bool
+
+    def goes_on(self, last: Step) -> bool:
+        """Whether this is one more movement of the gesture that made another step."""
+        if self.gesture is None or self.gesture != last.gesture:
+            return False
+        return None not in self.merge_keys and self.merge_keys == last.merge_keys
+
+
+@dataclass(frozen=True, slots=True)
+class UndoState:
+    """What one client can undo.
+
+    Attributes:
+        undo: the label of what `undo` would undo; None for nothing.
+        redo: the label of what `redo` would do again; None for nothing.
+        times: how often the client has undone or redone.
+        touched: what the last of these touched.
+    """
+
+    undo: str | None = None
+    redo: str | None = None
+    times: int = 0
+    touched: object = None
+
+
+class ClientSteps:
+    """The steps of one client.
+
+    Args:
+        change: tells what can be undone.
+
+    Attributes:
+        done: what can be undone, the last step at the end.
+        undone: what can be done again, the next step at the end.
+        state: the same for the client.
+        key: a secret of the client.
+    """
+
+    def __init__(self, change: Change) -> None:
+        self.done: deque[Step] = deque(maxlen=LIMIT)
+        self.undone: list[Step] = []
+        self.state = Signal(change, UndoState())
+        self.key = secrets.token_hex(16)
+
+    def tell(self, step: Step | None = None) -> None:
+        """Tell what can be undone now, after a step was undone or done again."""
+        times, touched = self.state.value.times, self.state.value.touched
+        if step is not None:
+            times, touched = times + 1, step.edits[0].touched
+        self.state.set(
+            UndoState(_label(self.done), _label(self.undone), times, touched)
+        )
+
+    def take_over(self, before: ClientSteps) -> None:
+        """Put the steps of the page that was loaded again before those since."""
+        if not self.undone and not self.done:
+            self.undone[:] = _without_page(before.undone)
+        done = [*_without_page(before.done), *self.done]
+        before.clear()
+        self.done.clear()
+        self.done.extend(done)
+        self.tell()
+
+    def clear(self) -> None:
+        """Forget all."""
+        self.done.clear()
+        self.undone.clear()
+        self.state.set(UndoState())
+
+
+def _label(steps: Sequence[Step]) -> str | None:
+    return steps[-1].edits[0].label if steps else None
+
+
+def _without_page(steps: Iterable[Step]) -> Iterator[Step]:
+    """Leave out what has ended with a page; its gestures have ended, too."""
+    for step in steps:
+        stay = [n for n, edit in enumerate(step.edits) if not edit.of_page]
+        if stay:
+            edits = tuple(step.edits[n] for n in stay)
+            keys = tuple(step.merge_keys[n] for n in stay)
+            yield replace(step, edits=edits, merge_keys=keys, gesture=None)
+
+
+class LeftSteps:
+    """The steps of clients that have closed or lost their page, by their keys."""
+
+    def __init__(self) -> None:
+        self._steps: dict[str, ClientSteps] = {}
+
+    def keep(self, steps: ClientSteps) -> None:
+        """Keep what a client has done; that of the one that left first goes."""
+        if steps.done or steps.undone:
+            self._steps[steps.key] = steps
+        if len(self._steps) > MOST_LEFT:
+            del self._steps[next(iter(self._steps))]
+
+    def take(self, key: str) -> ClientSteps | None:
+        """Return the steps of a client, which are not kept any longer."""
+        return self._steps.pop(key, None)
+
+    def clear(self) -> None:
+        """Forget all."""
+        self._steps.clear()
