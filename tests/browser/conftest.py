@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,12 +55,18 @@ def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     yield from _viewers(chromium)
 
 
+@pytest.fixture
+def make_viz(make_viz: Callable[..., Visualizer]) -> Callable[..., Visualizer]:
+    """The same in the look that is drawn sooner, where no other is asked for."""
+    return partial(make_viz, look="rviz")
+
+
 @pytest.fixture(scope="module")
 def viz_for_all() -> Iterator[Visualizer]:
     """The bundled robot, for all tests of a file, each after the other."""
     from sambot_viz import Visualizer, bundled
 
-    with Visualizer(bundled.model_path(), port=0) as viz:
+    with Visualizer(bundled.model_path(), port=0, look="rviz") as viz:
         yield viz
 
 

@@ -28,7 +28,7 @@ def has_camera(viewer: ViewerPage, camera: list[float]) -> None:
 def test_the_page_comes_back_to_a_program_that_was_started_again(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0) as first:
+    with Visualizer(port=0, look="rviz") as first:
         port = first.viser.get_port()
         viewer, other = open_viewer(first.url), open_viewer(first.url)
         # The browser reports every attempt to connect that fails.
@@ -55,7 +55,7 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
     user.enter(user.row("Joints", RIGHT).one("textbox"), "0.5")
     user.reads("A change waits and is sent then.")
     user.unfold("Displays", "TF", "Frames")
-    with Visualizer(port=port) as second:
+    with Visualizer(port=port, look="rviz") as second:
         user.reads("The connection is back. The server was restarted.", 40.0)
         user.reads("Lost: the static transform of added.")
         user.until(lambda: dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5})
@@ -74,15 +74,15 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
 def test_a_page_whose_link_has_changed_says_so(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0, token="the-first-lesson") as first:
+    with Visualizer(port=0, look="rviz", token="the-first-lesson") as first:
         port = first.viser.get_port()
         viewer = open_viewer(first.url)
         viewer.expects_errors = True
         viewer.user.row("Joints", LEFT)
     viewer.user.reads("Connection lost. Trying again…")
-    with Visualizer(port=port, token="the-second-lesson"):
+    with Visualizer(port=port, look="rviz", token="the-second-lesson"):
         viewer.user.reads("Ask for the new one.", 40.0)
-    with Visualizer(port=port, token="the-first-lesson"):
+    with Visualizer(port=port, look="rviz", token="the-first-lesson"):
         come_back(viewer)
 
 
@@ -102,7 +102,7 @@ def come_back(viewer: ViewerPage) -> None:
 def test_a_server_that_has_gone_gets_one_request_for_each_try_without_websockets(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0) as viz:
+    with Visualizer(port=0, look="rviz") as viz:
         port = viz.viser.get_port()
         viewer = open_viewer(viz.url)
         viewer.expects_errors = True
@@ -122,7 +122,7 @@ def test_a_server_that_has_gone_gets_one_request_for_each_try_without_websockets
         gone.shutdown()
     # viser would have asked once a second, beside the page.
     assert not [one for one in requests if b"pgrade: websocket" in one]
-    with Visualizer(port=port):
+    with Visualizer(port=port, look="rviz"):
         come_back(viewer)
 
 
@@ -136,7 +136,7 @@ def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
     cameras: list[list[float]] = []
-    with Visualizer(port=0) as first:
+    with Visualizer(port=0, look="rviz") as first:
         port = first.viser.get_port()
         pages = [open_viewer(first.url), open_viewer(first.url)]
         for page, end in zip(pages, ((640.0, 330.0), (500.0, 250.0)), strict=True):
@@ -147,7 +147,7 @@ def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
             cameras.append(page.page.evaluate(CAMERA))
             page.page.evaluate(WITHOUT_FOCUS)
     assert cameras[0] != pytest.approx(cameras[1])
-    with Visualizer(port=port) as second:
+    with Visualizer(port=port, look="rviz") as second:
         for page in pages:
             page.user.reads("The connection is back.", 40.0)
         second.set_joint_positions({LEFT: 1.0})
@@ -159,7 +159,7 @@ def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
 def test_a_page_that_slept_shows_how_things_are_now(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0) as viz:
+    with Visualizer(port=0, look="rviz") as viz:
         viewer = open_viewer(viz.url)
         viewer.expects_errors = True
         viewer.settle(viz)
@@ -215,7 +215,7 @@ def test_the_config_that_was_open_is_opened_again_when_a_user_asks_for_it(
 def test_a_page_that_was_left_is_not_counted_and_works_after_coming_back(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0) as viz:
+    with Visualizer(port=0, look="rviz") as viz:
         viewer, other = open_viewer(viz.url), open_viewer(viz.url)
         # The server is closed before the pages are.
         viewer.expects_errors = other.expects_errors = True
@@ -251,7 +251,7 @@ def test_a_page_that_is_loaded_again_undoes_what_it_has_done_before(
 def test_a_page_that_is_loaded_again_keeps_its_view_and_what_is_unfolded(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0) as viz:
+    with Visualizer(port=0, look="rviz") as viz:
         viewer = open_viewer(viz.url)
         # The server is closed before the page is.
         viewer.expects_errors = True

@@ -24,7 +24,7 @@ def viewer(
     """So many joints that they are in groups."""
     model = tmp_path_factory.mktemp("cost") / "chain.urdf"
     model.write_text(robots.chain(COUNT), "utf-8")
-    with Visualizer(model, port=0) as viz:
+    with Visualizer(model, port=0, look="rviz") as viz:
         viewer = open_for_all(viz.url)
         yield viewer
         # The server is closed before the page is.

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.browser
 def test_the_link_opens_the_page_and_a_reload_does_without(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0, token="") as viz:
+    with Visualizer(port=0, look="rviz", token="") as viz:
         address, token = viz.url.split("?token=")
         viewer = open_viewer(viz.url)
         viewer.user.row("Joints", "drivewhl_l_joint")
@@ -41,7 +41,7 @@ def test_below_a_path_the_websocket_is_in_the_folder_of_the_page(
         "const quick = WebAssembly.instantiate; WebAssembly.instantiate = "
         f"(...given) => new Promise((resolve) => {slow});"
     )
-    with Visualizer(port=0, base_path="/robot") as viz:
+    with Visualizer(port=0, look="rviz", base_path="/robot") as viz:
         page = open_page(chromium, 640, 480)
         # viser unpacks itself before it reads the address; here that takes longer.
         page.call("Page.addScriptToEvaluateOnNewDocument", {"source": late})
@@ -60,7 +60,10 @@ REFUSED = "violates the following Content Security Policy"
 def test_an_address_brings_no_recording_from_another_server(
     chromium: Chromium,
 ) -> None:
-    with Visualizer(port=0) as viz, Visualizer(port=0) as other:
+    with (
+        Visualizer(port=0, look="rviz") as viz,
+        Visualizer(port=0, look="rviz") as other,
+    ):
         page = open_page(chromium, 640, 480)
         page.goto(f"{viz.url}/?playbackPath={other.url}/robot.viser")
         User(page).until(lambda: any(REFUSED in m.text for m in page.console), 20.0)
@@ -68,7 +71,10 @@ def test_an_address_brings_no_recording_from_another_server(
 
 
 def test_a_page_connects_to_its_own_server_alone(chromium: Chromium) -> None:
-    with Visualizer(port=0) as viz, Visualizer(port=0) as other:
+    with (
+        Visualizer(port=0, look="rviz") as viz,
+        Visualizer(port=0, look="rviz") as other,
+    ):
         page = open_page(chromium, 640, 480)
         own, foreign = (v.url.replace("http", "ws") for v in (viz, other))
         page.goto(f"{viz.url}/?websocket={foreign}")

@@ -224,7 +224,7 @@ def test_widgets_of_a_script_have_a_panel_only_while_there_are_any(desk: Desk) -
 
 @pytest.fixture
 def private_viz() -> Iterator[Visualizer]:
-    with Visualizer(port=0, session="private") as viz:
+    with Visualizer(port=0, session="private", look="rviz") as viz:
         yield viz
 
 

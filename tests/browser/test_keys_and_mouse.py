@@ -175,7 +175,7 @@ def test_undo_and_escape_act_in_the_list_of_poses_after_one_is_removed(
 ) -> None:
     path = tmp_path / "p.yaml"
     path.write_text("near: {drivewhl_l_joint: 1.0}\nfar: {drivewhl_l_joint: 2.0}\n")
-    with Visualizer(port=0, poses=path) as viz:
+    with Visualizer(port=0, poses=path, look="rviz") as viz:
         viewer = open_viewer(viz.url)
         # The server is closed before the page is.
         viewer.expects_errors = True

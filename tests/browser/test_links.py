@@ -34,8 +34,8 @@ def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
     open_viewer: Open,
 ) -> None:
     with (
-        Visualizer(port=0) as viz,
-        Visualizer(port=0, token="a-long-secret-word") as other,
+        Visualizer(port=0, look="rviz") as viz,
+        Visualizer(port=0, look="rviz", token="a-long-secret-word") as other,
     ):
         viewer = open_viewer(viz.url)
         is_ready(viewer)

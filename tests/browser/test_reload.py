@@ -29,7 +29,7 @@ def model(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def viz(model: Path) -> Iterator[Visualizer]:
-    with Visualizer(model, port=0, watch=True) as viz:
+    with Visualizer(model, port=0, look="rviz", watch=True) as viz:
         yield viz
 
 

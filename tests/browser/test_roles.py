@@ -22,7 +22,7 @@ Open = Callable[..., ViewerPage]
 @pytest.fixture(scope="module")
 def viz(sam_bot: Robot) -> Iterator[Visualizer]:
     """One class for all tests: each ends with the presenter in control again."""
-    with Visualizer(sam_bot, port=0, presenter="") as viz:
+    with Visualizer(sam_bot, port=0, presenter="", look="rviz") as viz:
         yield viz
 
 

@@ -22,7 +22,7 @@ def viz(tmp_path: Path) -> Iterator[Visualizer]:
     """A humanoid of 32 joints."""
     model = tmp_path / "humanoid.urdf"
     model.write_text(robots.humanoid(), "utf-8")
-    with Visualizer(model, port=0) as viz:
+    with Visualizer(model, port=0, look="rviz") as viz:
         yield viz
 
 

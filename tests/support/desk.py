@@ -124,7 +124,8 @@ class Desk:
         self._start()
 
     def _start(self) -> None:
-        self.viz = Visualizer(self.model, self._config, port=0, watch=True)
+        # Studio takes longer to draw.
+        self.viz = Visualizer(self.model, self._config, port=0, watch=True, look="rviz")
         self.viewer = self.open()
         self._wait_for_robot()
         self.settle()

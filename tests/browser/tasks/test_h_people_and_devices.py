@@ -325,7 +325,7 @@ def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
     rows = user.rows("Displays")
     own.viz.stop()
     user.reads("Connection lost")
-    own.viz = Visualizer(own.model, port=port, watch=True)
+    own.viz = Visualizer(own.model, port=port, watch=True, look="rviz")
     user.reads("The connection is back. The server was restarted.", 40.0)
     user.until(lambda: own.viz.joint_positions[LEFT] == 1.0)
     user.until(lambda: field(own.viewer) == "1")
