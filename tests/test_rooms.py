@@ -98,6 +98,8 @@ ROOMS: Mapping[str, Row] = {
     "joints": Row("robot", "numpy yaml"),
     "drive": Row("joints robot", "numpy"),
     "messages": Row("", "numpy rosbags"),
+    # From recordings and robots on the network to messages as bytes.
+    "sources": Row("messages", "lz4 numpy yaml zstandard"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),

@@ -15,6 +15,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   ├── LookupRefused           no transform between two frames (.tf2_text)
     │   ├── TransformRefused        a transform that tf2 would not take
     │   └── FrameCycleError         a transform that would form a ring
+    ├── SourceError                 a bag or a robot that cannot be read (.problems)
     ├── JointError                  an unknown joint, or a value that is not finite
     ├── ServerError                 a port that is taken, a server that cannot go on
     │   └── BrowserError            a browser that is missing, ends or does not answer
@@ -208,6 +209,19 @@ class RobotError(_ErrorWithProblems):
 
 class ConfigError(_ErrorWithProblems):
     """The file is not a .rviz document; `problems` says why."""
+
+
+class SourceError(_ErrorWithProblems):
+    """A recording or a robot on the network does not give what was asked for.
+
+    Attributes:
+        problems: why, for files; else empty.
+    """
+
+    def __init__(self, why: str | Iterable[Problem]) -> None:
+        super().__init__(() if isinstance(why, str) else why)
+        if isinstance(why, str):
+            self.args = (why,)
 
 
 class FrameError(SambotVizError):

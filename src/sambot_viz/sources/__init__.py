@@ -1,0 +1,1 @@
+"""Where recorded and live messages come from: bags, and robots on the network."""

@@ -1,0 +1,9 @@
+"""Recordings: MCAP, rosbag2's sqlite3 and ROS 1 bags, whole or damaged.
+
+Nothing is decoded here, no thread is started, and a file is never read whole.
+"""
+
+from sambot_viz.sources.bag.bag import Bag, RecordedTopic
+from sambot_viz.sources.bag.open_bag import open_bag
+
+__all__ = ["Bag", "RecordedTopic", "open_bag"]

@@ -1,0 +1,130 @@
+"""What every recording is, whatever its format: topics, times, and messages by time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Protocol
+
+from sambot_viz.errors import Problem
+from sambot_viz.messages import Schema
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.qos import Qos
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedTopic:
+    """A topic of a recording.
+
+    Attributes:
+        name: as the file writes it.
+        schema: the definition of its messages, as the file has it; of its first
+            channel when several differ.
+        message_encoding: "cdr", "ros1", "json", …; of its first channel.
+        qos: what its publishers offered, when the file says so.
+        is_latched: late subscribers got its messages, so that they hold at any time of
+            the recording; see `latched.py`.
+        count: how many messages can be read, or None while that is not known.
+    """
+
+    name: str
+    schema: Schema
+    message_encoding: str
+    qos: Qos | None
+    is_latched: bool
+    count: int | None
+
+
+class Bag(Protocol):
+    """A recording that is open. Several threads may read it."""
+
+    @property
+    def paths(self) -> Sequence[Path]:
+        """The files, in the order of their first messages."""
+        ...
+
+    @property
+    def size(self) -> int:
+        """How long the files are [bytes]."""
+        ...
+
+    @property
+    def topics(self) -> Mapping[str, RecordedTopic]:
+        """The topics by name, in the order of the file."""
+        ...
+
+    @property
+    def start_ns(self) -> int | None:
+        """Log time of the first message [ns]; None when there is no message."""
+        ...
+
+    @property
+    def end_ns(self) -> int | None:
+        """Log time of the last message [ns]; it grows while `is_complete` is false."""
+        ...
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is lost and what to do; damage in a large file is added when met."""
+        ...
+
+    @property
+    def is_complete(self) -> bool:
+        """All messages are found; if not, call `index_more` until it says so."""
+        ...
+
+    def index_more(self) -> bool:
+        """Find more messages, for some tenths of a second; tell if all are found.
+
+        The thread belongs to the caller. Messages that are found can be read at once.
+        """
+        ...
+
+    def messages(
+        self,
+        start_ns: int | None = None,
+        end_ns: int | None = None,
+        topics: Iterable[str] | None = None,
+    ) -> Iterator[Recorded]:
+        """Yield messages in the order of their log times.
+
+        Args:
+            start_ns: the first log time [ns], or None for the beginning.
+            end_ns: the last log time [ns], or None for the end.
+            topics: names; only what has their messages is read. None for all.
+        """
+        ...
+
+    def last(self, topic: str, at_ns: int) -> Recorded | None:
+        """Return the newest message of a topic at a log time or before it."""
+        ...
+
+    def next(self, topic: str, after_ns: int) -> Recorded | None:
+        """Return the first message of a topic after a log time."""
+        ...
+
+    def previous(self, topic: str, before_ns: int) -> Recorded | None:
+        """Return the newest message of a topic before a log time."""
+        ...
+
+    def latched(self) -> Sequence[Recorded]:
+        """Return the messages of latched topics by log time, collected at opening."""
+        ...
+
+    def close(self) -> None:
+        """Close the files; may be called again."""
+        ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None: ...

@@ -1,0 +1,389 @@
+"""A file of a recording that is read block by block, whatever its format.
+
+A format says where its blocks are and what is in one of them; everything that is asked
+of a recording follows from that. One block is decompressed at a time for each reader,
+and the last few are kept.
+"""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections import Counter, OrderedDict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sambot_viz.errors import Problem, SourceError
+from sambot_viz.files import reason_of
+from sambot_viz.messages import Schema
+from sambot_viz.sources.bag.bag import RecordedTopic
+from sambot_viz.sources.bag.blocks import (
+    LAST_TIME,
+    Block,
+    Entries,
+    TimeIndex,
+    position,
+)
+from sambot_viz.sources.bag.compression import BrokenPieceError
+from sambot_viz.sources.bag.damage import Damage
+from sambot_viz.sources.bag.file_bytes import FileBytes
+from sambot_viz.sources.bag.latched import LatchedMessages
+from sambot_viz.sources.bag.merge import merged
+from sambot_viz.sources.message import Recorded, TopicChannel
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+OPENING = 500_000
+"""Work that is done at opening: records, or kilobytes that are decompressed."""
+
+STEP = 300_000
+"""Work that one call of `index_more` does."""
+
+_KEPT = 24 * 2**20
+"""Memory for blocks that were read last [bytes]; the newest stays."""
+
+
+class BlockBag(ABC):
+    """One file of a recording; see `Bag`.
+
+    Attributes:
+        damage: what was met.
+    """
+
+    def __init__(self, file: FileBytes) -> None:
+        self.damage = Damage(file.path)
+        self._file = file
+        self._blocks: list[Block] = []
+        self._channels: dict[int, TopicChannel] = {}
+        self._counts: Counter[int] = Counter()
+        self._are_counts_known = True
+        self._to_collect: list[Block] = []
+        self._met = 0
+        self._broken: set[int] = set()
+        self._latched = LatchedMessages()
+        self._kept: OrderedDict[int, Entries] = OrderedDict()
+        self._index: TimeIndex | None = None
+        self._topics: tuple[object, dict[str, RecordedTopic]] | None = None
+        self._is_finding = True
+        self._is_complete = False
+        # Held for short steps on what is above, never while a block is read.
+        self._lock = threading.RLock()
+        # Only one thread at a time goes on with finding blocks.
+        self._finding = threading.Lock()
+        self._work = self._find_all()
+
+    # --- what a format says ---------------------------------------------------------
+
+    @abstractmethod
+    def _find(self) -> Iterator[int]:
+        """Find all blocks, and yield how much work each step was."""
+
+    @abstractmethod
+    def _read(self, block: Block) -> Entries:
+        """Read a block.
+
+        Raises:
+            BrokenPieceError: it is damaged.
+        """
+
+    @abstractmethod
+    def _message(self, entries: Entries, number: int) -> Recorded | None:
+        """Return a message of a block; None when it cannot be read after all."""
+
+    def _counts_of(self, block: Block) -> Mapping[int, int]:
+        """Return how many messages of a block were counted without reading it."""
+        return {}
+
+    # --- for the formats ------------------------------------------------------------
+
+    def _number(self) -> int:
+        """Return the number of the next block."""
+        self._met += 1
+        return self._met
+
+    def _add_channel(self, number: int, channel: TopicChannel) -> None:
+        with self._lock:
+            self._channels.setdefault(number, channel)
+
+    def _add_block(self, block: Block, entries: Entries | None) -> None:
+        """Add a block that was found, with its messages if they were read."""
+        with self._lock:
+            self._blocks.append(block)
+            if entries is not None:
+                found, counts = np.unique(entries.channels, return_counts=True)
+                self._counts.update(
+                    dict(zip(found.tolist(), counts.tolist(), strict=True))
+                )
+        if entries is not None:
+            self._collect(block, entries)
+        else:
+            self._to_collect.append(block)
+
+    def _read_or_none(self, block: Block) -> Entries | None:
+        """Read a block, or return the kept one; note it when it is broken."""
+        with self._lock:
+            if block.number in self._broken:
+                return None
+            if (kept := self._kept.get(block.number)) is not None:
+                self._kept.move_to_end(block.number)
+                return kept
+        try:
+            entries = self._read(block)
+        except BrokenPieceError:
+            self._note_broken(block)
+            return None
+        except (OSError, ValueError) as error:
+            raise unreadable(self._file.path, error) from error
+        with self._lock:
+            self._kept[block.number] = entries
+            size = sum(each.size for each in self._kept.values())
+            while size > _KEPT and len(self._kept) > 1:
+                size -= self._kept.popitem(last=False)[1].size
+        return entries
+
+    def _note_broken(self, block: Block) -> None:
+        with self._lock:
+            if block.number not in self._broken:
+                self._broken.add(block.number)
+                self.damage.add_broken(block.start, block.end)
+                self._counts.subtract(self._counts_of(block))
+
+    # --- finding --------------------------------------------------------------------
+
+    def _find_all(self) -> Iterator[int]:
+        yield from self._find()
+        self._is_finding = False
+        while self._to_collect:
+            block = self._to_collect.pop(0)
+            wanted = {
+                number
+                for number, channel in self._channels.items()
+                if channel.is_latched and self._latched.wants(channel.topic)
+            }
+            if not wanted.isdisjoint(block.channels):
+                entries = self._read_or_none(block)
+                if entries is not None:
+                    self._collect(block, entries)
+                    yield entries.size // 1000 + len(entries.times)
+            yield 1
+
+    def _collect(self, block: Block, entries: Entries) -> None:
+        """Keep the messages of latched topics that are in a block."""
+        latched = [
+            number
+            for number in block.channels
+            if (channel := self._channels.get(number)) is not None
+            and channel.is_latched
+            and self._latched.wants(channel.topic)
+        ]
+        if latched:
+            for number in np.flatnonzero(np.isin(entries.channels, latched)).tolist():
+                message = self._message(entries, number)
+                if message is not None:
+                    with self._lock:
+                        self._latched.add(message)
+
+    def index_more(self, work: int = STEP) -> bool:
+        """Find more messages; see `Bag.index_more`."""
+        with self._finding:
+            done = 0
+            try:
+                for cost in self._work:
+                    done += cost
+                    if done >= work:
+                        return False
+            except (OSError, ValueError) as error:
+                raise unreadable(self._file.path, error) from error
+            self._is_complete = True
+            return True
+
+    @property
+    def is_complete(self) -> bool:
+        """All messages are found."""
+        return self._is_complete
+
+    # --- what is asked --------------------------------------------------------------
+
+    @property
+    def paths(self) -> Sequence[Path]:
+        """The file."""
+        return (self._file.path,)
+
+    @property
+    def size(self) -> int:
+        """How long the file is [bytes]."""
+        return self._file.size
+
+    @property
+    def topics(self) -> Mapping[str, RecordedTopic]:
+        """The topics by name, in the order of the file."""
+        with self._lock:
+            state = (len(self._channels), self._counts.total(), len(self._broken))
+            known = (*state, self._is_complete, self._are_counts_known)
+            if self._topics is None or self._topics[0] != known:
+                self._topics = (known, self._make_topics())
+            return self._topics[1]
+
+    def _make_topics(self) -> dict[str, RecordedTopic]:
+        first: dict[str, TopicChannel] = {}
+        counts: Counter[str] = Counter()
+        latched: set[str] = set()
+        for number, channel in self._channels.items():
+            first.setdefault(channel.topic, channel)
+            counts[channel.topic] += max(0, self._counts[number])
+            if channel.is_latched:
+                latched.add(channel.topic)
+        known = self._is_complete and self._are_counts_known
+        return {
+            topic: RecordedTopic(
+                topic,
+                channel.schema,
+                channel.message_encoding,
+                channel.qos,
+                topic in latched,
+                counts[topic] if known else None,
+            )
+            for topic, channel in first.items()
+        }
+
+    @property
+    def start_ns(self) -> int | None:
+        """Log time of the first message [ns]."""
+        with self._lock:
+            times = [b.start for b in self._blocks if b.number not in self._broken]
+        return min(times, default=None)
+
+    @property
+    def end_ns(self) -> int | None:
+        """Log time of the last message [ns]."""
+        with self._lock:
+            times = [b.end for b in self._blocks if b.number not in self._broken]
+        return max(times, default=None)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is lost and what to do."""
+        with self._lock:
+            return self.damage.problems(self.start_ns, self.end_ns)
+
+    def latched(self) -> Sequence[Recorded]:
+        """Return the messages of latched topics, by log time."""
+        with self._lock:
+            return self._latched.messages
+
+    def messages(
+        self,
+        start_ns: int | None = None,
+        end_ns: int | None = None,
+        topics: Iterable[str] | None = None,
+    ) -> Iterator[Recorded]:
+        """Yield messages in the order of their log times; see `Bag.messages`."""
+        first = 0 if start_ns is None else max(0, start_ns)
+        last = LAST_TIME if end_ns is None else min(LAST_TIME, end_ns)
+        channels = self._numbers(None if topics is None else set(topics))
+        blocks = self._blocks_by_time().overlapping(first, last, channels)
+        for entries, numbers in merged(
+            blocks, self._read_or_none, first, last, channels
+        ):
+            for number in numbers:
+                message = self._message(entries, number)
+                if message is not None:
+                    yield message
+
+    def last(self, topic: str, at_ns: int) -> Recorded | None:
+        """Return the newest message of a topic at a log time or before it."""
+        channels = self._numbers({topic})
+        best: tuple[int, int] | None = None
+        found: tuple[Entries, int] | None = None
+        for block, latest in self._blocks_by_time().backwards(at_ns, channels):
+            if best is not None and latest < best[0]:
+                break
+            entries = self._read_or_none(block)
+            if entries is None:
+                continue
+            count = position(entries.times, at_ns, right=True)
+            here = np.flatnonzero(np.isin(entries.channels[:count], list(channels)))
+            if len(here):
+                number = int(here[-1])
+                key = (int(entries.times[number]), block.number)
+                if best is None or key > best:
+                    best, found = key, (entries, number)
+        return None if found is None else self._message(*found)
+
+    def next(self, topic: str, after_ns: int) -> Recorded | None:
+        """Return the first message of a topic after a log time."""
+        channels = self._numbers({topic})
+        best: tuple[int, int] | None = None
+        found: tuple[Entries, int] | None = None
+        for block in self._blocks_by_time().forwards(after_ns + 1, channels):
+            if best is not None and block.start > best[0]:
+                break
+            entries = self._read_or_none(block)
+            if entries is None:
+                continue
+            first = position(entries.times, after_ns, right=True)
+            here = np.flatnonzero(np.isin(entries.channels[first:], list(channels)))
+            if len(here):
+                number = first + int(here[0])
+                key = (int(entries.times[number]), block.number)
+                if best is None or key < best:
+                    best, found = key, (entries, number)
+        return None if found is None else self._message(*found)
+
+    def previous(self, topic: str, before_ns: int) -> Recorded | None:
+        """Return the newest message of a topic before a log time."""
+        return self.last(topic, before_ns - 1)
+
+    def _numbers(self, topics: set[str] | None) -> frozenset[int]:
+        """Return the channels of some topics, or of all."""
+        with self._lock:
+            return frozenset(
+                number
+                for number, channel in self._channels.items()
+                if topics is None or channel.topic in topics
+            )
+
+    def _blocks_by_time(self) -> TimeIndex:
+        with self._lock:
+            if self._index is None or self._index.count != len(self._blocks):
+                self._index = TimeIndex(self._blocks)
+            return self._index
+
+    def close(self) -> None:
+        """Close the file; may be called again."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def unreadable(path: Path, error: OSError | ValueError) -> SourceError:
+    """Say that the disk does not give a file."""
+    return SourceError(
+        [
+            Problem(
+                "error",
+                "file-unreadable",
+                f"{path.name} cannot be read: {reason_of(error)}",
+                "see whether the disk is still there and the file may be read",
+                str(path),
+            )
+        ]
+    )
+
+
+NO_SCHEMA = Schema("", "", "")
+"""Of a channel that has none."""

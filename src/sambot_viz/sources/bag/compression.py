@@ -1,0 +1,75 @@
+"""Decompress pieces of a file that may claim any length.
+
+No more memory is taken than the caller allows, whatever the header of the data says.
+"""
+
+from __future__ import annotations
+
+import bz2
+import lzma
+import zlib
+from typing import Any
+
+LARGEST = 256 * 2**20
+"""Most bytes that one piece may have once it is decompressed."""
+
+
+class BrokenPieceError(Exception):
+    """Some bytes of the file that cannot be used; never leaves this package."""
+
+
+def decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memoryview:
+    """Decompress a piece of a file.
+
+    Args:
+        name: "", "none", "lz4", "zstd" or "bz2".
+        data: what stands in the file.
+        size: how many bytes it has once decompressed, as the file says.
+
+    Raises:
+        BrokenPieceError: it is damaged, too large, or has another length.
+    """
+    if size > LARGEST:
+        raise BrokenPieceError(f"it claims to have {size:,} bytes")
+    try:
+        raw = _decompress(name, data, size)
+    except (MemoryError, OSError, RuntimeError, ValueError, EOFError) as error:
+        raise BrokenPieceError("it cannot be decompressed") from error
+    except (zlib.error, lzma.LZMAError) as error:
+        raise BrokenPieceError("it cannot be decompressed") from error
+    if len(raw) != size:
+        raise BrokenPieceError(f"it has {len(raw):,} of {size:,} bytes")
+    return raw
+
+
+def _decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memoryview:
+    if name in ("", "none"):
+        return data
+    if name == "zstd":
+        return _zstd(data, size)
+    if name == "lz4":
+        return _lz4(data, size)
+    if name == "bz2":
+        return bz2.BZ2Decompressor().decompress(bytes(data), size)
+    raise BrokenPieceError(f"its compression {name[:40]!r} is not known")
+
+
+def _zstd(data: bytes | memoryview, size: int) -> bytes:
+    import zstandard
+
+    try:
+        # The header of the frame may claim any size, and memory would be taken for it.
+        claimed = zstandard.get_frame_parameters(data).content_size
+        if claimed not in (size, zstandard.CONTENTSIZE_UNKNOWN):
+            raise BrokenPieceError(f"it has {claimed:,} of {size:,} bytes")
+        return zstandard.ZstdDecompressor().decompress(data, max_output_size=size)
+    except zstandard.ZstdError as error:
+        raise BrokenPieceError("it cannot be decompressed") from error
+
+
+def _lz4(data: bytes | memoryview, size: int) -> bytes:
+    import lz4.frame  # type: ignore[import-untyped]
+
+    frame: Any = lz4.frame
+    # With a limit it takes no more memory, whatever the header of the frame claims.
+    return frame.LZ4FrameDecompressor().decompress(data, max_length=size)

@@ -1,0 +1,191 @@
+"""What is wrong with a file of a recording, in one sentence each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from sambot_viz.errors import Problem
+from sambot_viz.sources.bag.blocks import Times
+
+End = Literal["whole", "cut", "zeros", "unfinished", "reindex"]
+
+SMALLEST_STEP_BACK = 10**9
+"""Log times fall by less in any recording: several threads write it [ns]."""
+
+
+class Damage:
+    """Collects what was met while a file is read; read again for its sentences.
+
+    Attributes:
+        end: how the file ends.
+        end_at: where it ends, or where the zeros begin [bytes].
+        lies: records that claimed an impossible length, and cost nothing.
+        in_wal: messages that stand in the file beside a database.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.end: End = "whole"
+        self.end_at = 0
+        self.lies = 0
+        self.in_wal = 0
+        self._broken: list[tuple[int, int]] = []
+        self._unreadable: list[tuple[int, int]] = []
+        self._latest = -1
+        self._seen = 0
+        self._step_back: tuple[int, int, int] | None = None
+
+    @property
+    def is_broken_inside(self) -> bool:
+        """Something in the middle is lost."""
+        return bool(self._broken or self._unreadable)
+
+    def add_broken(self, start: int, end: int) -> None:
+        """Note that the messages between two log times [ns] are lost."""
+        self._broken.append((start, end))
+
+    def add_unreadable(self, at: int, end: int) -> None:
+        """Note that some bytes of the file make no sense."""
+        self._unreadable.append((at, end))
+
+    def add_times(self, times: Times) -> None:
+        """Note the log times of a stretch that was read, in the order of the file."""
+        if not len(times):
+            return
+        before = np.maximum.accumulate(times)
+        before = np.maximum(before, np.uint64(max(0, self._latest)))
+        fall = before - times
+        at = int(np.argmax(fall))
+        self._note_step_back(int(before[at]), int(times[at]), self._seen + at)
+        self._latest = max(self._latest, int(before[-1]))
+        self._seen += len(times)
+
+    def add_range(self, start: int, end: int) -> None:
+        """Note the first and the last log time [ns] of a stretch that was not read."""
+        self._note_step_back(self._latest, start, 0)
+        self._latest = max(self._latest, end)
+
+    def _note_step_back(self, high: int, low: int, before: int) -> None:
+        largest = self._step_back
+        if high - low >= SMALLEST_STEP_BACK and (
+            largest is None or high - low > largest[0] - largest[1]
+        ):
+            self._step_back = (high, low, before)
+
+    def problems(self, start: int | None, end: int | None) -> tuple[Problem, ...]:
+        """Return the sentences.
+
+        Args:
+            start: log time of the first message [ns], or None.
+            end: log time of the last message [ns], or None.
+        """
+        found: list[Problem] = []
+        if start is None or end is None:
+            found.append(no_messages(self.path))
+        else:
+            found += self._about_end(start, end)
+            found += self._about_step_back(start)
+        found += self._about_inside(start or 0)
+        return tuple(found)
+
+    def _about_end(self, start: int, end: int) -> list[Problem]:
+        name, shown = self.path.name, _seconds(end - start)
+        if self.end == "cut":
+            message = (
+                f"{name} ends in the middle of a record, at byte {self.end_at:,} "
+                f"(copied while recording, or the disk was full?): {shown} of it can "
+                "be shown"
+            )
+            hint = "copy the file again from where it was recorded"
+            return [Problem("warning", "file-cut", message, hint, str(self.path))]
+        if self.end == "reindex":
+            message = (
+                f"{name} was cut off and has no index: {shown} of it can be shown; "
+                "'rosbag reindex' makes the file whole again"
+            )
+            hint = f"run 'rosbag reindex {name}' where ROS 1 is installed"
+            return [Problem("warning", "file-cut", message, hint, str(self.path))]
+        if self.end == "zeros":
+            message = (
+                f"{name} has only zeros from byte {self.end_at:,} on (power cut?): "
+                f"{shown} before that can be shown"
+            )
+            hint = "copy the file again if there is another one; the rest is lost"
+            return [Problem("warning", "file-zeros", message, hint, str(self.path))]
+        if self.end == "unfinished":
+            return [self._unfinished()]
+        return []
+
+    def _unfinished(self) -> Problem:
+        name = self.path.name
+        lacks = "no index at its end"
+        if not (self.path.parent / "metadata.yaml").exists():
+            lacks += ", no metadata.yaml beside it"
+        message = (
+            f"the recorder did not finish {name} ({lacks}): it was read through once, "
+            "nothing is lost but the last moments"
+        )
+        if self.in_wal:
+            message = (
+                f"the recorder did not finish {name} (no metadata.yaml beside it): "
+                f"{self.in_wal:,} messages were found in {name}-wal"
+            )
+        hint = "end 'ros2 bag record' with Ctrl-C; 'ros2 bag reindex' repairs a folder"
+        return Problem("info", "file-no-index", message, hint, str(self.path))
+
+    def _about_inside(self, start: int) -> list[Problem]:
+        name, parts = self.path.name, len(self._broken) + len(self._unreadable)
+        if parts:
+            times = [
+                f"{_seconds(first - start)} to {_seconds(last - start)}"
+                for first, last in sorted(self._broken)
+            ]
+            places = [
+                f"bytes {first:,} to {last:,}"
+                for first, last in sorted(self._unreadable)
+            ]
+            listed = ", ".join([*times, *places][:5]) + (", …" if parts > 5 else "")
+            count = "one part" if parts == 1 else f"{parts:,} parts"
+            verb = "is" if parts == 1 else "are"
+            message = f"{count} of {name} {verb} damaged and left out ({listed})"
+        elif self.lies:
+            message = (
+                f"{name} is damaged: a record has an impossible length; the index at "
+                "its end was used instead and nothing is lost"
+            )
+        else:
+            return []
+        hint = "copy the file again if there is another one"
+        return [Problem("warning", "file-chunk-broken", message, hint, str(self.path))]
+
+    def _about_step_back(self, start: int) -> list[Problem]:
+        if self._step_back is None:
+            return []
+        high, low, before = self._step_back
+        after = f" after message {before:,}" if before else ""
+        message = (
+            f"the log times of {self.path.name} go back by {_seconds(high - low)}"
+            f"{after}: two stretches lie over each other from {_seconds(low - start)} "
+            f"to {_seconds(high - start)}"
+        )
+        hint = "messages are played by log time, as 'ros2 bag play' does"
+        return [Problem("warning", "log-back", message, hint, str(self.path))]
+
+
+def no_messages(path: Path) -> Problem:
+    """Say that a recording has no message."""
+    return Problem(
+        "error",
+        "file-no-messages",
+        f"{path.name} has no message: the recorder was stopped before anything came",
+        "see with 'ros2 topic list' whether the recorder finds the topics "
+        "(ROS_DOMAIN_ID?)",
+        str(path),
+    )
+
+
+def _seconds(duration: int) -> str:
+    return f"{duration / 1e9:.1f} s"

@@ -1,0 +1,478 @@
+"""MCAP files of any profile, with an index or without.
+
+The file is walked from record header to record header; where the index at its end knows
+a chunk, the walk steps over it. So a file whose recorder was killed, whose index is
+damaged or which never had one is read in the same way.
+"""
+
+from __future__ import annotations
+
+import threading
+import zlib
+from array import array
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sambot_viz.messages import Schema
+from sambot_viz.sources.bag.block_bag import NO_SCHEMA, BlockBag
+from sambot_viz.sources.bag.blocks import Block, Entries, sorted_entries
+from sambot_viz.sources.bag.compression import BrokenPieceError, decompress
+from sambot_viz.sources.bag.file_bytes import FileBytes, ReadAhead
+from sambot_viz.sources.bag.latched import is_latched
+from sambot_viz.sources.bag.mcap_records import (
+    CHANNEL,
+    CHUNK,
+    CHUNK_INDEX,
+    DATA_END,
+    FOOTER_SIZE,
+    HEAD,
+    MAGIC,
+    MESSAGE,
+    MESSAGE_HEAD,
+    MESSAGE_INDEX,
+    SCHEMA,
+    STATISTICS,
+    ChannelRecord,
+    ChunkIndexRecord,
+    read_channel,
+    read_chunk,
+    read_chunk_index,
+    read_footer,
+    read_message_index,
+    read_schema,
+    read_statistics,
+)
+from sambot_viz.sources.bag.mcap_search import find_record, zeros_end
+from sambot_viz.sources.message import Recorded, TopicChannel
+from sambot_viz.sources.qos import parse_qos
+
+SMALL = 8 * 2**20
+"""A file up to this size is read through at opening, so that all damage is known."""
+
+_MOST_OF_SUMMARY = 2**28
+_LARGEST_DEFINITION = 2**26
+_LOOSE = 4096
+_MESSAGE_SIZE = HEAD.size + MESSAGE_HEAD.size
+_CHUNK_SIZE = 64
+
+
+@dataclass(slots=True, eq=False)
+class ChunkBlock(Block):
+    """A chunk.
+
+    Attributes:
+        at: where its record begins in the file [bytes].
+        length: of the whole record [bytes].
+        index_length: of the message indexes behind it [bytes].
+    """
+
+    at: int
+    length: int
+    index_length: int
+
+
+@dataclass(slots=True, eq=False)
+class LooseBlock(Block):
+    """Some thousand messages that stand outside of chunks.
+
+    Attributes:
+        entries: where they are.
+    """
+
+    entries: Entries
+
+
+@dataclass(slots=True)
+class _Chunk:
+    """A chunk that was met, while the message indexes behind it are read."""
+
+    at: int
+    length: int
+    start: int
+    end: int
+    counts: Counter[int] = field(default_factory=Counter[int])
+    index_length: int = 0
+
+
+class _Loose:
+    """Collects messages outside of chunks: 18 bytes for each."""
+
+    def __init__(self) -> None:
+        self.channels = array("H")
+        self.times = array("Q")
+        self.places = array("Q")
+
+    def entries(self) -> tuple[Entries, np.ndarray[tuple[int], np.dtype[np.uint64]]]:
+        times = np.array(self.times, np.uint64)
+        channels = np.array(self.channels, np.uint16)
+        places = np.array(self.places, np.int64)
+        return sorted_entries(times, channels, places, None), times
+
+
+class McapBag(BlockBag):
+    """An MCAP file; see `Bag`."""
+
+    def __init__(self, file: FileBytes) -> None:
+        super().__init__(file)
+        self._schemas: dict[int, Schema] = {}
+        self._is_small = file.size <= SMALL
+        # What is read ahead, of each thread that reads messages outside of chunks.
+        self._ahead = threading.local()
+
+    # --- finding --------------------------------------------------------------------
+
+    def _find(self) -> Iterator[int]:
+        file = self._file
+        end, hints = file.size, dict[int, ChunkIndexRecord]()
+        try:
+            size = FOOTER_SIZE + len(MAGIC)
+            summary, crc = read_footer(file.read_at(file.size - size, size))
+        except BrokenPieceError:
+            self.damage.end = "unfinished"
+        else:
+            end -= size
+            hints = self._read_summary(summary, crc, end)
+            if hints:
+                end = summary
+        yield 1 + len(hints)
+        yield from self._walk(end, hints)
+
+    def _read_summary(self, at: int, crc: int, end: int) -> dict[int, ChunkIndexRecord]:
+        """Read the channels of the summary, and where the chunks are.
+
+        Returns:
+            place → chunk; empty when not all of their channels are known.
+        """
+        if not len(MAGIC) <= at < end or end - at > _MOST_OF_SUMMARY:
+            return {}
+        data = self._file.read_at(at, end - at + FOOTER_SIZE)
+        if crc and zlib.crc32(data[: end - at + FOOTER_SIZE - 4]) != crc:
+            return {}
+        chunks: list[ChunkIndexRecord] = []
+        counts: dict[int, int] | None = None
+        try:
+            for opcode, content in _records(data[: end - at]):
+                if opcode == CHUNK_INDEX:
+                    chunks.append(read_chunk_index(content))
+                elif opcode == STATISTICS:
+                    counts = read_statistics(content)[1]
+                else:
+                    self._define(opcode, content)
+        except BrokenPieceError:
+            return {}
+        known = self._channels.keys()
+        chunks.sort(key=lambda chunk: chunk.at)
+        free = len(MAGIC)
+        for chunk in chunks:
+            behind = chunk.at + chunk.length + chunk.index_length
+            fits = free <= chunk.at < behind <= at and chunk.start <= chunk.end
+            if not fits or not chunk.channels or not chunk.channels <= known:
+                return {}
+            free = behind
+        if chunks and not self._is_small:
+            self._are_counts_known = counts is not None
+            self._counts.update(counts or {})
+        return {chunk.at: chunk for chunk in chunks}
+
+    def _walk(self, end: int, hints: Mapping[int, ChunkIndexRecord]) -> Iterator[int]:
+        """Go from record to record and add what is found.
+
+        Args:
+            end: where the records end [bytes].
+            hints: chunks that are known, by their places.
+        """
+        window = ReadAhead(self._file)
+        loose = _Loose()
+        chunk: _Chunk | None = None
+        at, steps, is_behind_data = len(MAGIC), 0, False
+        while at < end:
+            steps += 1
+            if len(loose.times) >= _LOOSE:
+                self._add_loose(loose)
+                loose = _Loose()
+            if steps >= _LOOSE:
+                yield steps
+                steps = 0
+            if (hint := hints.get(at)) is not None:
+                yield self._add_hint(hint)
+                at = hint.at + hint.length + hint.index_length
+                continue
+            data, begin = window.around(at, _MESSAGE_SIZE)
+            opcode, length = HEAD.unpack_from(data, begin) if end - at >= 9 else (0, 0)
+            behind = at + HEAD.size + length
+            if opcode == MESSAGE and length >= MESSAGE_HEAD.size and behind <= end:
+                channel, _, time, _ = MESSAGE_HEAD.unpack_from(data, begin + HEAD.size)
+                loose.channels.append(channel)
+                loose.times.append(time)
+                loose.places.append(at)
+                at = behind
+                continue
+            if opcode == MESSAGE_INDEX and chunk is not None and behind <= end:
+                content = data[begin + HEAD.size : begin + HEAD.size + 6]
+                if len(content) == 6:
+                    number, count = read_message_index(content)
+                    chunk.counts[number] += count
+                    chunk.index_length = behind - chunk.at - chunk.length
+                at = behind
+                continue
+            if chunk is not None:
+                yield self._add_chunk(chunk)
+                chunk = None
+            is_sound = opcode != 0 and behind <= end
+            if is_sound and opcode == CHUNK:
+                chunk = self._chunk_at(window, at, length)
+                is_sound = chunk is not None
+            elif is_sound and opcode in (SCHEMA, CHANNEL):
+                is_sound = self._define_at(window, at, opcode, length)
+            is_behind_data = is_behind_data or (is_sound and opcode == DATA_END)
+            if is_sound:
+                at = behind
+                continue
+            if is_behind_data or self._is_cut(window, at, opcode, length, end):
+                break
+            found: int | None = None
+            for place in find_record(self._file, at, end):
+                found = place
+                yield 1000
+            if found is None:
+                self._note_end(at, end)
+                break
+            self.damage.add_unreadable(at, found)
+            at = found
+        self._add_loose(loose)
+        if chunk is not None:
+            yield self._add_chunk(chunk)
+        yield steps
+
+    def _is_cut(
+        self, window: ReadAhead, at: int, opcode: int, length: int, end: int
+    ) -> bool:
+        """Tell if the walk must end in a record that is not all there."""
+        if opcode != CHUNK or at + HEAD.size + length <= end:
+            return False
+        try:
+            head = read_chunk(window.get(at + HEAD.size, _CHUNK_SIZE))
+        except BrokenPieceError:
+            return False
+        # All its lengths say the same: it is a chunk of which the rest is missing.
+        if head.at + head.size == length:
+            self._note_end(at, end)
+            return True
+        return False
+
+    def _note_end(self, at: int, end: int) -> None:
+        if self.damage.end == "whole":
+            self.damage.add_unreadable(at, end)
+            return
+        zeros = zeros_end(self._file, at, end)
+        self.damage.end = "zeros" if zeros == end else "cut"
+        self.damage.end_at = at
+
+    def _chunk_at(self, window: ReadAhead, at: int, length: int) -> _Chunk | None:
+        try:
+            head = read_chunk(window.get(at + HEAD.size, min(length, _CHUNK_SIZE)))
+        except BrokenPieceError:
+            return None
+        return _Chunk(at, HEAD.size + length, head.start, head.end)
+
+    def _define_at(self, window: ReadAhead, at: int, opcode: int, length: int) -> bool:
+        if length > _LARGEST_DEFINITION:
+            return True
+        try:
+            self._define(opcode, window.get(at + HEAD.size, length))
+        except BrokenPieceError:
+            return False
+        return True
+
+    def _define(self, opcode: int, content: bytes) -> None:
+        """Take a schema or a channel; the same ones may come again."""
+        if opcode == SCHEMA:
+            schema = read_schema(content)
+            if schema.id and schema.id not in self._schemas:
+                text = _text_of(schema.encoding, schema.data)
+                self._schemas[schema.id] = Schema(schema.name, schema.encoding, text)
+        elif opcode == CHANNEL:
+            channel = read_channel(content)
+            if channel.id not in self._channels:
+                self._add_channel(channel.id, self._made(channel))
+
+    def _made(self, record: ChannelRecord) -> TopicChannel:
+        schema = self._schemas.get(record.schema, NO_SCHEMA)
+        qos = parse_qos(record.metadata.get("offered_qos_profiles", ""))
+        latching = record.metadata.get("latching", "")
+        latched = is_latched(record.topic, schema.name, qos, latching)
+        return TopicChannel(record.topic, schema, record.encoding, qos, latched)
+
+    def _add_loose(self, loose: _Loose) -> None:
+        if loose.times:
+            entries, in_file = loose.entries()
+            self.damage.add_times(in_file)
+            found = frozenset(np.unique(entries.channels).tolist())
+            first, last = int(entries.times[0]), int(entries.times[-1])
+            block = LooseBlock(self._number(), first, last, found, entries)
+            self._add_block(block, entries)
+
+    def _add_hint(self, hint: ChunkIndexRecord) -> int:
+        """Add a chunk that the index knows, and return how much work it was."""
+        block = ChunkBlock(
+            self._number(),
+            hint.start,
+            hint.end,
+            hint.channels,
+            hint.at,
+            hint.length,
+            hint.index_length,
+        )
+        return self._add_chunk_block(block, self._is_small)
+
+    def _add_chunk(self, chunk: _Chunk) -> int:
+        """Add a chunk that the walk has met, and return how much work it was."""
+        block = ChunkBlock(
+            self._number(),
+            chunk.start,
+            chunk.end,
+            frozenset(chunk.counts),
+            chunk.at,
+            chunk.length,
+            chunk.index_length,
+        )
+        known = chunk.counts and chunk.counts.keys() <= self._channels.keys()
+        must_read = self._is_small or not known
+        if not must_read:
+            with self._lock:
+                self._counts.update(chunk.counts)
+        return self._add_chunk_block(block, must_read)
+
+    def _add_chunk_block(self, block: ChunkBlock, must_read: bool) -> int:
+        if not must_read:
+            self.damage.add_range(block.start, block.end)
+            self._add_block(block, None)
+            return 1
+        entries = self._read_or_none(block)
+        if entries is None:
+            return 1000
+        if len(entries.times):
+            block.start, block.end = int(entries.times[0]), int(entries.times[-1])
+            block.channels = frozenset(np.unique(entries.channels).tolist())
+            self._add_block(block, entries)
+        return len(entries.times) + entries.size // 1000
+
+    # --- reading --------------------------------------------------------------------
+
+    def _read(self, block: Block) -> Entries:
+        if isinstance(block, LooseBlock):
+            return block.entries
+        assert isinstance(block, ChunkBlock)
+        content = self._file.read_at(block.at, block.length)
+        if len(content) < block.length or block.length < HEAD.size:
+            raise BrokenPieceError("the file ends before it")
+        opcode, length = HEAD.unpack_from(content)
+        if opcode != CHUNK:
+            raise BrokenPieceError("there is no chunk")
+        inner = memoryview(content)[HEAD.size :]
+        head = read_chunk(bytes(inner[:_CHUNK_SIZE]))
+        stored = inner[head.at : head.at + head.size]
+        if len(stored) != head.size:
+            raise BrokenPieceError("it is shorter than it claims")
+        if length + HEAD.size != block.length:
+            # The index was right about where it ends.
+            self.damage.lies += 1
+        raw = decompress(head.compression, stored, head.raw_size)
+        if head.crc and zlib.crc32(raw) != head.crc:
+            raise BrokenPieceError("its checksum is wrong")
+        return self._entries_in(raw)
+
+    def _entries_in(self, raw: bytes | memoryview) -> Entries:
+        """Walk through the records of a chunk."""
+        loose, at, end = _Loose(), 0, len(raw)
+        while at < end:
+            if end - at < HEAD.size:
+                raise BrokenPieceError("it ends in a record")
+            opcode, length = HEAD.unpack_from(raw, at)
+            behind = at + HEAD.size + length
+            if behind > end:
+                raise BrokenPieceError("it ends in a record")
+            if opcode == MESSAGE:
+                if length < MESSAGE_HEAD.size:
+                    raise BrokenPieceError("a message has no times")
+                channel, _, time, _ = MESSAGE_HEAD.unpack_from(raw, at + HEAD.size)
+                loose.channels.append(channel)
+                loose.times.append(time)
+                loose.places.append(at)
+            elif opcode in (SCHEMA, CHANNEL):
+                self._define(opcode, bytes(raw[at + HEAD.size : behind]))
+            elif opcode == 0:
+                raise BrokenPieceError("it has no records")
+            at = behind
+        entries, in_file = loose.entries()
+        if self._is_finding:
+            self.damage.add_times(in_file)
+        return Entries(entries.times, entries.channels, entries.places, raw)
+
+    def _message(self, entries: Entries, number: int) -> Recorded | None:
+        channel = self._channels.get(int(entries.channels[number]))
+        if channel is None:
+            return None
+        at, raw = int(entries.places[number]), entries.raw
+        if raw is not None:
+            _, length = HEAD.unpack_from(raw, at)
+            _, _, log, publish = MESSAGE_HEAD.unpack_from(raw, at + HEAD.size)
+            payload = memoryview(raw)[at + _MESSAGE_SIZE : at + HEAD.size + length]
+            if len(payload) < len(raw) // 4:
+                # A part that is kept would keep all of its chunk.
+                payload = bytes(payload)
+            return Recorded(channel.topic, channel, log, publish, payload)
+        return self._loose_message(channel, at)
+
+    def _loose_message(self, channel: TopicChannel, at: int) -> Recorded | None:
+        window: ReadAhead | None = getattr(self._ahead, "window", None)
+        if window is None:
+            window = self._ahead.window = ReadAhead(self._file)
+        head = window.get(at, _MESSAGE_SIZE)
+        if len(head) < _MESSAGE_SIZE:
+            return None
+        _, length = HEAD.unpack_from(head)
+        _, _, log, publish = MESSAGE_HEAD.unpack_from(head, HEAD.size)
+        size = length - MESSAGE_HEAD.size
+        payload = window.get(at + _MESSAGE_SIZE, size)
+        if len(payload) < size:
+            return None
+        return Recorded(channel.topic, channel, log, publish, payload)
+
+    def _counts_of(self, block: Block) -> Mapping[int, int]:
+        counts = Counter[int]()
+        if isinstance(block, ChunkBlock) and not self._is_small:
+            at = block.at + block.length
+            data = self._file.read_at(at, min(block.index_length, _MOST_OF_SUMMARY))
+            try:
+                for opcode, content in _records(data):
+                    if opcode == MESSAGE_INDEX:
+                        channel, count = read_message_index(content[:6])
+                        counts[channel] += count
+            except BrokenPieceError:
+                self._are_counts_known = False
+        return counts
+
+
+def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
+    """Yield opcode and content of records that follow each other."""
+    at = 0
+    while at < len(data):
+        if len(data) - at < HEAD.size:
+            raise BrokenPieceError("the last record is cut")
+        opcode, length = HEAD.unpack_from(data, at)
+        at += HEAD.size
+        if length > len(data) - at:
+            raise BrokenPieceError("a record is longer than what it is in")
+        yield opcode, data[at : at + length]
+        at += length
+
+
+def _text_of(encoding: str, data: bytes) -> str | bytes:
+    """Return a definition as text, or as bytes where it is none."""
+    if encoding in ("protobuf", "flatbuffer"):
+        return data
+    return data.decode("utf-8", "replace")
