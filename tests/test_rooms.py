@@ -99,7 +99,7 @@ ROOMS: Mapping[str, Row] = {
     "drive": Row("joints robot", "numpy"),
     "messages": Row("", "numpy rosbags"),
     # From recordings and robots on the network to messages as bytes.
-    "sources": Row("messages", "lz4 numpy yaml zstandard"),
+    "sources": Row("messages", "lz4 msgspec numpy websockets yaml zstandard"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
@@ -167,6 +167,13 @@ ROOMS: Mapping[str, Row] = {
 }
 
 EXCEPTIONS: Mapping[str, str] = {
+    # A live source has a thread for its connection and one that calls back.
+    "sources/source.py": "concurrent",
+    "sources/websocket/assets.py": "concurrent",
+    "sources/websocket/delivery.py": "threading",
+    "sources/websocket/event_loop.py": "asyncio socket threading",
+    "sources/websocket/trouble.py": "socket ssl",
+    "sources/websocket/websocket_source.py": "asyncio concurrent threading",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
     "robot/xacro/expand.py": "signal subprocess",  # xacro runs in a child process
     # In that child: the one thread of the pure rooms watches for the parent's end.

@@ -1,0 +1,230 @@
+"""Foxglove's websocket protocol: foxglove_bridge, or a server of Foxglove's SDK.
+
+Schemas, files, parameters and the graph come over the same connection. Read-only:
+nothing is published, no parameter is set, no service is called.
+"""
+
+from __future__ import annotations
+
+from itertools import count
+
+from sambot_viz.sources import foxglove_wire as wire
+from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
+from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation, Ends
+from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
+from sambot_viz.text import text
+
+_ALLOW = (
+    "if the file is there, add a pattern for it to the parameter "
+    "`asset_uri_allowlist` of foxglove_bridge"
+)
+_LINE_LASTS = 30.0
+_MOST_LINES, _MOST_NOTES = 100, 3
+
+
+class FoxgloveConversation(Conversation):
+    """One connection to a Foxglove server."""
+
+    def __init__(self, ends: Ends) -> None:
+        super().__init__(ends)
+        self._channels: dict[int, TopicChannel] = {}
+        self._by_topic: dict[str, list[int]] = {}
+        self._publishers: dict[str, tuple[str, ...]] = {}
+        self._subscriptions: dict[int, int] = {}  # id of the subscription by channel
+        self._subscribed: dict[
+            int, TopicChannel
+        ] = {}  # channel by id of the subscription
+        self._ids = count(1)
+        self._wanted: frozenset[str] = frozenset()
+        # What the server says about itself: by id until it takes it back; without one
+        # it is an event, and shown for a while.
+        self._lines: dict[str, str] = {}
+        self._line = ""
+        self._line_end = self._now = 0.0
+
+    def begin(self) -> None:
+        """Say nothing: the server speaks first."""
+
+    def receive(self, frame: str | bytes) -> None:
+        """Take a frame; one that makes no sense is counted."""
+        try:
+            if isinstance(frame, bytes):
+                self._binary(frame)
+            else:
+                self._text(frame)
+        except wire.Malformed:
+            self.unreadable += 1
+
+    def update(self, wanted: frozenset[str]) -> None:
+        """Subscribe to the channels of the wanted topics, and to no others."""
+        gone, new = self._wanted - wanted, wanted - self._wanted
+        self._wanted = wanted
+        for topic in gone:
+            for channel_id in self._by_topic.get(topic, ()):
+                self._unsubscribe(channel_id)
+        for topic in new:
+            for channel_id in self._by_topic.get(topic, ()):
+                self._subscribe(channel_id)
+        self._ask_for_assets()
+
+    def tick(self, now: float) -> None:
+        """Let lines of the server that have no id end after a while."""
+        self._now = now
+        if now > self._line_end:
+            self._line = ""
+
+    def silence(self) -> str:
+        """Return the sentence for a server that does not say who it is."""
+        return (
+            f"{self.ends.address.label} does not speak Foxglove's protocol: if "
+            f"rosbridge runs there, {other_protocol(self.ends.address)}"
+        )
+
+    def notes(self) -> list[str]:
+        """Return the server's warnings, and what is left out."""
+        lines = [*self._lines.values(), *([self._line] if self._line else [])]
+        notes = [f"it says: {text(line, 200)}" for line in lines[-_MOST_NOTES:]]
+        if len(self._channels) >= MOST_TOPICS:
+            notes.append(f"only the first {MOST_TOPICS} of its topics are listed")
+        return notes
+
+    def topics(self) -> dict[str, SourceTopic]:
+        """Return a topic for each name; of several channels the first counts."""
+        found: dict[str, SourceTopic] = {}
+        has_graph = "connectionGraph" in self.capabilities and self._publishers
+        for name, ids in self._by_topic.items():
+            channel = self._channels[ids[0]]
+            found[name] = SourceTopic(
+                name,
+                channel.schema,
+                channel.message_encoding,
+                is_latched=channel.is_latched,
+                publishers=self._publishers.get(name, ()) if has_graph else None,
+            )
+        return found
+
+    def _binary(self, frame: bytes) -> None:
+        parsed = wire.parse_binary(frame)
+        if isinstance(parsed, wire.MessageFrame):
+            channel = self._subscribed.get(parsed.subscription_id)
+            if channel is not None:
+                self.ends.clock.note_message(parsed.log_ns)
+                self.ends.put(
+                    Recorded(
+                        channel.topic, channel, parsed.log_ns, None, parsed.payload
+                    )
+                )
+        elif isinstance(parsed, wire.TimeFrame):
+            self.ends.clock.note_time(parsed.time_ns)
+        elif isinstance(parsed, wire.AssetFrame):
+            self.ends.assets.answer(
+                parsed.request_id, parsed.content, parsed.error, _ALLOW
+            )
+            self._ask_for_assets()
+
+    def _text(self, frame: str) -> None:
+        parsed = wire.parse_text(frame)
+        self.unreadable += parsed.malformed
+        content = parsed.content
+        if isinstance(content, wire.ServerInfo):
+            self._server_info(content)
+        elif isinstance(content, wire.Unadvertised):
+            for channel_id in content.channel_ids:
+                self._remove(channel_id)
+        elif isinstance(content, wire.ServerStatus):
+            self._status(content)
+        elif isinstance(content, wire.StatusesRemoved):
+            for line_id in content.status_ids:
+                self._lines.pop(line_id, None)
+        elif isinstance(content, wire.GraphUpdate):
+            self._graph(content)
+        elif isinstance(content, wire.Advertised):
+            for channel in content.channels:
+                self._add(channel)
+        elif not self.is_ready and content is None:
+            raise WrongServer(self.silence())
+
+    def _server_info(self, info: wire.ServerInfo) -> None:
+        if self.is_ready and info.session_id != self.session_id:
+            # Its channels may have other ids now, and not all servers advertise them
+            # again: a new connection gets them all.
+            raise NewSession(f"{self.ends.address.label} has started again")
+        self.is_ready = True
+        self.server, self.session_id = info.name, info.session_id
+        self.capabilities = frozenset(info.capabilities)
+        if self.ends.session_id != info.session_id:
+            self.ends.assets.forget()
+        if "connectionGraph" in self.capabilities:
+            self.ends.send(wire.subscribe_connection_graph())
+        self._ask_for_assets()
+
+    def _add(self, server_channel: wire.ServerChannel) -> None:
+        if len(self._channels) >= MOST_TOPICS:
+            return
+        self._remove(server_channel.id)
+        topic = server_channel.topic
+        self._channels[server_channel.id] = TopicChannel(
+            topic,
+            server_channel.definition(),
+            server_channel.encoding,
+            is_latched=is_latched_name(topic),
+        )
+        self._by_topic.setdefault(topic, []).append(server_channel.id)
+        self.topics_changed = True
+        if topic in self._wanted:
+            self._subscribe(server_channel.id)
+
+    def _remove(self, channel_id: int) -> None:
+        channel = self._channels.get(channel_id)
+        if channel is None:
+            return
+        # The server has ended the subscription together with the channel.
+        if (subscription := self._subscriptions.pop(channel_id, None)) is not None:
+            del self._subscribed[subscription]
+        del self._channels[channel_id]
+        ids = self._by_topic[channel.topic]
+        ids.remove(channel_id)
+        if not ids:
+            del self._by_topic[channel.topic]
+        self.topics_changed = True
+
+    def _subscribe(self, channel_id: int) -> None:
+        subscription = next(self._ids)
+        self._subscriptions[channel_id] = subscription
+        self._subscribed[subscription] = self._channels[channel_id]
+        self.ends.send(wire.subscribe(subscription, channel_id))
+
+    def _unsubscribe(self, channel_id: int) -> None:
+        subscription = self._subscriptions.pop(channel_id, None)
+        if subscription is not None:
+            del self._subscribed[subscription]
+            self.ends.send(wire.unsubscribe(subscription))
+
+    def _graph(self, update: wire.GraphUpdate) -> None:
+        for topic in update.published_topics:
+            if topic.name in self._publishers or len(self._publishers) < MOST_TOPICS:
+                self._publishers[topic.name] = topic.publisher_ids
+        for name in update.removed_topics:
+            self._publishers.pop(name, None)
+        self.topics_changed = True
+
+    def _status(self, status: wire.ServerStatus) -> None:
+        if status.level < 1:
+            return
+        if status.id is None:
+            self._line, self._line_end = status.message, self._now + _LINE_LASTS
+        elif status.id in self._lines or len(self._lines) < _MOST_LINES:
+            self._lines[status.id] = status.message
+
+    def _ask_for_assets(self) -> None:
+        if not self.is_ready:
+            return
+        if "assets" in self.capabilities:
+            for request_id, uri in self.ends.assets.to_ask():
+                self.ends.send(wire.fetch_asset(uri, request_id))
+        else:
+            self.ends.assets.refuse_all(
+                f"the server at {self.ends.address.label} hands out no files",
+                "with foxglove_bridge, add assets to its parameter `capabilities`",
+            )

@@ -1,0 +1,47 @@
+"""The kinds of live sources, by what their addresses begin with."""
+
+from __future__ import annotations
+
+from sambot_viz.errors import UsageError
+from sambot_viz.sources.source import Source
+from sambot_viz.sources.websocket.address import parse_address
+from sambot_viz.text import text
+
+KNOWN = "bag:PATH, foxglove://HOST:8765, rosbridge://HOST:9090"
+"""What `--source` takes, for help and messages."""
+_LATER = ("dds", "zenoh", "rclpy")
+_LIVE = ("foxglove", "rosbridge", "ws", "wss")
+
+
+def is_live(uri: str) -> bool:
+    """Return whether an address is of a live source, for `open_source`."""
+    return _scheme(uri) in _LIVE
+
+
+def open_source(uri: str) -> Source:
+    """Return the source at an address; it connects when it is opened.
+
+    Args:
+        uri: such as foxglove://robot:8765/path, foxglove+wss://lab or
+            rosbridge://robot:9090.
+
+    Raises:
+        UsageError: there is no such kind of source, or the address makes no sense.
+    """
+    scheme = _scheme(uri)
+    if scheme in _LATER:
+        raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
+    if scheme not in _LIVE:
+        raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
+    address = parse_address(uri)
+    # websockets takes 0.1 s to import, and most commands need none.
+    from sambot_viz.sources.foxglove import FoxgloveConversation
+    from sambot_viz.sources.foxglove_wire import SUBPROTOCOLS
+    from sambot_viz.sources.websocket.websocket_source import WebsocketSource
+
+    return WebsocketSource(uri, address, FoxgloveConversation, SUBPROTOCOLS)
+
+
+def _scheme(uri: str) -> str:
+    scheme, colon, _ = uri.partition(":")
+    return scheme.lower().partition("+")[0] if colon else ""

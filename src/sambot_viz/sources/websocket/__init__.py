@@ -1,0 +1,1 @@
+"""What sources over a websocket share: the connection, and what comes over it."""

@@ -1,0 +1,85 @@
+"""Where a live source is: the address that a user writes, and that of its websocket."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from urllib.parse import SplitResult, urlsplit
+
+from sambot_viz.errors import UsageError
+from sambot_viz.text import text
+
+PORTS = {"foxglove": 8765, "rosbridge": 9090}
+"""Protocol → the port on which its server listens when nothing else is said."""
+_SECURE_PORT = 443
+
+
+@dataclass(frozen=True, slots=True)
+class Address:
+    """The address of a server.
+
+    Attributes:
+        protocol: "foxglove" or "rosbridge".
+        host: name or number of the machine.
+        port: TCP port.
+        is_secure: spoken through TLS.
+        websocket: "ws://robot:8765/path?token=…"; may hold a password.
+    """
+
+    protocol: str
+    host: str
+    port: int
+    is_secure: bool
+    websocket: str
+
+    @property
+    def label(self) -> str:
+        """The place without anything secret, for people: "robot:8765"."""
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return text(f"{host}:{self.port}", 100)
+
+    def with_protocol(self, protocol: str) -> str:
+        """Return what to write for the same place and another protocol."""
+        return f"{protocol}{'+wss' if self.is_secure else ''}://{self.label}"
+
+    def with_tls(self, is_secure: bool) -> str:
+        """Return what to write for the same place with TLS, or without."""
+        return f"{self.protocol}{'+wss' if is_secure else ''}://{self.label}"
+
+
+def parse_address(uri: str) -> Address:
+    """Read an address such as foxglove://robot:8765/path or rosbridge+wss://lab.
+
+    ws:// and wss:// stand for Foxglove's protocol.
+
+    Raises:
+        UsageError: it names no host, or a port that cannot be.
+    """
+    scheme, _, _ = uri.partition(":")
+    protocol, _, transport = scheme.lower().partition("+")
+    if protocol in ("ws", "wss"):
+        protocol, transport = "foxglove", protocol
+    is_secure = transport == "wss"
+    if protocol not in PORTS or transport not in ("", "ws", "wss"):
+        raise UsageError(f"{text(uri)}: unknown kind of source '{text(scheme)}'")
+    usual = _SECURE_PORT if is_secure else PORTS[protocol]
+    example = f"write {scheme}://HOST:{usual}"
+    try:
+        parts = urlsplit(uri)
+        host, port = parts.hostname or "", parts.port or usual
+    except ValueError as error:
+        raise UsageError(f"{text(uri)}: {error}; {example}") from error
+    if not host or not parts.netloc or not _is_plain(parts.path + parts.query):
+        raise UsageError(f"{text(uri)}: no host is named; {example}")
+    websocket = _websocket(parts, is_secure, host, port)
+    return Address(protocol, host, port, is_secure, websocket)
+
+
+def _is_plain(rest: str) -> bool:
+    return rest.isascii() and rest.isprintable() and " " not in rest
+
+
+def _websocket(parts: SplitResult, is_secure: bool, host: str, port: int) -> str:
+    user, at, _ = parts.netloc.rpartition("@")
+    place = f"{user}{at}{f'[{host}]' if ':' in host else host}:{port}"
+    query = f"?{parts.query}" if parts.query else ""
+    return f"{'wss' if is_secure else 'ws'}://{place}{parts.path or '/'}{query}"

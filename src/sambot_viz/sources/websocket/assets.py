@@ -1,0 +1,166 @@
+"""Files that a server hands out, each fetched once for all browsers.
+
+A robot of thirty meshes shown in thirty browsers asks the robot for thirty files. What
+was fetched holds until the server starts again.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import OrderedDict
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+
+from sambot_viz.errors import Problem, SourceError
+from sambot_viz.text import text
+
+MOST_BYTES = 256 * 2**20
+"""About so much is kept; what was used longest ago goes first."""
+MOST_AT_ONCE = 4
+"""So many requests are on their way at once; the others wait."""
+LONGEST_FETCH = 120.0
+"""A file that has not come after this time is given up [s]: a mesh may be large."""
+_LONGEST_URI = 4000
+
+
+@dataclass(slots=True)
+class _Asset:
+    """A file that was asked for: its bytes, or the refusal, or who waits for it."""
+
+    uri: str
+    due: float
+    request_id: int | None = None
+    content: bytes | SourceError | None = None
+    waiting: list[Future[bytes]] = field(default_factory=list[Future[bytes]])
+
+
+class AssetStore:
+    """Keeps what was fetched, and what is still to be asked for."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._assets: OrderedDict[str, _Asset] = OrderedDict()
+        self._size = 0
+        self._last_id = 0
+
+    def fetch(self, uri: str) -> Future[bytes]:
+        """Return what is known of a file, or will be; each caller gets its own."""
+        future: Future[bytes] = Future()
+        # Nobody can cancel it: the answer is on its way.
+        future.set_running_or_notify_cancel()
+        if len(uri) > _LONGEST_URI:
+            future.set_exception(
+                SourceError(f"the address {text(uri, 60)} is too long")
+            )
+            return future
+        with self._lock:
+            asset = self._assets.get(uri)
+            if asset is None:
+                asset = _Asset(uri, time.monotonic() + LONGEST_FETCH)
+                self._assets[uri] = asset
+            self._assets.move_to_end(uri)
+            if asset.content is None:
+                asset.waiting.append(future)
+        if asset.content is not None:
+            _settle([future], asset.content)
+        return future
+
+    def to_ask(self) -> list[tuple[int, str]]:
+        """Return request id and URI of what is to be asked for now, each once."""
+        with self._lock:
+            open_ones = [one for one in self._assets.values() if one.content is None]
+            sent = sum(one.request_id is not None for one in open_ones)
+            chosen = [one for one in open_ones if one.request_id is None]
+            chosen = chosen[: max(0, MOST_AT_ONCE - sent)]
+            for asset in chosen:
+                self._last_id = self._last_id % (2**32 - 1) + 1
+                asset.request_id = self._last_id
+            return [(one.request_id or 0, one.uri) for one in chosen]
+
+    def answer(
+        self, request_id: int, content: bytes, refused: str | None, hint: str
+    ) -> None:
+        """Take the answer to a request; one that nobody waits for is ignored.
+
+        Args:
+            request_id: of `to_ask`.
+            content: the file.
+            refused: what the server says instead, None if it has sent the file.
+            hint: what may be done about the refusal.
+        """
+        with self._lock:
+            open_ones = (one for one in self._assets.values() if one.content is None)
+            asset = next((a for a in open_ones if a.request_id == request_id), None)
+            if asset is None:
+                return
+            if refused is None:
+                asset.content = content
+            else:
+                reason = f"the server says: {text(refused, 300)}"
+                asset.content = not_served(asset.uri, reason, hint)
+            self._size += _size(asset.content)
+            self._shrink()
+        _settle(asset.waiting, asset.content)
+
+    def ask_again(self) -> None:
+        """Begin a new connection: what was on its way is asked for again."""
+        with self._lock:
+            for asset in self._assets.values():
+                if asset.content is None:
+                    asset.request_id = None
+
+    def forget(self) -> None:
+        """Begin a new session of the server: its files may be others."""
+        with self._lock:
+            for asset in [
+                one for one in self._assets.values() if one.content is not None
+            ]:
+                del self._assets[asset.uri]
+            self._size = 0
+
+    def expire(self, reason: str) -> None:
+        """Give up what has not come in time; it may be asked for again."""
+        self._give_up(reason, "", time.monotonic())
+
+    def refuse_all(self, reason: str, hint: str = "") -> None:
+        """Give up everything that has not come."""
+        self._give_up(reason, hint, float("inf"))
+
+    def _give_up(self, reason: str, hint: str, until: float) -> None:
+        with self._lock:
+            late = [
+                one
+                for one in self._assets.values()
+                if one.content is None and one.due <= until
+            ]
+            for asset in late:
+                del self._assets[asset.uri]
+        for asset in late:
+            _settle(asset.waiting, not_served(asset.uri, reason, hint))
+
+    def _shrink(self) -> None:
+        done = [one for one in self._assets.values() if one.content is not None]
+        for asset in done:
+            if self._size <= MOST_BYTES:
+                break
+            self._size -= _size(asset.content)
+            del self._assets[asset.uri]
+
+
+def not_served(uri: str, reason: str, hint: str = "") -> SourceError:
+    """Return the error for a file that cannot be had."""
+    message = f"{text(uri, 200)}: {reason}"
+    return SourceError([Problem("error", "mesh-not-served", message, hint)])
+
+
+def _size(content: bytes | SourceError | None) -> int:
+    return len(content) if isinstance(content, bytes) else 100
+
+
+def _settle(waiting: list[Future[bytes]], content: bytes | SourceError) -> None:
+    for future in waiting:
+        if isinstance(content, bytes):
+            future.set_result(content)
+        else:
+            future.set_exception(content)

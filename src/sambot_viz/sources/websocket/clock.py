@@ -1,0 +1,79 @@
+"""The time at the peer, and how far what comes from it lags behind.
+
+Ages and time-outs of displays run on the robot's clock, which may be simulated, or
+wrong by minutes. A peer that does not tell the time still says when it logged each
+message: the message that came fastest shows how the two clocks differ, and later ones
+how much longer they took.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+_SAME_TIME = 3_600_000_000_000
+"""Clocks that differ by more than an hour do not tell the same time [ns]."""
+_WINDOW = 10_000_000_000
+"""The fastest message counts for so long [ns]: clocks drift, and are set."""
+_QUIET = 3_000_000_000
+"""What came before this time says nothing about the lag now [ns]."""
+
+
+class SourceClock:
+    """Tells the time at the peer from what it sends.
+
+    One thread notes, all may ask.
+
+    Args:
+        wall_ns: the time here [ns].
+    """
+
+    def __init__(self, wall_ns: Callable[[], int] = time.time_ns) -> None:
+        self._wall_ns = wall_ns
+        self._server_ns: int | None = None
+        # The largest log time minus receive time of this window and of the last one.
+        self._offset: int | None = None
+        self._last_offset: int | None = None
+        self._window_end = 0
+        self._newest: tuple[int, int] | None = None
+
+    def reset(self) -> None:
+        """Forget what was noted: another server, or another connection."""
+        self._server_ns = self._offset = self._last_offset = self._newest = None
+        self._window_end = 0
+
+    def now_ns(self) -> int:
+        """Return the time at the peer [ns]; this computer's if nothing is known."""
+        if self._server_ns is not None:
+            return self._server_ns
+        offset = self._best_offset()
+        return self._wall_ns() + (offset or 0)
+
+    def note_time(self, server_ns: int) -> None:
+        """Note the time that the peer has told [ns]; it counts from now on."""
+        self._server_ns = server_ns
+
+    def note_message(self, log_ns: int) -> None:
+        """Note when the peer has logged a message that has just come [ns]."""
+        now = self._wall_ns()
+        offset = log_ns - now
+        if abs(offset) > _SAME_TIME:
+            return
+        if now > self._window_end:
+            self._last_offset, self._offset = self._offset, offset
+            self._window_end = now + _WINDOW
+        elif self._offset is None or offset > self._offset:
+            self._offset = offset
+        self._newest = (now, offset)
+
+    def lag_s(self) -> float | None:
+        """Return how much longer than at best the newest message took [s]."""
+        best = self._best_offset()
+        if self._server_ns is not None or best is None or self._newest is None:
+            return None
+        now, offset = self._newest
+        return None if self._wall_ns() - now > _QUIET else (best - offset) / 1e9
+
+    def _best_offset(self) -> int | None:
+        known = [one for one in (self._offset, self._last_offset) if one is not None]
+        return max(known) if known else None

@@ -1,0 +1,96 @@
+"""What is said over one connection, without the socket.
+
+A conversation takes the frames of its peer and gives those that are to be sent. A new
+connection begins a new conversation, so that no id of the old one can be used again.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.websocket.address import Address
+from sambot_viz.sources.websocket.assets import AssetStore
+from sambot_viz.sources.websocket.clock import SourceClock
+
+MOST_TOPICS = 20_000
+"""So many topics of a peer are listed; a broken one may advertise without end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """What a conversation is connected to; it outlives the connection.
+
+    Attributes:
+        address: of the peer.
+        send: queues a text frame for the peer.
+        put: hands a message to the subscribers.
+        clock: notes the peer's time.
+        assets: files of the peer.
+        session_id: of the last conversation, None if there was none.
+    """
+
+    address: Address
+    send: Callable[[str], None]
+    put: Callable[[Recorded], None]
+    clock: SourceClock
+    assets: AssetStore
+    session_id: str | None = None
+
+
+class Conversation(ABC):
+    """One connection's state; all methods are called in one thread.
+
+    Attributes:
+        is_ready: the peer has said enough that messages can come.
+        server: name of the server; from the peer, not cleaned.
+        session_id: of this run of the server, None if it does not tell.
+        capabilities: what the peer can do.
+        topics_changed: set here, cleared by who has asked for `topics`.
+        unreadable: frames that made no sense.
+    """
+
+    def __init__(self, ends: Ends) -> None:
+        self.ends = ends
+        self.is_ready = False
+        self.server = ""
+        self.session_id: str | None = None
+        self.capabilities: frozenset[str] = frozenset()
+        self.topics_changed = False
+        self.unreadable = 0
+
+    @abstractmethod
+    def begin(self) -> None:
+        """Say what comes first."""
+
+    @abstractmethod
+    def receive(self, frame: str | bytes) -> None:
+        """Take a frame of the peer.
+
+        Raises:
+            WrongServer: the peer speaks another protocol.
+            NewSession: the peer has started again; a new connection is needed.
+        """
+
+    @abstractmethod
+    def update(self, wanted: frozenset[str]) -> None:
+        """Ask for what is wanted now, and no longer for what is not."""
+
+    @abstractmethod
+    def tick(self, now: float) -> None:
+        """Do what is due; called about twice a second, with monotonic time [s]."""
+
+    @abstractmethod
+    def silence(self) -> str:
+        """Return the sentence for a peer that has not become ready in time."""
+
+    @abstractmethod
+    def notes(self) -> list[str]:
+        """Return what the page should say although there is a connection."""
+
+    @abstractmethod
+    def topics(self) -> dict[str, SourceTopic]:
+        """Return the topics as they are now."""

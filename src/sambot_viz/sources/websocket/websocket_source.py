@@ -1,0 +1,343 @@
+"""A source over a websocket: a thread that connects, reads, and connects again.
+
+Two threads serve one source. The first runs an event loop with the connection and reads
+without pause; it never calls anybody back. The second (`Delivery`) calls all callbacks.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import random
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+from sambot_viz.sources.source import OnMessage, SourceStatus, SourceTopic
+from sambot_viz.sources.websocket.address import Address
+from sambot_viz.sources.websocket.assets import AssetStore
+from sambot_viz.sources.websocket.clock import SourceClock
+from sambot_viz.sources.websocket.conversation import Conversation, Ends
+from sambot_viz.sources.websocket.delivery import Delivery
+from sambot_viz.sources.websocket.event_loop import SourceLoop
+from sambot_viz.sources.websocket.trouble import WrongServer, explain
+from sambot_viz.text import text
+
+FIRST_PAUSE, LONGEST_PAUSE, GROWTH = 0.5, 15.0, 1.7
+"""Before the second attempt and at most [s], and how much each pause is longer."""
+STEADY = 10.0
+"""A connection that lasted so long [s] was a good one: pauses begin again."""
+MOST_BYTES = 256 * 2**20
+"""The largest message that is taken: a mesh, or a picture that is not compressed."""
+LONGEST_STOP = 5.0
+"""`close` waits this long for the thread [s]."""
+_TICK = 0.5
+_ANSWER = 10.0
+"""The server has so long to say who it is [s]."""
+_LATE = 1.0
+"""A lag is said from so much on [s]."""
+_TOPICS_PAUSE = 0.05
+"""Topics that are advertised one by one are told together [s]."""
+
+_log = logging.getLogger(__name__)
+
+
+class WebsocketSource:
+    """Implements `Source` for a protocol, whose conversation it is given.
+
+    Args:
+        uri: as the user wrote it.
+        address: where it is.
+        conversation: begins what is said over a new connection.
+        subprotocols: what is offered, the best first.
+    """
+
+    def __init__(
+        self,
+        uri: str,
+        address: Address,
+        conversation: Callable[[Ends], Conversation],
+        subprotocols: Sequence[str] = (),
+    ) -> None:
+        self.uri = uri
+        self.on_topics: Callable[[], object] = _nothing
+        self.on_status: Callable[[], object] = _nothing
+        self._address = address
+        self._begin = conversation
+        self._subprotocols = [Subprotocol(name) for name in subprotocols] or None
+        self._delivery = Delivery(f"sambot-viz callbacks of {address.label}")
+        self._clock = SourceClock()
+        self._assets = AssetStore()
+        self._status = SourceStatus(sentence=f"Connecting to {address.label}")
+        self._topics: Mapping[str, SourceTopic] = MappingProxyType({})
+        self._capabilities: frozenset[str] = frozenset()
+        self._session_id: str | None = None
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._loop: SourceLoop | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._is_closed = False
+        # Of the connection; touched in the loop's thread only.
+        self._conversation: Conversation | None = None
+        self._is_told = True
+        self._unreadable = 0
+
+    def open(self) -> None:
+        """Begin to connect; returns at once."""
+        with self._lock:
+            if self._thread is not None or self._is_closed:
+                return
+            self._loop = SourceLoop()
+            self._task = self._loop.create_task(self._connect_forever())
+            self._thread = threading.Thread(
+                target=self._serve,
+                name=f"sambot-viz {self._address.label}",
+                daemon=True,
+            )
+            self._delivery.start()
+            self._thread.start()
+
+    def close(self) -> None:
+        """End the connection and both threads; may be called twice."""
+        with self._lock:
+            self._is_closed = True
+            thread, loop, task = self._thread, self._loop, self._task
+        if loop is not None and task is not None:
+            # The loop may have ended already.
+            with suppress(RuntimeError):
+                loop.call_soon_threadsafe(task.cancel)
+        if thread is not None and thread is not threading.current_thread():
+            thread.join(LONGEST_STOP)
+        self._delivery.stop()
+        self._assets.refuse_all("the source is closed")
+        label = self._address.label
+        self._status = SourceStatus(sentence=f"{label} is closed")
+
+    @property
+    def status(self) -> SourceStatus:
+        """How the source is now."""
+        return self._status
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """What the server can do; that of the last connection if there is none."""
+        return self._capabilities
+
+    def topics(self) -> Mapping[str, SourceTopic]:
+        """Return the topics by name; the last known ones if there is no connection."""
+        return self._topics
+
+    def subscribe(self, topic: str, callback: OnMessage) -> None:
+        """Call back with each message of a topic, which need not exist yet."""
+        self._delivery.subscribe(topic, callback)
+        self._post(self._update)
+
+    def unsubscribe(self, topic: str, callback: OnMessage) -> None:
+        """No longer call back; a call that has begun goes on."""
+        self._delivery.unsubscribe(topic, callback)
+        self._post(self._update)
+
+    def clock_ns(self) -> int:
+        """Return the time at the server [ns]."""
+        return self._clock.now_ns()
+
+    def fetch_asset(self, uri: str) -> Future[bytes]:
+        """Ask for a file; the result raises `SourceError` when it is refused."""
+        future = self._assets.fetch(uri)
+        if self._is_closed:
+            self._assets.refuse_all("the source is closed")
+        self._post(self._update)
+        return future
+
+    def _post(self, action: Callable[[], object]) -> None:
+        loop = self._loop
+        if loop is not None:
+            # A loop that has stopped already has no server.
+            with suppress(RuntimeError):
+                loop.call_soon_threadsafe(action)
+
+    def _serve(self) -> None:
+        loop, task = self._loop, self._task
+        assert loop is not None and task is not None
+        try:
+            with suppress(asyncio.CancelledError):
+                loop.run_until_complete(task)
+        finally:
+            loop.close()
+
+    async def _connect_forever(self) -> None:
+        attempt = 0
+        while True:
+            begun = asyncio.get_running_loop().time()
+            try:
+                await self._connect()
+                sentence = f"{self._address.label} has ended the connection"
+            except Exception as error:
+                sentence = explain(error, self._address)
+                _log.debug("%s: %s", self._address.label, sentence, exc_info=error)
+            finally:
+                self._tell_topics()
+                self._conversation = None
+            lasted = asyncio.get_running_loop().time() - begun
+            attempt = 0 if lasted > STEADY else attempt
+            pause = next_pause(attempt)
+            attempt += 1
+            self._say(is_connected=False, sentence=sentence, retry_s=pause, lag_s=None)
+            self._assets.ask_again()
+            await asyncio.sleep(pause)
+
+    async def _connect(self) -> None:
+        async with connect(
+            self._address.websocket,
+            subprotocols=self._subprotocols,
+            compression=None,
+            max_size=MOST_BYTES,
+            open_timeout=10,
+            close_timeout=1,
+            ping_interval=5,
+            ping_timeout=15,
+        ) as websocket:
+            await self._converse(websocket)
+
+    async def _converse(self, websocket: ClientConnection) -> None:
+        """Speak until one side ends; raises what has ended it."""
+        outbound: asyncio.Queue[str] = asyncio.Queue()
+        ends = Ends(
+            self._address,
+            outbound.put_nowait,
+            self._delivery.put,
+            self._clock,
+            self._assets,
+            self._session_id,
+        )
+        conversation = self._conversation = self._begin(ends)
+        self._delivery.forget()
+        self._clock.reset()
+        conversation.begin()
+        conversation.update(self._delivery.wanted())
+        tasks = [
+            asyncio.ensure_future(self._read(websocket, conversation)),
+            asyncio.ensure_future(_write(websocket, outbound)),
+            asyncio.ensure_future(self._tick(conversation)),
+        ]
+        try:
+            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+        for task in done:
+            task.result()
+
+    async def _read(
+        self, websocket: ClientConnection, conversation: Conversation
+    ) -> None:
+        while True:
+            was_ready = conversation.is_ready
+            conversation.receive(await websocket.recv())
+            if not was_ready and conversation.is_ready:
+                self._welcome(conversation)
+            if conversation.topics_changed and self._is_told:
+                self._is_told = False
+                asyncio.get_running_loop().call_later(_TOPICS_PAUSE, self._tell_topics)
+
+    def _welcome(self, conversation: Conversation) -> None:
+        session = self._status.session
+        if conversation.session_id is None or (
+            conversation.session_id != self._session_id
+        ):
+            session += 1
+        self._session_id = conversation.session_id
+        self._capabilities = conversation.capabilities
+        conversation.topics_changed = True
+        self._say(
+            is_connected=True,
+            sentence=self._connected(conversation),
+            retry_s=None,
+            session=session,
+        )
+
+    async def _tick(self, conversation: Conversation) -> None:
+        loop = asyncio.get_running_loop()
+        begun = loop.time()
+        while True:
+            await asyncio.sleep(_TICK)
+            conversation.tick(loop.time())
+            self._assets.expire("the server has not sent it in time")
+            if conversation.is_ready:
+                self._tell_health(conversation)
+            elif loop.time() - begun > _ANSWER:
+                raise WrongServer(conversation.silence())
+
+    def _tell_health(self, conversation: Conversation) -> None:
+        dropped, unreadable = self._delivery.dropped, conversation.unreadable
+        lag = self._clock.lag_s()
+        parts = [self._connected(conversation)]
+        if lag is not None and lag > _LATE:
+            parts.append(
+                f"messages come {lag:.0f} s late: hide displays with large messages, "
+                "such as images and point clouds"
+            )
+        if dropped:
+            parts.append(f"{dropped} messages were dropped, displays were too slow")
+        if unreadable:
+            parts.append(f"{unreadable} of its frames made no sense")
+        self._say(
+            sentence="; ".join([*parts, *conversation.notes()]),
+            dropped=dropped,
+            unreadable=unreadable,
+            # Streams differ by milliseconds all the time.
+            lag_s=None if lag is None else round(lag, 1),
+        )
+
+    def _connected(self, conversation: Conversation) -> str:
+        server = text(conversation.server, 60)
+        place = f"Connected to {self._address.label}"
+        return f"{place} ({server})" if server else place
+
+    def _update(self) -> None:
+        if self._conversation is not None:
+            self._conversation.update(self._delivery.wanted())
+
+    def _tell_topics(self) -> None:
+        self._is_told = True
+        conversation = self._conversation
+        if conversation is not None and conversation.topics_changed:
+            conversation.topics_changed = False
+            self._topics = MappingProxyType(conversation.topics())
+            self._delivery.post(self._call_on_topics)
+
+    def _say(self, **changes: Any) -> None:
+        status = replace(self._status, **changes)
+        if status != self._status:
+            self._status = status
+            self._delivery.post(self._call_on_status)
+
+    # Who owns the source may set these at any time.
+    def _call_on_topics(self) -> None:
+        self.on_topics()
+
+    def _call_on_status(self) -> None:
+        self.on_status()
+
+
+def next_pause(attempt: int) -> float:
+    """Return the pause before the next attempt [s], after so many that failed."""
+    grown = FIRST_PAUSE * GROWTH ** min(attempt, 20)
+    return min(LONGEST_PAUSE, grown * random.uniform(1.0, 1.5))
+
+
+async def _write(websocket: ClientConnection, outbound: asyncio.Queue[str]) -> None:
+    while True:
+        await websocket.send(await outbound.get())
+
+
+def _nothing() -> None:
+    return None

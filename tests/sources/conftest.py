@@ -1,0 +1,41 @@
+"""Sources and their peers, closed when the test ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+
+import pytest
+from live_peers import FoxglovePeer, Inbox, LivePeer
+
+from sambot_viz.sources.registry import open_source
+from sambot_viz.sources.source import Source
+
+PEERS: dict[str, Callable[[], LivePeer]] = {"foxglove": FoxglovePeer}
+
+
+@pytest.fixture(params=PEERS)
+def peer(request: pytest.FixtureRequest) -> Iterator[LivePeer]:
+    """A robot with each of the transports."""
+    peer = PEERS[request.param]()
+    yield peer
+    peer.stop()
+
+
+@pytest.fixture
+def opened() -> Iterator[Callable[[str], Source]]:
+    """Opens sources, without waiting for a connection."""
+    with ExitStack() as stack:
+
+        def open_one(uri: str) -> Source:
+            source = open_source(uri)
+            stack.callback(source.close)
+            source.open()
+            return source
+
+        yield open_one
+
+
+@pytest.fixture
+def inbox() -> Inbox:
+    return Inbox()

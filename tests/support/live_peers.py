@@ -1,0 +1,155 @@
+"""Peers of live sources: robots in this process, on free ports of the loopback.
+
+Each has topics that appear and vanish, keeps the messages of latched ones as ROS does,
+knows what it was asked for, and can be stopped and started again at the same port.
+"""
+
+from __future__ import annotations
+
+import socket
+from abc import ABC, abstractmethod
+from typing import Any
+
+import foxglove
+from foxglove.websocket import Capability, ChannelView, Client, ServerListener
+from patience import until
+
+from sambot_viz.sources.message import Recorded
+
+WAIT = 40.0
+"""How long tests of sources wait for a condition [s]."""
+STRING = "std_msgs/msg/String"
+
+
+def cdr_string(data: str) -> bytes:
+    """A std_msgs/msg/String as CDR."""
+    words = data.encode() + b"\0"
+    return b"\0\1\0\0" + len(words).to_bytes(4, "little") + words
+
+
+def free_port() -> int:
+    """A port of the loopback at which nothing listens now."""
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+class Inbox:
+    """A callback that keeps the strings that come, by topic and in all."""
+
+    def __init__(self) -> None:
+        self.messages: list[Recorded] = []
+
+    def __call__(self, message: Recorded) -> None:
+        self.messages.append(message)
+
+    def strings(self) -> list[str]:
+        return [bytes(one.payload[8:-1]).decode() for one in list(self.messages)]
+
+    def wait_for(self, *strings: str) -> None:
+        """Wait until exactly these have come, in this order."""
+        until(
+            lambda: self.strings() == list(strings),
+            WAIT,
+            not_yet=(),
+            why=f"never {strings}",
+        )
+
+
+class LivePeer(ABC):
+    """A robot with one transport."""
+
+    uri: str
+
+    @abstractmethod
+    def start(self) -> None:
+        """Listen, at the same port as before."""
+
+    @abstractmethod
+    def stop(self) -> None:
+        """Break all connections, and listen no longer; may be called twice."""
+
+    @abstractmethod
+    def advertise(self, topic: str, latched: bool = False) -> None:
+        """Begin to publish strings."""
+
+    @abstractmethod
+    def publish(self, topic: str, data: str) -> None:
+        """Publish a string."""
+
+    @abstractmethod
+    def remove(self, topic: str) -> None:
+        """Publish a topic no longer."""
+
+    @abstractmethod
+    def subscribed(self) -> list[str]:
+        """Topics that clients have subscribed to, sorted; one for each subscription."""
+
+
+class FoxglovePeer(LivePeer, ServerListener):
+    """The server of Foxglove's SDK, which keeps latched messages as the bridge does."""
+
+    def __init__(self, **options: Any) -> None:
+        self._port = free_port()
+        self.uri = f"foxglove://127.0.0.1:{self._port}"
+        self.options: dict[str, Any] = {"session_id": "first", **options}
+        self.context = foxglove.Context()
+        self.server: foxglove.WebSocketServer | None = None
+        self._channels: dict[str, foxglove.Channel] = {}
+        self._latched: dict[str, list[bytes]] = {}
+        self._subscribed: list[tuple[int, str]] = []
+        self.start()
+
+    def start(self) -> None:
+        options: dict[str, Any] = {
+            "name": "robot",
+            "capabilities": [Capability.Time, Capability.ConnectionGraph],
+            **self.options,
+        }
+        self.server = foxglove.start_server(
+            host="127.0.0.1",
+            port=self._port,
+            context=self.context,
+            server_listener=self,
+            **options,
+        )
+
+    def stop(self) -> None:
+        if self.server is not None:
+            self.server.stop()
+            self.server = None
+            self._subscribed.clear()
+
+    def advertise(self, topic: str, latched: bool = False) -> None:
+        if latched:
+            self._latched[topic] = []
+        self._channels[topic] = foxglove.Channel(
+            topic,
+            schema=foxglove.Schema(
+                name=STRING, encoding="ros2msg", data=b"string data\n"
+            ),
+            message_encoding="cdr",
+            context=self.context,
+        )
+
+    def publish(self, topic: str, data: str) -> None:
+        payload = cdr_string(data)
+        if topic in self._latched:
+            self._latched[topic].append(payload)
+        self._channels[topic].log(payload)
+
+    def remove(self, topic: str) -> None:
+        self._latched.pop(topic, None)
+        self._channels.pop(topic).close()
+
+    def subscribed(self) -> list[str]:
+        return sorted(topic for _, topic in self._subscribed)
+
+    def on_subscribe(self, client: Client, channel: ChannelView) -> None:
+        self._subscribed.append((client.id, channel.topic))
+        for payload in self._latched.get(channel.topic, ()):
+            self._channels[channel.topic].log(payload)
+
+    def on_unsubscribe(self, client: Client, channel: ChannelView) -> None:
+        if (client.id, channel.topic) in self._subscribed:
+            self._subscribed.remove((client.id, channel.topic))
