@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sambot_viz.errors import Problem, SourceError
-from sambot_viz.files import reason_of
+from sambot_viz.errors import Problem
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.bag import RecordedTopic
 from sambot_viz.sources.bag.blocks import (
@@ -33,6 +32,7 @@ from sambot_viz.sources.bag.damage import Damage
 from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.latched import LatchedMessages
 from sambot_viz.sources.bag.merge import merged
+from sambot_viz.sources.bag.refusals import unreadable
 from sambot_viz.sources.message import Recorded, TopicChannel
 
 if TYPE_CHECKING:
@@ -61,7 +61,8 @@ class BlockBag(ABC):
         self._blocks: list[Block] = []
         self._channels: dict[int, TopicChannel] = {}
         self._counts: Counter[int] = Counter()
-        self._are_counts_known = True
+        # What the file itself says, when that is used in place of counting.
+        self._stated: Counter[int] | None = None
         self._to_collect: list[Block] = []
         self._met = 0
         self._broken: set[int] = set()
@@ -151,7 +152,8 @@ class BlockBag(ABC):
             if block.number not in self._broken:
                 self._broken.add(block.number)
                 self.damage.add_broken(block.start, block.end)
-                self._counts.subtract(self._counts_of(block))
+                lost = self._counts_of(block)
+                (self._counts if self._stated is None else self._stated).subtract(lost)
 
     # --- finding --------------------------------------------------------------------
 
@@ -224,7 +226,7 @@ class BlockBag(ABC):
         """The topics by name, in the order of the file."""
         with self._lock:
             state = (len(self._channels), self._counts.total(), len(self._broken))
-            known = (*state, self._is_complete, self._are_counts_known)
+            known = (*state, self._is_complete)
             if self._topics is None or self._topics[0] != known:
                 self._topics = (known, self._make_topics())
             return self._topics[1]
@@ -233,12 +235,13 @@ class BlockBag(ABC):
         first: dict[str, TopicChannel] = {}
         counts: Counter[str] = Counter()
         latched: set[str] = set()
+        said = self._counts if self._stated is None else self._stated
         for number, channel in self._channels.items():
             first.setdefault(channel.topic, channel)
-            counts[channel.topic] += max(0, self._counts[number])
+            counts[channel.topic] += max(0, said[number])
             if channel.is_latched:
                 latched.add(channel.topic)
-        known = self._is_complete and self._are_counts_known
+        known = self._is_complete or self._stated is not None
         return {
             topic: RecordedTopic(
                 topic,
@@ -368,21 +371,6 @@ class BlockBag(ABC):
         trace: TracebackType | None,
     ) -> None:
         self.close()
-
-
-def unreadable(path: Path, error: OSError | ValueError) -> SourceError:
-    """Say that the disk does not give a file."""
-    return SourceError(
-        [
-            Problem(
-                "error",
-                "file-unreadable",
-                f"{path.name} cannot be read: {reason_of(error)}",
-                "see whether the disk is still there and the file may be read",
-                str(path),
-            )
-        ]
-    )
 
 
 NO_SCHEMA = Schema("", "", "")

@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-import numpy as np
-
 from sambot_viz.errors import Problem
-from sambot_viz.sources.bag.blocks import Times
+from sambot_viz.sources.bag.blocks import Numbers, Times
 
 End = Literal["whole", "cut", "zeros", "unfinished", "reindex"]
 
@@ -34,7 +32,7 @@ class Damage:
         self.in_wal = 0
         self._broken: list[tuple[int, int]] = []
         self._unreadable: list[tuple[int, int]] = []
-        self._latest = -1
+        self._latest: dict[int, int] = {}
         self._seen = 0
         self._step_back: tuple[int, int, int] | None = None
 
@@ -51,29 +49,27 @@ class Damage:
         """Note that some bytes of the file make no sense."""
         self._unreadable.append((at, end))
 
-    def add_times(self, times: Times) -> None:
-        """Note the log times of a stretch that was read, in the order of the file."""
-        if not len(times):
-            return
-        before = np.maximum.accumulate(times)
-        before = np.maximum(before, np.uint64(max(0, self._latest)))
-        fall = before - times
-        at = int(np.argmax(fall))
-        self._note_step_back(int(before[at]), int(times[at]), self._seen + at)
-        self._latest = max(self._latest, int(before[-1]))
+    def add_times(self, times: Times, channels: Numbers) -> None:
+        """Note the log times of a stretch that was read, in the order of the file.
+
+        Only the times of one channel can go back: recorders write some topics late.
+        """
+        latest = self._latest
+        pairs = zip(channels.tolist(), times.tolist(), strict=True)
+        for number, (channel, time) in enumerate(pairs):
+            high = latest.get(channel, -1)
+            if time > high:
+                latest[channel] = time
+            elif high - time >= SMALLEST_STEP_BACK:
+                self._note_step_back(high, time, self._seen + number)
         self._seen += len(times)
 
-    def add_range(self, start: int, end: int) -> None:
-        """Note the first and the last log time [ns] of a stretch that was not read."""
-        self._note_step_back(self._latest, start, 0)
-        self._latest = max(self._latest, end)
-
     def _note_step_back(self, high: int, low: int, before: int) -> None:
-        largest = self._step_back
-        if high - low >= SMALLEST_STEP_BACK and (
-            largest is None or high - low > largest[0] - largest[1]
-        ):
+        known = self._step_back
+        if known is None:
             self._step_back = (high, low, before)
+        elif high - low > known[0] - known[1]:
+            self._step_back = (high, low, known[2])
 
     def problems(self, start: int | None, end: int | None) -> tuple[Problem, ...]:
         """Return the sentences.
@@ -165,11 +161,10 @@ class Damage:
         if self._step_back is None:
             return []
         high, low, before = self._step_back
-        after = f" after message {before:,}" if before else ""
         message = (
             f"the log times of {self.path.name} go back by {_seconds(high - low)}"
-            f"{after}: two stretches lie over each other from {_seconds(low - start)} "
-            f"to {_seconds(high - start)}"
+            f" after message {before:,}: two stretches lie over each other from "
+            f"{_seconds(low - start)} to {_seconds(high - start)}"
         )
         hint = "messages are played by log time, as 'ros2 bag play' does"
         return [Problem("warning", "log-back", message, hint, str(self.path))]

@@ -20,6 +20,7 @@ from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.block_bag import NO_SCHEMA, BlockBag
 from sambot_viz.sources.bag.blocks import Block, Entries, sorted_entries
 from sambot_viz.sources.bag.compression import BrokenPieceError, decompress
+from sambot_viz.sources.bag.damage import SMALLEST_STEP_BACK, Damage
 from sambot_viz.sources.bag.file_bytes import FileBytes, ReadAhead
 from sambot_viz.sources.bag.latched import is_latched
 from sambot_viz.sources.bag.mcap_records import (
@@ -67,11 +68,13 @@ class ChunkBlock(Block):
         at: where its record begins in the file [bytes].
         length: of the whole record [bytes].
         index_length: of the message indexes behind it [bytes].
+        is_counted: its messages were counted without reading it.
     """
 
     at: int
     length: int
     index_length: int
+    is_counted: bool = False
 
 
 @dataclass(slots=True, eq=False)
@@ -105,11 +108,14 @@ class _Loose:
         self.times = array("Q")
         self.places = array("Q")
 
-    def entries(self) -> tuple[Entries, np.ndarray[tuple[int], np.dtype[np.uint64]]]:
+    def entries(self, damage: Damage | None, raw: bytes | memoryview | None) -> Entries:
+        """Return them by log time; tell their order in the file."""
         times = np.array(self.times, np.uint64)
         channels = np.array(self.channels, np.uint16)
         places = np.array(self.places, np.int64)
-        return sorted_entries(times, channels, places, None), times
+        if damage is not None:
+            damage.add_times(times, channels)
+        return sorted_entries(times, channels, places, raw)
 
 
 class McapBag(BlockBag):
@@ -119,6 +125,8 @@ class McapBag(BlockBag):
         super().__init__(file)
         self._schemas: dict[int, Schema] = {}
         self._is_small = file.size <= SMALL
+        self._latest = 0
+        self._doubts = 0
         # What is read ahead, of each thread that reads messages outside of chunks.
         self._ahead = threading.local()
 
@@ -160,7 +168,7 @@ class McapBag(BlockBag):
                 elif opcode == STATISTICS:
                     counts = read_statistics(content)[1]
                 else:
-                    self._define(opcode, content)
+                    self._define(opcode, content, in_summary=True)
         except BrokenPieceError:
             return {}
         known = self._channels.keys()
@@ -173,8 +181,10 @@ class McapBag(BlockBag):
                 return {}
             free = behind
         if chunks and not self._is_small:
-            self._are_counts_known = counts is not None
-            self._counts.update(counts or {})
+            if counts is None:
+                # The message indexes behind the chunks have the numbers.
+                return {}
+            self._stated = Counter(counts)
         return {chunk.at: chunk for chunk in chunks}
 
     def _walk(self, end: int, hints: Mapping[int, ChunkIndexRecord]) -> Iterator[int]:
@@ -287,7 +297,7 @@ class McapBag(BlockBag):
             return False
         return True
 
-    def _define(self, opcode: int, content: bytes) -> None:
+    def _define(self, opcode: int, content: bytes, *, in_summary: bool = False) -> None:
         """Take a schema or a channel; the same ones may come again."""
         if opcode == SCHEMA:
             schema = read_schema(content)
@@ -296,7 +306,9 @@ class McapBag(BlockBag):
                 self._schemas[schema.id] = Schema(schema.name, schema.encoding, text)
         elif opcode == CHANNEL:
             channel = read_channel(content)
-            if channel.id not in self._channels:
+            # A summary may have channels without their schemas: the data have both.
+            has_schema = not channel.schema or channel.schema in self._schemas
+            if channel.id not in self._channels and (has_schema or not in_summary):
                 self._add_channel(channel.id, self._made(channel))
 
     def _made(self, record: ChannelRecord) -> TopicChannel:
@@ -308,8 +320,7 @@ class McapBag(BlockBag):
 
     def _add_loose(self, loose: _Loose) -> None:
         if loose.times:
-            entries, in_file = loose.entries()
-            self.damage.add_times(in_file)
+            entries = loose.entries(self.damage, None)
             found = frozenset(np.unique(entries.channels).tolist())
             first, last = int(entries.times[0]), int(entries.times[-1])
             block = LooseBlock(self._number(), first, last, found, entries)
@@ -325,6 +336,7 @@ class McapBag(BlockBag):
             hint.at,
             hint.length,
             hint.index_length,
+            self._stated is not None,
         )
         return self._add_chunk_block(block, self._is_small)
 
@@ -342,15 +354,22 @@ class McapBag(BlockBag):
         known = chunk.counts and chunk.counts.keys() <= self._channels.keys()
         must_read = self._is_small or not known
         if not must_read:
+            block.is_counted = True
             with self._lock:
                 self._counts.update(chunk.counts)
         return self._add_chunk_block(block, must_read)
 
     def _add_chunk_block(self, block: ChunkBlock, must_read: bool) -> int:
         if not must_read:
-            self.damage.add_range(block.start, block.end)
+            cost = 1
+            if self._latest - block.start >= SMALLEST_STEP_BACK and self._doubts < 4:
+                # Its times may go back; those of its channels say it.
+                self._doubts += 1
+                self._read_or_none(block)
+                cost = 1000
+            self._latest = max(self._latest, block.end)
             self._add_block(block, None)
-            return 1
+            return cost
         entries = self._read_or_none(block)
         if entries is None:
             return 1000
@@ -407,10 +426,7 @@ class McapBag(BlockBag):
             elif opcode == 0:
                 raise BrokenPieceError("it has no records")
             at = behind
-        entries, in_file = loose.entries()
-        if self._is_finding:
-            self.damage.add_times(in_file)
-        return Entries(entries.times, entries.channels, entries.places, raw)
+        return loose.entries(self.damage if self._is_finding else None, raw)
 
     def _message(self, entries: Entries, number: int) -> Recorded | None:
         channel = self._channels.get(int(entries.channels[number]))
@@ -444,7 +460,7 @@ class McapBag(BlockBag):
 
     def _counts_of(self, block: Block) -> Mapping[int, int]:
         counts = Counter[int]()
-        if isinstance(block, ChunkBlock) and not self._is_small:
+        if isinstance(block, ChunkBlock) and block.is_counted:
             at = block.at + block.length
             data = self._file.read_at(at, min(block.index_length, _MOST_OF_SUMMARY))
             try:
@@ -453,7 +469,7 @@ class McapBag(BlockBag):
                         channel, count = read_message_index(content[:6])
                         counts[channel] += count
             except BrokenPieceError:
-                self._are_counts_known = False
+                pass
         return counts
 
 

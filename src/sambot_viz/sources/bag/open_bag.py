@@ -1,17 +1,21 @@
-"""Open a file of a recording; what it is is seen from its bytes, not from its name."""
+"""Open recordings; what a file is is seen from its bytes, not from its name."""
 
 from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Iterable
 from pathlib import Path
 
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.sources.bag.bag import Bag
-from sambot_viz.sources.bag.block_bag import OPENING, unreadable
+from sambot_viz.sources.bag.block_bag import OPENING
 from sambot_viz.sources.bag.file_bytes import FileBytes
+from sambot_viz.sources.bag.folder import files_of
 from sambot_viz.sources.bag.mcap import McapBag
 from sambot_viz.sources.bag.mcap_records import MAGIC
+from sambot_viz.sources.bag.recording import Recording
+from sambot_viz.sources.bag.refusals import not_a_bag, refused, unreadable
 
 
 def open_bag(path: str | os.PathLike[str]) -> Bag:
@@ -26,7 +30,7 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
     path = Path(path)
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            raise _not_a_bag(path, "it is not a regular file")
+            raise not_a_bag(path, "it is not a regular file")
         file = FileBytes(path)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from error
@@ -37,17 +41,63 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
         raise
 
 
+def open_recording(
+    paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+) -> Recording:
+    """Open files and folders as one recording.
+
+    Args:
+        paths: one, or several; a folder stands for the recordings in it.
+
+    Raises:
+        SourceError: one of them cannot be opened, or none of the files of a folder.
+    """
+    if isinstance(paths, (str, os.PathLike)):
+        paths = [paths]
+    bags: list[Bag] = []
+    problems: list[Problem] = []
+    try:
+        for path in map(Path, paths):
+            if path.is_dir():
+                opened, found = _open_folder(path)
+                bags += opened
+                problems += found
+            else:
+                bags.append(open_bag(path))
+    except BaseException:
+        for bag in bags:
+            bag.close()
+        raise
+    return Recording(bags, problems)
+
+
+def _open_folder(folder: Path) -> tuple[list[Bag], list[Problem]]:
+    """Open the recordings of a folder; one that cannot be opened costs only itself."""
+    files, problems = files_of(folder)
+    bags: list[Bag] = []
+    refusal: SourceError | None = None
+    for file in files:
+        try:
+            bags.append(open_bag(file))
+        except SourceError as error:
+            refusal = refusal or error
+            problems += error.problems
+    if refusal is not None and not bags:
+        raise refusal
+    return bags, problems
+
+
 def _open(file: FileBytes) -> Bag:
     if not file.size:
         message = f"{file.path.name} is empty (0 bytes)"
         hint = "record again, or copy the file again: nothing can be read from it"
-        raise _refused(file.path, "file-empty", message, hint)
+        raise refused(file.path, "file-empty", message, hint)
     try:
         begin = file.read_at(0, 4096)
     except (OSError, ValueError) as error:
         raise unreadable(file.path, error) from error
     if not begin.startswith(MAGIC):
-        raise _not_a_bag(file.path, _kind(begin))
+        raise not_a_bag(file.path, _kind(begin))
     bag = McapBag(file)
     bag.index_more(OPENING)
     return bag
@@ -59,13 +109,3 @@ def _kind(begin: bytes) -> str:
     if not begin.strip(b"\x00"):
         return "it begins with zeros"
     return "it begins neither as MCAP, nor as sqlite3, nor as a ROS 1 bag"
-
-
-def _not_a_bag(path: Path, why: str) -> SourceError:
-    message = f"{path.name} is not a recording: {why}"
-    hint = "give a .mcap, .db3 or .bag file, or the folder that holds it"
-    return _refused(path, "file-not-a-bag", message, hint)
-
-
-def _refused(path: Path, code: str, message: str, hint: str) -> SourceError:
-    return SourceError([Problem("error", code, message, hint, str(path))])

@@ -1,0 +1,99 @@
+"""The files of a folder that rosbag2 wrote; its metadata.yaml is only a hint.
+
+It is missing when the recorder was killed, and wrong when somebody has renamed a file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from sambot_viz.errors import Problem
+from sambot_viz.sources.bag.refusals import refused, unreadable
+
+METADATA = "metadata.yaml"
+
+_LARGEST_METADATA = 2**24
+_MOST_FILES = 10_000
+_BESIDE = ("-wal", "-shm", "-journal")
+_ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
+_NAMES = re.compile(
+    r"^\s*relative_file_paths:[ \t]*\n((?:[ \t]*-[^\n]*\n?)+)", re.MULTILINE
+)
+
+
+def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
+    """Return the recordings in a folder, and where its metadata.yaml is wrong.
+
+    Args:
+        folder: the folder; those below it are not searched.
+
+    Raises:
+        SourceError: there is no recording in it.
+    """
+    try:
+        there = sorted(_listed(folder))
+    except (OSError, ValueError) as error:
+        raise unreadable(folder, error) from error
+    files = [path for path in there if path.name.endswith(_ENDINGS)]
+    named = _named(folder)
+    present = {path.name for path in there}
+    missing = [name for name in named if name not in present]
+    if not files:
+        if missing:
+            message = _missing(missing)
+            hint = "copy that file into the folder, beside metadata.yaml"
+            raise refused(folder, "file-missing", message, hint)
+        message = f"the folder {folder.name} has no .mcap, .db3 or .bag file"
+        hint = "give the folder that 'ros2 bag record' has made, or one of its files"
+        raise refused(folder, "file-not-a-bag", message, hint)
+    return files, _stale(folder, named, missing, files)
+
+
+def _listed(folder: Path) -> Iterator[Path]:
+    for number, path in enumerate(folder.iterdir()):
+        if number >= _MOST_FILES:
+            return
+        if not path.name.endswith(_BESIDE) and path.is_file():
+            yield path
+
+
+def _stale(
+    folder: Path, named: list[str], missing: list[str], files: list[Path]
+) -> list[Problem]:
+    if not missing:
+        return []
+    others = [path.name for path in files if path.name not in named]
+    where = str(folder / METADATA)
+    if not others:
+        hint = "copy that file into the folder; what is there is shown"
+        return [Problem("warning", "file-missing", _missing(missing), hint, where)]
+    verb = "was found and is shown" if len(others) == 1 else "were found and are shown"
+    message = f"metadata.yaml names {_listing(missing)}; {_listing(others)} {verb}"
+    hint = f"run 'ros2 bag reindex {folder.name}' to write metadata.yaml again"
+    return [Problem("info", "metadata-stale", message, hint, where)]
+
+
+def _missing(names: list[str]) -> str:
+    verb = "which is" if len(names) == 1 else "which are"
+    return f"metadata.yaml names {_listing(names)}, {verb} not in the folder"
+
+
+def _listing(names: list[str]) -> str:
+    return ", ".join(names[:5]) + (", …" if len(names) > 5 else "")
+
+
+def _named(folder: Path) -> list[str]:
+    """Return the names of the files in metadata.yaml, without the folder before."""
+    try:
+        with (folder / METADATA).open("rb") as stream:
+            text = stream.read(_LARGEST_METADATA).decode("utf-8", "replace")
+    except (OSError, ValueError):
+        return []
+    found = _NAMES.search(text)
+    if found is None:
+        return []
+    lines = (line.strip() for line in found[1].splitlines())
+    names = (line[1:].strip().strip("'\"") for line in lines)
+    return [re.split(r"[\\/]", name)[-1] for name in names if name]
