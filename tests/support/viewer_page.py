@@ -48,7 +48,7 @@ _DRAW_SELDOM = f"""(() => {{
   gl.render = (scene, eye) => {{
     // A picture that was asked for has a camera of its own.
     const coarse = gl.getPixelRatio() <= {COARSE} && eye === camera;
-    const left = last + 80 - performance.now();
+    const left = last + 400 - performance.now();
     if (coarse && gl.hurry === 0 && left > 0) {{
       later ??= setTimeout(() => {{
         later = null;
