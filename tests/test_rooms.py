@@ -411,6 +411,8 @@ HOLDERS = {
     "scripting/events.py",
     "scripting/files.py",
     "scripting/links.py",
+    "server/client_sessions.py",
+    "server/places.py",
     "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",

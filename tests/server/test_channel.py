@@ -431,7 +431,8 @@ def test_a_long_text_for_the_clipboard_comes_in_one_piece(
     session = viz.server.sessions.all()[0]
     text = "x" * 50_000 + "\nend"
     mark = client.mark()
-    window = viz.server.sessions._places[None].window
+    window = viz.server.clients._window_of(0)
+    assert window is not None
     (panels,) = window._browsers.values()
     with session.lock:
         panels.give(channel_answer(text))

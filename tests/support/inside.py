@@ -43,7 +43,7 @@ def signals_of(session: Session) -> list[Signal[Any]]:
 
 def all_have_rows(viz: Visualizer) -> bool:
     """Whether the panels of each client are there, which is after viser has it."""
-    rows_of = viz._server.sessions.rows_of  # pyright: ignore[reportPrivateUsage]
+    rows_of = viz._server.clients.rows_of  # pyright: ignore[reportPrivateUsage]
     return all(map(rows_of, viz.viser.get_clients()))
 
 

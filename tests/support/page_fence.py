@@ -147,7 +147,7 @@ def _pass_fence(page: RecordedPage, viz: Visualizer, client: int) -> None:
             _nodes[to.scene] = to.scene.add_frame(name, show_axes=False, visible=False)
         _nodes[to.scene].position = (float(number), 0.0, 0.0)
         to.flush()
-    rows = viz.server.sessions.rows_of(client)
+    rows = viz.server.clients.rows_of(client)
     ids: list[str] = []
     for store in rows.stores if rows else ():
         row = f"~fence {len(ids)}"

@@ -57,7 +57,7 @@ def snapshot(
     end = time.monotonic() + LONGEST_WAIT
     page = chromium.open(_address(server.url), width=width, height=height)
     try:
-        client = server.sessions.wait_for_page(page.evaluate(_TICKET), LONGEST_WAIT)
+        client = server.clients.wait_for_page(page.evaluate(_TICKET), LONGEST_WAIT)
         server.sessions.wait_for_meshes(max(1.0, end - time.monotonic()))
         nodes = server.node_count()
         page.wait_for(

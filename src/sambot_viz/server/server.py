@@ -17,6 +17,7 @@ from sambot_viz.options import Options
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.server import outbox
+from sambot_viz.server.client_sessions import ClientSessions
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.sessions import MakeConfig, Sessions
@@ -42,6 +43,7 @@ class Server:
 
     Attributes:
         sessions: what the browsers see.
+        clients: which of them sees what.
 
     Raises:
         ServerError: the address cannot be listened on.
@@ -64,23 +66,25 @@ class Server:
         self._listener = listening or listen(options)
         self._viser = self._listener.viser
         sessions = self.sessions = Sessions(
-            self._viser, options, make_config, models, poses, files, ask_page
+            self._viser, options, make_config, models, poses
         )
-        sessions.on_joined = self._listener.tell_joined
-        self._listener.give(sessions)
+        clients = self.clients = ClientSessions(
+            self._viser, sessions, files, ask_page, self._listener.tell_joined
+        )
+        self._listener.give(clients)
         prepare_page(self._viser)
-        outbox.keep_apart(self._viser, sessions.has_copy)
+        outbox.keep_apart(self._viser, clients.has_copy)
         if options.session == "shared":
             try:
-                sessions.open_shared()
+                clients.open_shared()
             except BaseException:
                 self.stop()
                 raise
         # It runs before that of viser, which would print a line, and would find clients
         # and sessions that still send.
         atexit.register(self.stop)
-        self._viser.on_client_connect(sessions.join)
-        self._viser.on_client_disconnect(sessions.leave)
+        self._viser.on_client_connect(clients.join)
+        self._viser.on_client_disconnect(clients.leave)
 
     @property
     def url(self) -> str:

@@ -1,34 +1,24 @@
-"""The sessions that browsers see: one for all, one for each, and copies of it."""
+"""All sessions of a server: what they share, and what is done in each of them."""
 
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
-from functools import partial
 from typing import cast
 
 import viser
 
-from sambot_viz import viser_private
 from sambot_viz.errors import Problem, ServerError
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
-from sambot_viz.panels.files import Files
-from sambot_viz.panels.pictures import AskPage
-from sambot_viz.panels.row_store import ClientRows
-from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import reload_problems
-from sambot_viz.server.connection import ClientContext, Connection
-from sambot_viz.server.links import invite
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.places import SessionPlace, SessionPlaces
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
@@ -37,16 +27,6 @@ from sambot_viz.session.worker import Worker
 _log = logging.getLogger(__name__)
 
 MakeConfig = Callable[[], RvizConfig]
-
-
-@dataclass(eq=False)
-class _Place:
-    """A thread, the session that lives in it, and its window, as they come."""
-
-    worker: Worker
-    session: Session | None = None
-    window: Window | None = None
-    left: bool = False
 
 
 class Sessions:
@@ -58,18 +38,15 @@ class Sessions:
         make_config: a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
         poses: the named poses; a private session has a copy that writes no file.
-        files: opens and follows .rviz files for the shared session; None leaves Open
-            and Save out.
-        ask_page: makes a page of what is seen; None leaves that out.
 
     Attributes:
+        places: where each of them lives.
         options: what every session begins with.
         meshes: what was read of mesh files, for all of them.
         opened: the robot that was shown last.
         robot: what is shown in all of them that have no model of their own: the opened
             one, with those that a program has added.
         assemble: makes the second of the first.
-        on_joined: called when a client has its rows, in any thread.
         on_files: called after other files may be shown than before, in any thread.
     """
 
@@ -80,16 +57,12 @@ class Sessions:
         make_config: MakeConfig,
         models: ModelThread | None,
         poses: Presets | None,
-        files: Files | None,
-        ask_page: AskPage | None,
     ) -> None:
         self._server = server
         self.options = options
         self._make_config = make_config
         self._models = models
         self._poses = poses or Presets()
-        self._files = files
-        self._ask_page = ask_page
         self.on_files: Callable[[], object] = lambda: None
         self.meshes = MeshCache()
         self.meshes.on_read = self._tell_files
@@ -98,34 +71,19 @@ class Sessions:
         self.robot: Robot | None = None
         self.assemble: Callable[[Robot], Robot] = lambda robot: robot
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
-        # By client, and with None that of all; changed under the lock.
-        self._places: dict[int | None, _Place] = {}
-        self._lock = threading.RLock()
-        self._joined = threading.Condition()
-        self._closed = False
         self._followers: list[Callable[[Session], object]] = []
-        self.on_joined: Callable[[], object] = lambda: None
+        self.places = SessionPlaces(lambda: Worker(server.get_event_loop()))
 
     @property
     def shared(self) -> Session | None:
-        """The session of all browsers; None when each has its own."""
-        return self._places[None].session if None in self._places else None
-
-    def open_shared(self) -> None:
-        """Open the session of all browsers.
-
-        Raises:
-            FrameError: static transforms that form a ring.
-        """
-        place = self._add_place(None)
-        place.session = self._open(self._server, place.worker)
-        place.session.roles.end_connection = self._end_connection
+        """The session of all clients; None when each has its own."""
+        return self.places.shared
 
     def close(self) -> None:
         """End all sessions and their threads."""
-        with self._lock:
-            self._closed = True
-            places = list(self._places.values())
+        with self.places.lock:
+            self.places.closed = True
+            places = self.places.all()
         for place in places:
             if place.session is not None:
                 place.session.close()
@@ -134,7 +92,7 @@ class Sessions:
 
     def require_open(self) -> None:
         """Raise ServerError after `close`: nobody would see what a program changes."""
-        if self._closed:
+        if self.places.closed:
             raise ServerError("it was stopped; make a new Visualizer")
 
     def all(self, *, copies: bool = True) -> list[Session]:
@@ -145,14 +103,13 @@ class Sessions:
         """
         if not copies and self.shared is not None:
             return [self.shared]
-        with self._lock:
-            places = list(self._places.values())
-        return [place.session for place in places if place.session is not None]
+        sessions = [place.session for place in self.places.all()]
+        return [session for session in sessions if session is not None]
 
     def follow(self, action: Callable[[Session], object]) -> None:
         """Call an action once with every session, present and to come; not copies."""
         # A session that opens meanwhile is in one of both, and in no more.
-        with self._lock:
+        with self.places.lock:
             self._followers.append(action)
             present = self.all(copies=False)
         for session in present:
@@ -181,7 +138,7 @@ class Sessions:
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot in every session, present and to come, without its own model."""
-        with self._lock:
+        with self.places.lock:
             self.opened = robot
             self.robot = robot = self.assemble(robot)
         self.on_files()
@@ -198,30 +155,6 @@ class Sessions:
 
     def _tell_files(self) -> None:
         self.on_files()
-
-    def show_panels(self) -> None:
-        """Add the panels to the shared session, unless it has them or is to have none.
-
-        Call it after `show_robot`: a browser draws what it receives in order, and the
-        panels take it longer than the robot.
-        """
-        if self.shared is not None:
-            self._add_panels(self._places[None], self.shared)
-
-    def _add_panels(self, place: _Place, session: Session) -> None:
-        # A model that is being read may change the displays while panels are made.
-        with session.lock:
-            if self.options.panels and place.window is None:
-                # Visitors with a session of their own do not use the server's disk.
-                shared = session is self.shared
-                place.window = Window(
-                    session,
-                    self.options.gui,
-                    self._files if shared else None,
-                    self._ask_page,
-                    partial(invite, self.options) if shared else None,
-                )
-        self.on_joined()
 
     def refresh(self) -> None:
         """Draw again what comes from mesh files and textures that have changed."""
@@ -241,37 +174,13 @@ class Sessions:
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show in every session, present and to come, why a save is not shown."""
-        with self._lock:
+        with self.places.lock:
             self._reload_problems[of] = tuple(problems)
         try:
             self.for_each(lambda s: s.problems.set_saves(of, problems))
         except Exception:
             # What was saved is shown to the others all the same.
             _log.exception("a session could not show the problems of a save")
-
-    def wait_for_page(self, ticket: str, timeout: float) -> viser.ClientHandle:
-        """The client of a page, as soon as it is there.
-
-        Args:
-            ticket: which page (see `ClientContext`).
-            timeout: how long to wait [s].
-
-        Raises:
-            ServerError: it did not come in time.
-        """
-
-        def find() -> viser.ClientHandle | None:
-            clients = self._server.get_clients().values()
-            fitting = (
-                c for c in clients if self._context(c.client_id).ticket == ticket
-            )
-            return next(fitting, None)
-
-        with self._joined:
-            found = self._joined.wait_for(find, timeout)
-        if found is None:
-            raise ServerError(f"no browser opened the page within {timeout:g} s")
-        return found
 
     def wait_for_meshes(self, timeout: float) -> None:
         """Return when every model, mesh file and texture is read and drawn.
@@ -288,9 +197,19 @@ class Sessions:
             if not session.scene.context.assets.wait(timeout):
                 raise ServerError(f"the meshes were not read within {timeout:g} s")
 
-    def _open(
+    def open(
         self, audience: object, worker: Worker, copy: SessionCopy | None = None
     ) -> Session:
+        """Make a session that shows what all show.
+
+        Args:
+            audience: the server or a client: who sees it.
+            worker: the thread in which it lives.
+            copy: what it begins with instead.
+
+        Raises:
+            FrameError: static transforms that form a ring.
+        """
         if copy is not None:
             config, poses = copy.config, copy.poses
         else:
@@ -319,107 +238,20 @@ class Sessions:
             session.take(copy)
         return session
 
-    def take_edit(self, client_id: int, edit: object) -> None:
-        """Give an edit of a browser to the window of its session."""
-        window = self._window_of(client_id)
-        if window is not None:
-            window.receive(client_id, edit)
+    def admit(self, place: SessionPlace, session: Session, *, copied: bool) -> None:
+        """Count a session among all; the worker of its place calls this.
 
-    def rows_of(self, client_id: int) -> ClientRows | None:
-        """Return the rows that a client sees; None when it has none yet."""
-        window = self._window_of(client_id)
-        return None if window is None else window.rows_of(client_id)
+        A robot that is shown in all sessions meanwhile waits for the session's lock,
+        which its worker has, and so comes after what is shown here.
 
-    def may_edit(self, client_id: int) -> bool:
-        """Whether a browser may use the widgets of a program, which all have."""
-        return self.shared is None or self.shared.roles.may_edit(client_id)
-
-    def behind(self, client_id: int, action: Callable[[], None]) -> None:
-        """Run an action behind what a browser has caused in its session."""
-        place = self._place_of(client_id)
-        action() if place is None else place.worker.post(action, client=client_id)
-
-    def _place_of(self, client_id: int) -> _Place | None:
-        return self._places.get(client_id) or self._places.get(None)
-
-    def _window_of(self, client_id: int) -> Window | None:
-        place = self._place_of(client_id)
-        return None if place is None else place.window
-
-    def _add_place(self, client_id: int | None) -> _Place:
-        place = _Place(Worker(self._server.get_event_loop()))
-        self._places[client_id] = place
-        return place
-
-    def _end_connection(self, client_id: int) -> None:
-        """Close the page of a client, which is not to come back by itself."""
-
-        def close() -> None:
-            with suppress(KeyError):
-                connection = viser_private.connection_of(self._server, client_id)
-                cast(Connection, connection).removed = True
-                connection.transport.abort()
-
-        self._server.get_event_loop().call_soon_threadsafe(close)
-
-    def _context(self, client_id: int) -> ClientContext:
-        try:
-            connection = viser_private.connection_of(self._server, client_id)
-        except KeyError:
-            # It has left already.
-            return ClientContext()
-        return cast(Connection, connection).context
-
-    def has_copy(self, client_id: int) -> bool:
-        """Whether a browser sees a copy, and so nothing of the shared session."""
-        return self.shared is not None and self._context(client_id).copy
-
-    async def join(self, client: viser.ClientHandle) -> None:
-        """A browser has opened the page."""
-        viser_private.allow_late_messages(client)
-        shared, context = self.shared, self._context(client.client_id)
-        if shared is not None and not context.copy:
-            shared.worker.post(
-                partial(self._give_view, shared, client, context),
-                client=client.client_id,
-            )
-            return
-        with self._lock:
-            if self._closed:
-                return
-            place = self._add_place(client.client_id)
-        open_private = partial(self._open_private, client, place)
-        if shared is None:
-            place.worker.post(open_private)
-        else:
-            # Copied under the lock of all, and drawn in the thread of one.
-            shared.worker.post(
-                lambda: place.worker.post(partial(open_private, shared.copy())),
-                client=client.client_id,
-            )
-
-    def _give_view(
-        self, session: Session, client: viser.ClientHandle, context: ClientContext
-    ) -> None:
-        session.join(client, presenter=context.presenter, login=context.login)
-        with self._joined:
-            self._joined.notify_all()
-        self.on_joined()
-
-    def _open_private(
-        self, client: viser.ClientHandle, place: _Place, copy: SessionCopy | None = None
-    ) -> None:
-        """Draw the session of one browser; its worker runs this and has its lock.
-
-        A robot that is shown in all sessions meanwhile waits for that lock once this
-        session is known, and so comes after what is shown here.
+        Args:
+            place: where it lives.
+            session: it has just been opened.
+            copied: whether it is a copy of the shared one.
         """
-        if place.left:
-            return
-        session = self._open(client, place.worker, copy)
-        with self._lock:
+        with self.places.lock:
             place.session = session
-            followers = () if copy is not None else tuple(self._followers)
+            followers = () if copied else tuple(self._followers)
             robot, problems = self.robot, dict(self._reload_problems)
         for action in followers:
             action(session)
@@ -428,29 +260,3 @@ class Sessions:
             session.show_robot(robot)
         for of, found in problems.items():
             session.problems.set_saves(of, found)
-        self._add_panels(place, session)
-        self._give_view(session, client, ClientContext())
-
-    async def leave(self, client: viser.ClientHandle) -> None:
-        """A browser has closed the page: a session of its own ends."""
-        place = self._places.get(client.client_id)
-        if place is not None:
-            # A session that has not begun to open stays closed.
-            place.left = True
-            # Behind one that opens at the moment: this must not wait on the loop.
-            # Behind what it has sent.
-            close = partial(self._close_private, client.client_id, place)
-            place.worker.post(close, client=client.client_id)
-        elif (shared := self.shared) is not None:
-            leave = partial(shared.leave, client.client_id)
-            shared.worker.post(leave, client=client.client_id)
-
-    def _close_private(self, client_id: int, place: _Place) -> None:
-        with self._lock:
-            del self._places[client_id]
-        self.on_files()
-        if place.window is not None:
-            place.window.close()
-        if place.session is not None:
-            place.session.close()
-        place.worker.close()

@@ -71,14 +71,14 @@ class ShownInputs:
         Raises:
             RobotError: the model cannot be shown; the server is stopped then.
         """
-        inputs, sessions = self._inputs, self.server.sessions
+        inputs, clients = self._inputs, self.server.clients
         try:
             if not inputs.wait(PANELS_WITHOUT_ROBOT):
-                sessions.show_panels()
+                clients.show_panels()
             refusal = inputs.refusal()
             if refusal is None:
                 self._show(inputs.robot())
-            sessions.show_panels()
+            clients.show_panels()
             if inputs.options.watch:
                 self._follow(refusal)
         except BaseException:

@@ -1,0 +1,231 @@
+"""Gives each client its session: that of all, one of its own, or a private copy."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from typing import cast
+
+import viser
+
+from sambot_viz import viser_private
+from sambot_viz.errors import ServerError
+from sambot_viz.panels.files import Files
+from sambot_viz.panels.pictures import AskPage
+from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.window import Window
+from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.links import invite
+from sambot_viz.server.places import SessionPlace
+from sambot_viz.server.sessions import Sessions
+from sambot_viz.session import Session
+from sambot_viz.session.session_copy import SessionCopy
+
+
+class ClientSessions:
+    """The clients of a server: where each one's edits go, and what it sees.
+
+    Args:
+        server: whose clients they are.
+        sessions: what they see.
+        files: opens and follows .rviz files for the shared session; None leaves Open
+            and Save out.
+        ask_page: makes a page of what is seen; None leaves that out.
+        on_joined: called when a client has its rows, in any thread.
+    """
+
+    def __init__(
+        self,
+        server: viser.ViserServer,
+        sessions: Sessions,
+        files: Files | None,
+        ask_page: AskPage | None,
+        on_joined: Callable[[], object],
+    ) -> None:
+        self._server = server
+        self._sessions = sessions
+        self._places = sessions.places
+        self._options = sessions.options
+        self._files = files
+        self._ask_page = ask_page
+        self._on_joined = on_joined
+        self._joined = threading.Condition()
+
+    def open_shared(self) -> None:
+        """Open the session of all clients.
+
+        Raises:
+            FrameError: static transforms that form a ring.
+        """
+        place = self._places.add(None)
+        place.session = self._sessions.open(self._server, place.worker)
+        place.session.roles.end_connection = self._end_connection
+
+    def show_panels(self) -> None:
+        """Add the panels to the shared session, unless it has them or is to have none.
+
+        Call it after `show_robot`: a browser draws what it receives in order, and the
+        panels take it longer than the robot.
+        """
+        place = self._places.of_all
+        if place is not None and place.session is not None:
+            self._add_panels(place, place.session)
+
+    def _add_panels(self, place: SessionPlace, session: Session) -> None:
+        options = self._options
+        # A model that is being read may change the displays while panels are made.
+        with session.lock:
+            if options.panels and place.window is None:
+                # Clients with a session of their own do not use the server's disk.
+                shared = place is self._places.of_all
+                place.window = Window(
+                    session,
+                    options.gui,
+                    self._files if shared else None,
+                    self._ask_page,
+                    partial(invite, options) if shared else None,
+                )
+        self._on_joined()
+
+    def take_edit(self, client_id: int, edit: object) -> None:
+        """Give an edit of a client to the window of its session."""
+        window = self._window_of(client_id)
+        if window is not None:
+            window.receive(client_id, edit)
+
+    def rows_of(self, client_id: int) -> ClientRows | None:
+        """Return the rows that a client sees; None when it has none yet."""
+        window = self._window_of(client_id)
+        return None if window is None else window.rows_of(client_id)
+
+    def may_edit(self, client_id: int) -> bool:
+        """Return whether a client may use the widgets of a program, which all have."""
+        shared = self._places.shared
+        return shared is None or shared.roles.may_edit(client_id)
+
+    def behind(self, client_id: int, action: Callable[[], None]) -> None:
+        """Run an action behind what a client has caused in its session."""
+        place = self._places.of(client_id)
+        action() if place is None else place.worker.post(action, client=client_id)
+
+    def _window_of(self, client_id: int) -> Window | None:
+        place = self._places.of(client_id)
+        return None if place is None else place.window
+
+    def _end_connection(self, client_id: int) -> None:
+        """Close the page of a client, which is not to come back by itself."""
+
+        def close() -> None:
+            with suppress(KeyError):
+                connection = viser_private.connection_of(self._server, client_id)
+                cast(Connection, connection).removed = True
+                connection.transport.abort()
+
+        self._server.get_event_loop().call_soon_threadsafe(close)
+
+    def _context(self, client_id: int) -> ClientContext:
+        try:
+            connection = viser_private.connection_of(self._server, client_id)
+        except KeyError:
+            # It has left already.
+            return ClientContext()
+        return cast(Connection, connection).context
+
+    def has_copy(self, client_id: int) -> bool:
+        """Return whether a client sees a copy, so nothing of the shared session."""
+        return self._places.shared is not None and self._context(client_id).copy
+
+    def wait_for_page(self, ticket: str, timeout: float) -> viser.ClientHandle:
+        """Return the client of a page, as soon as it is there.
+
+        Args:
+            ticket: which page (see `ClientContext`).
+            timeout: how long to wait [s].
+
+        Raises:
+            ServerError: it did not come in time.
+        """
+
+        def find() -> viser.ClientHandle | None:
+            clients = self._server.get_clients().values()
+            fitting = (
+                c for c in clients if self._context(c.client_id).ticket == ticket
+            )
+            return next(fitting, None)
+
+        with self._joined:
+            found = self._joined.wait_for(find, timeout)
+        if found is None:
+            raise ServerError(f"no browser opened the page within {timeout:g} s")
+        return found
+
+    async def join(self, client: viser.ClientHandle) -> None:
+        """Give a client that has come its session."""
+        viser_private.allow_late_messages(client)
+        shared, context = self._places.shared, self._context(client.client_id)
+        if shared is not None and not context.copy:
+            shared.worker.post(
+                partial(self._give_view, shared, client, context),
+                client=client.client_id,
+            )
+            return
+        with self._places.lock:
+            if self._places.closed:
+                return
+            place = self._places.add(client.client_id)
+        open_private = partial(self._open_private, client, place)
+        if shared is None:
+            place.worker.post(open_private)
+        else:
+            # Copied under the lock of all, and drawn in the thread of one.
+            shared.worker.post(
+                lambda: place.worker.post(partial(open_private, shared.copy())),
+                client=client.client_id,
+            )
+
+    def _give_view(
+        self, session: Session, client: viser.ClientHandle, context: ClientContext
+    ) -> None:
+        session.join(client, presenter=context.presenter, login=context.login)
+        with self._joined:
+            self._joined.notify_all()
+        self._on_joined()
+
+    def _open_private(
+        self,
+        client: viser.ClientHandle,
+        place: SessionPlace,
+        copy: SessionCopy | None = None,
+    ) -> None:
+        """Draw the session of one client; its worker runs this and has its lock."""
+        if place.left:
+            return
+        session = self._sessions.open(client, place.worker, copy)
+        self._sessions.admit(place, session, copied=copy is not None)
+        self._add_panels(place, session)
+        self._give_view(session, client, ClientContext())
+
+    async def leave(self, client: viser.ClientHandle) -> None:
+        """Take a client that has gone out of its session; its own one ends."""
+        place = self._places.own(client.client_id)
+        if place is not None:
+            # A session that has not begun to open stays closed.
+            place.left = True
+            # Behind one that opens at the moment: this must not wait on the loop.
+            # Behind what it has sent.
+            close = partial(self._close_private, client.client_id, place)
+            place.worker.post(close, client=client.client_id)
+        elif (shared := self._places.shared) is not None:
+            leave = partial(shared.leave, client.client_id)
+            shared.worker.post(leave, client=client.client_id)
+
+    def _close_private(self, client_id: int, place: SessionPlace) -> None:
+        self._places.remove(client_id)
+        self._sessions.on_files()
+        if place.window is not None:
+            place.window.close()
+        if place.session is not None:
+            place.session.close()
+        place.worker.close()
