@@ -17,6 +17,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   └── FrameCycleError         a transform that would form a ring
     ├── SourceError                 a bag or a robot that cannot be read (.problems)
     ├── JointError                  an unknown joint, or a value that is not finite
+    ├── DecodeError                 a message, or its definition, that cannot be read
     ├── ServerError                 a port that is taken, a server that cannot go on
     │   └── BrowserError            a browser that is missing, ends or does not answer
     └── UsageError                  a command line or an argument that makes no sense
@@ -230,6 +231,10 @@ class FrameError(SambotVizError):
 
 class JointError(SambotVizError):
     """A joint that does not exist, or a value that is not a finite number."""
+
+
+class DecodeError(SambotVizError):
+    """A message, or the definition of its type, cannot be read."""
 
 
 class ServerError(SambotVizError):

@@ -1,5 +1,9 @@
 """Messages: from bytes to values, the only place that knows how they are written."""
 
+from sambot_viz.messages.decoder import Decoder
+from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.schema import Schema
+from sambot_viz.messages.transforms import TransformDecoder
+from sambot_viz.messages.types import MessageTypes
 
-__all__ = ["Schema"]
+__all__ = ["Decoder", "MessageTypes", "Reason", "Schema", "TransformDecoder"]

@@ -1,0 +1,165 @@
+"""Decoders: from the bytes of a message to its fields.
+
+rosbags generates a function for each type; these are called with what it takes to be
+tolerant of trailing bytes and never to trust a length.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+from sambot_viz.errors import DecodeError
+from sambot_viz.messages.definition import TypeDefinition
+from sambot_viz.messages.reason import Reason
+
+if TYPE_CHECKING:
+    from rosbags.interfaces import Msgdef
+
+Payload = bytes | bytearray | memoryview
+_PADDING = 3
+"""CDR pads messages to four bytes."""
+_ZEROS = 8
+"""As many zeros as rclpy.serialize_message leaves behind a message."""
+
+
+class Decoder:
+    """Reads the messages of all channels with one definition and encoding.
+
+    This one reads nothing and has the reason; the others derive from it.
+
+    Attributes:
+        type_name: of the messages, "pkg/msg/Name" for those of ROS.
+        encoding: of the messages: "cdr", "ros1", "json", ….
+        reason: why they cannot be read; None when they can.
+        note: what to know about those that are read; may come with a message.
+    """
+
+    def __init__(
+        self, type_name: str, encoding: str, reason: Reason | None = None
+    ) -> None:
+        self.type_name = type_name
+        self.encoding = encoding
+        self.reason = reason
+        self.note: Reason | None = None
+
+    def decode(self, payload: Payload) -> Any:
+        """Return a message.
+
+        Returns:
+            An object with the fields as attributes; arrays of numbers are read-only
+            views of the payload. A dict for JSON.
+
+        Raises:
+            DecodeError: the bytes are no such message; a short cause.
+        """
+        raise DecodeError(self.reason.text if self.reason else "it cannot be read")
+
+
+class JsonDecoder(Decoder):
+    """Reads messages that are JSON objects."""
+
+    def decode(self, payload: Payload) -> dict[str, Any]:
+        """Return a message as a dict."""
+        try:
+            message: object = json.loads(bytes(payload))
+        except (ValueError, RecursionError):
+            raise DecodeError("it is not JSON") from None
+        if not isinstance(message, dict):
+            raise DecodeError("it is not a JSON object")
+        return cast("dict[str, Any]", message)
+
+
+class _Store:
+    """What a generated function asks rosbags' store for, for one message.
+
+    No sequence can have more elements than the message has bytes; rosbags would
+    count up to any number where elements take none.
+    """
+
+    __slots__ = ("get_msgdef", "max_sequence_length")
+
+    def __init__(self, get_msgdef: Callable[[str], Any], length: int) -> None:
+        self.get_msgdef = get_msgdef
+        self.max_sequence_length = length
+
+
+class _Layout:
+    """One definition, made into functions when the first message comes."""
+
+    def __init__(self, definition: TypeDefinition, encoding: str) -> None:
+        self._definition = definition
+        self._is_ros1 = encoding == "ros1"
+        self._made: tuple[Callable[[str], Any], Msgdef[object]] | None = None
+
+    def read(self, payload: memoryview) -> tuple[Any, int]:
+        """Return a message, and how many bytes are left over.
+
+        Raises:
+            DecodeError: the bytes are no such message.
+        """
+        if self._made is None:
+            store = self._definition.compile()
+            self._made = store.get_msgdef, store.get_msgdef(self._definition.name)
+        get_msgdef, own = self._made
+        store = cast("Any", _Store(get_msgdef, len(payload)))
+        function = own.deserialize_ros1
+        if not self._is_ros1:
+            head = bytes(payload[:2])
+            if len(payload) < 4 or head not in (b"\0\0", b"\0\1"):
+                raise DecodeError(f"it begins with {head.hex() or 'nothing'}, not CDR")
+            function = own.deserialize_cdr_le if head[1] else own.deserialize_cdr_be
+            payload = payload[4:]
+        message, end = function(payload, 0, own.cls, store)
+        if end > len(payload):
+            raise DecodeError("it is cut off")
+        return message, len(payload) - end
+
+
+class FieldDecoder(Decoder):
+    """Reads CDR and ROS 1 messages by their definition.
+
+    The definition of a file may be wrong. It is when a message does not fit it, and
+    fits another one of that name, such as the standard one; that is used from then on.
+
+    Args:
+        type_name: of the messages.
+        encoding: of the messages, "cdr" or "ros1".
+        definitions: the first one is tried first.
+        others: gives more definitions, asked when a message does not fit.
+    """
+
+    def __init__(
+        self,
+        type_name: str,
+        encoding: str,
+        definitions: Sequence[TypeDefinition],
+        others: Callable[[], Sequence[TypeDefinition]] = tuple,
+    ) -> None:
+        super().__init__(type_name, encoding)
+        self._layouts = [_Layout(one, encoding) for one in definitions]
+        self._others = others
+
+    def decode(self, payload: Payload) -> Any:
+        """Return a message."""
+        view = memoryview(payload).toreadonly()
+        return self._read(self._layouts[0], view)[0]
+
+    def _read(self, layout: _Layout, view: memoryview) -> tuple[Any, int]:
+        try:
+            return layout.read(view)
+        except DecodeError:
+            raise
+        except Exception as error:
+            # Generated code: struct.error, ValueError, IndexError, SerdeError, ….
+            raise DecodeError(_cause(error)) from error
+
+
+def _cause(error: Exception) -> str:
+    text = str(error)
+    if "sequence length" in text:
+        return "an array longer than its message"
+    if "string length" in text:
+        return "a text longer than its message"
+    return "it is cut off or of another type"
