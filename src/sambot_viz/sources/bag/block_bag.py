@@ -147,6 +147,13 @@ class BlockBag(ABC):
                 size -= self._kept.popitem(last=False)[1].size
         return entries
 
+    def _taken(self, entries: Entries, number: int) -> Recorded | None:
+        """Return a message of a block that was read."""
+        try:
+            return self._message(entries, number)
+        except (OSError, ValueError) as error:
+            raise unreadable(self._file.path, error) from error
+
     def _note_broken(self, block: Block) -> None:
         with self._lock:
             if block.number not in self._broken:
@@ -185,7 +192,7 @@ class BlockBag(ABC):
         ]
         if latched:
             for number in np.flatnonzero(np.isin(entries.channels, latched)).tolist():
-                message = self._message(entries, number)
+                message = self._taken(entries, number)
                 if message is not None:
                     with self._lock:
                         self._latched.add(message)
@@ -294,7 +301,7 @@ class BlockBag(ABC):
             blocks, self._read_or_none, first, last, channels
         ):
             for number in numbers:
-                message = self._message(entries, number)
+                message = self._taken(entries, number)
                 if message is not None:
                     yield message
 
@@ -316,7 +323,7 @@ class BlockBag(ABC):
                 key = (int(entries.times[number]), block.number)
                 if best is None or key > best:
                     best, found = key, (entries, number)
-        return None if found is None else self._message(*found)
+        return None if found is None else self._taken(*found)
 
     def next(self, topic: str, after_ns: int) -> Recorded | None:
         """Return the first message of a topic after a log time."""
@@ -336,7 +343,7 @@ class BlockBag(ABC):
                 key = (int(entries.times[number]), block.number)
                 if best is None or key < best:
                     best, found = key, (entries, number)
-        return None if found is None else self._message(*found)
+        return None if found is None else self._taken(*found)
 
     def previous(self, topic: str, before_ns: int) -> Recorded | None:
         """Return the newest message of a topic before a log time."""

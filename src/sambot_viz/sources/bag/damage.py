@@ -8,7 +8,7 @@ from typing import Literal
 from sambot_viz.errors import Problem
 from sambot_viz.sources.bag.blocks import Numbers, Times
 
-End = Literal["whole", "cut", "zeros", "unfinished", "reindex"]
+End = Literal["whole", "cut", "zeros", "unfinished", "reindex", "sqlite"]
 
 SMALLEST_STEP_BACK = 10**9
 """Log times fall by less in any recording: several threads write it [ns]."""
@@ -22,6 +22,7 @@ class Damage:
         end_at: where it ends, or where the zeros begin [bytes].
         lies: records that claimed an impossible length, and cost nothing.
         in_wal: messages that stand in the file beside a database.
+        lacks: how much of a database is there, when it is not all.
     """
 
     def __init__(self, path: Path) -> None:
@@ -30,6 +31,7 @@ class Damage:
         self.end_at = 0
         self.lies = 0
         self.in_wal = 0
+        self.lacks = ""
         self._broken: list[tuple[int, int]] = []
         self._unreadable: list[tuple[int, int]] = []
         self._latest: dict[int, int] = {}
@@ -104,6 +106,13 @@ class Damage:
             )
             hint = f"run 'rosbag reindex {name}' where ROS 1 is installed"
             return [Problem("warning", "file-cut", message, hint, str(self.path))]
+        if self.end == "sqlite":
+            how = f"is cut off ({self.lacks})" if self.lacks else "is damaged"
+            message = f"{name} {how}: {shown} of it can be shown"
+            hint = "copy the file again; 'sqlite3 FILE .recover' may find more"
+            return [
+                Problem("warning", "file-sqlite-broken", message, hint, str(self.path))
+            ]
         if self.end == "zeros":
             message = (
                 f"{name} has only zeros from byte {self.end_at:,} on (power cut?): "

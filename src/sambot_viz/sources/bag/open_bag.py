@@ -8,12 +8,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from sambot_viz.errors import Problem, SourceError
+from sambot_viz.sources.bag import db3_file, mcap_records, ros1
 from sambot_viz.sources.bag.bag import Bag
-from sambot_viz.sources.bag.block_bag import OPENING
+from sambot_viz.sources.bag.block_bag import OPENING, BlockBag
+from sambot_viz.sources.bag.db3 import Db3Bag
 from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.folder import files_of
 from sambot_viz.sources.bag.mcap import McapBag
-from sambot_viz.sources.bag.mcap_records import MAGIC
 from sambot_viz.sources.bag.recording import Recording
 from sambot_viz.sources.bag.refusals import not_a_bag, refused, unreadable
 
@@ -22,7 +23,7 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
     """Open a file of a recording.
 
     Args:
-        path: an MCAP file.
+        path: an MCAP file, rosbag2's sqlite3 file or a ROS 1 bag.
 
     Raises:
         SourceError: it is not there, or is no recording.
@@ -96,11 +97,23 @@ def _open(file: FileBytes) -> Bag:
         begin = file.read_at(0, 4096)
     except (OSError, ValueError) as error:
         raise unreadable(file.path, error) from error
-    if not begin.startswith(MAGIC):
-        raise not_a_bag(file.path, _kind(begin))
-    bag = McapBag(file)
-    bag.index_more(OPENING)
+    bag = _of_its_format(file, begin)
+    try:
+        bag.index_more(OPENING)
+    except BaseException:
+        bag.close()
+        raise
     return bag
+
+
+def _of_its_format(file: FileBytes, begin: bytes) -> BlockBag:
+    if begin.startswith(mcap_records.MAGIC):
+        return McapBag(file)
+    if begin.startswith(db3_file.MAGIC):
+        return Db3Bag(file)
+    if begin.startswith(ros1.MAGIC):
+        return ros1.Ros1Bag(file)
+    raise not_a_bag(file.path, _kind(begin))
 
 
 def _kind(begin: bytes) -> str:
