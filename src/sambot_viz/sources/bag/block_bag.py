@@ -134,12 +134,14 @@ class BlockBag(ABC):
                 self._kept.move_to_end(block.number)
                 return kept
         try:
-            entries = self._read(block)
+            entries: Entries | None = self._read(block)
         except BrokenPieceError:
-            self._note_broken(block)
-            return None
+            entries = None
         except (OSError, ValueError) as error:
             raise unreadable(self._file.path, error) from error
+        if entries is None:
+            self._note_broken(block)
+            return None
         with self._lock:
             self._kept[block.number] = entries
             size = sum(each.size for each in self._kept.values())
@@ -155,11 +157,14 @@ class BlockBag(ABC):
             raise unreadable(self._file.path, error) from error
 
     def _note_broken(self, block: Block) -> None:
+        try:
+            lost = self._counts_of(block)
+        except (OSError, ValueError) as error:
+            raise unreadable(self._file.path, error) from error
         with self._lock:
             if block.number not in self._broken:
                 self._broken.add(block.number)
                 self.damage.add_broken(block.start, block.end)
-                lost = self._counts_of(block)
                 (self._counts if self._stated is None else self._stated).subtract(lost)
 
     # --- finding --------------------------------------------------------------------
@@ -367,6 +372,8 @@ class BlockBag(ABC):
     def close(self) -> None:
         """Close the file; may be called again."""
         self._file.close()
+        with self._lock:
+            self._kept.clear()
 
     def __enter__(self) -> Self:
         return self

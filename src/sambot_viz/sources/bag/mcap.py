@@ -127,6 +127,7 @@ class McapBag(BlockBag):
         self._is_small = file.size <= SMALL
         self._latest = 0
         self._doubts = 0
+        self._unsearched: list[Block] = []
         # What is read ahead, of each thread that reads messages outside of chunks.
         self._ahead = threading.local()
 
@@ -368,16 +369,29 @@ class McapBag(BlockBag):
                 self._read_or_none(block)
                 cost = 1000
             self._latest = max(self._latest, block.end)
+            self._unsearched.append(block)
             self._add_block(block, None)
             return cost
-        entries = self._read_or_none(block)
+        entries, cost = self._read_or_none(block), 0
         if entries is None:
             return 1000
         if len(entries.times):
             block.start, block.end = int(entries.times[0]), int(entries.times[-1])
             block.channels = frozenset(np.unique(entries.channels).tolist())
+            cost = self._search_definitions(block.channels)
             self._add_block(block, entries)
-        return len(entries.times) + entries.size // 1000
+        return cost + len(entries.times) + entries.size // 1000
+
+    def _search_definitions(self, channels: frozenset[int]) -> int:
+        """Read chunks that were stepped over until some channels are known.
+
+        A writer may define a channel long before its first message.
+        """
+        cost = 0
+        while self._unsearched and not channels <= self._channels.keys():
+            entries = self._read_or_none(self._unsearched.pop())
+            cost += 1 if entries is None else entries.size // 1000
+        return cost
 
     # --- reading --------------------------------------------------------------------
 

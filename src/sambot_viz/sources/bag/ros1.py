@@ -28,7 +28,7 @@ MAGIC = b"#ROSBAG V2.0\n"
 SMALL = 8 * 2**20
 """A file up to this size is read through at opening, so that all damage is known."""
 
-_MESSAGE, _BAG, _INDEX, _CHUNK, _CHUNK_INFO, _CONNECTION = 2, 3, 4, 5, 6, 7
+_BAG, _CHUNK, _CHUNK_INFO, _CONNECTION = 3, 5, 6, 7
 _U32 = struct.Struct("<I")
 _U64 = struct.Struct("<Q")
 _TIME = struct.Struct("<II")
@@ -123,10 +123,12 @@ class Ros1Bag(BlockBag):
 
     def _walk(self, ahead: ReadAhead) -> Iterator[int]:
         """Go from record to record and add the chunks."""
-        at, chunk = len(MAGIC), None
+        at = len(MAGIC)
         while at < self._file.size:
             try:
                 record = self._record(ahead, at)
+                if record.op == _CONNECTION:
+                    self._connect(ahead, record)
             except BrokenPieceError:
                 found = self._next_chunk(at)
                 if found is None:
@@ -134,21 +136,12 @@ class Ros1Bag(BlockBag):
                 self.damage.add_unreadable(at, found)
                 at = found
                 continue
-            if record.op == _INDEX and chunk is not None:
-                header = record.header
-                number = _number(header, b"conn", _U32)
-                chunk.counts[number] += _number(header, b"count", _U32)
-            elif chunk is not None:
-                yield self._add_walked(chunk)
-                chunk = None
             if record.op == _CHUNK:
-                chunk = Ros1Block(self._number(), 0, 0, frozenset(), at)
-            elif record.op == _CONNECTION:
-                self._connect(ahead, record)
+                # When it begins and ends stands only in the index that is missing.
+                block = Ros1Block(self._number(), 0, 0, frozenset(), at)
+                yield self._add(block, must_read=True)
             at = record.behind
             yield 1
-        if chunk is not None:
-            yield self._add_walked(chunk)
 
     def _next_chunk(self, at: int) -> int | None:
         """Search for the next chunk behind bytes that make no sense."""
@@ -167,11 +160,6 @@ class Ros1Bag(BlockBag):
                 found = data.find(word, found + 1)
             begin += _STEP
         return None
-
-    def _add_walked(self, block: Ros1Block) -> int:
-        # When it begins and ends stands only in the index that is missing.
-        block.counts.clear()
-        return self._add(block, must_read=True)
 
     def _add(self, block: Ros1Block, *, must_read: bool = False) -> int:
         """Add a chunk, and return how much work it was."""
