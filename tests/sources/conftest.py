@@ -7,11 +7,15 @@ from contextlib import ExitStack
 
 import pytest
 from live_peers import FoxglovePeer, Inbox, LivePeer
+from rosbridge_peer import RosbridgePeer
 
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import Source
 
-PEERS: dict[str, Callable[[], LivePeer]] = {"foxglove": FoxglovePeer}
+PEERS: dict[str, Callable[[], LivePeer]] = {
+    "foxglove": FoxglovePeer,
+    "rosbridge": RosbridgePeer,
+}
 
 
 @pytest.fixture(params=PEERS)

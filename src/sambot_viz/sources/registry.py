@@ -37,8 +37,11 @@ def open_source(uri: str) -> Source:
     # websockets takes 0.1 s to import, and most commands need none.
     from sambot_viz.sources.foxglove import FoxgloveConversation
     from sambot_viz.sources.foxglove_wire import SUBPROTOCOLS
+    from sambot_viz.sources.rosbridge import RosbridgeConversation
     from sambot_viz.sources.websocket.websocket_source import WebsocketSource
 
+    if address.protocol == "rosbridge":
+        return WebsocketSource(uri, address, RosbridgeConversation)
     return WebsocketSource(uri, address, FoxgloveConversation, SUBPROTOCOLS)
 
 

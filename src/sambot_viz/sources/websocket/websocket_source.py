@@ -240,19 +240,19 @@ class WebsocketSource:
         self, websocket: ClientConnection, conversation: Conversation
     ) -> None:
         while True:
-            was_ready = conversation.is_ready
             conversation.receive(await websocket.recv())
-            if not was_ready and conversation.is_ready:
-                self._welcome(conversation)
-            if conversation.topics_changed and self._is_told:
-                self._is_told = False
-                asyncio.get_running_loop().call_later(_TOPICS_PAUSE, self._tell_topics)
+            self._follow(conversation)
+
+    def _follow(self, conversation: Conversation) -> None:
+        if conversation.is_ready and not self._status.is_connected:
+            self._welcome(conversation)
+        if conversation.topics_changed and self._is_told:
+            self._is_told = False
+            asyncio.get_running_loop().call_later(_TOPICS_PAUSE, self._tell_topics)
 
     def _welcome(self, conversation: Conversation) -> None:
         session = self._status.session
-        if conversation.session_id is None or (
-            conversation.session_id != self._session_id
-        ):
+        if not session or conversation.session_id != self._session_id:
             session += 1
         self._session_id = conversation.session_id
         self._capabilities = conversation.capabilities
@@ -270,6 +270,7 @@ class WebsocketSource:
         while True:
             await asyncio.sleep(_TICK)
             conversation.tick(loop.time())
+            self._follow(conversation)
             self._assets.expire("the server has not sent it in time")
             if conversation.is_ready:
                 self._tell_health(conversation)

@@ -1,0 +1,214 @@
+"""rosbridge: ROS over a websocket, with rosapi beside it for the list of topics.
+
+rosbridge fixes the durability of a subscription when it begins: one that begins before
+its publisher never gets the publisher's latched messages. So a topic is subscribed to
+when it appears, and again when its first publisher does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import count
+
+from sambot_viz.sources import rosbridge_wire as wire
+from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
+from sambot_viz.sources.rosapi import Rosapi
+from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation, Ends
+from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
+from sambot_viz.text import text
+
+_LINE_LASTS = 30.0
+_NO_ROSAPI = (
+    "its topics are not known, since rosapi does not run there: start both with "
+    "`ros2 launch rosbridge_server rosbridge_websocket_launch.xml`"
+)
+
+
+@dataclass(slots=True)
+class _Subscription:
+    """A subscription at the server.
+
+    Attributes:
+        name: which the server knows it by.
+        type_name: of the messages, when it began.
+        had_publishers: when it began, or later; None if that is not known.
+        channels: by whether its messages are JSON.
+    """
+
+    name: str
+    type_name: str
+    had_publishers: bool | None
+    channels: dict[bool, TopicChannel] = field(default_factory=dict[bool, TopicChannel])
+
+
+class RosbridgeConversation(Conversation):
+    """One connection to a rosbridge server."""
+
+    def __init__(self, ends: Ends) -> None:
+        super().__init__(ends)
+        self._rosapi = Rosapi(ends.send, self._listed)
+        self._subscriptions: dict[str, _Subscription] = {}
+        self._wanted: frozenset[str] = frozenset()
+        self._ids = count(1)
+        self._now = 0.0
+        self._line, self._line_end = "", 0.0
+
+    def begin(self) -> None:
+        """Ask for the topics and the definitions of their messages."""
+        self._rosapi.poll()
+
+    def receive(self, frame: str | bytes) -> None:
+        """Take a frame; one that makes no sense is counted."""
+        try:
+            operation = wire.parse_operation(frame)
+        except wire.MalformedOperation:
+            self.unreadable += 1
+            return
+        if isinstance(operation, wire.Publication):
+            self._publication(operation)
+        elif isinstance(operation, wire.ServiceResponse):
+            self.is_ready = self._rosapi.take(operation) or self.is_ready
+        elif isinstance(operation, wire.StatusLine):
+            self.is_ready = True
+            if operation.level in ("error", "warning"):
+                self._line, self._line_end = operation.msg, self._now + _LINE_LASTS
+        elif operation.op == "serverInfo":
+            raise WrongServer(
+                f"{self.ends.address.label} speaks Foxglove's protocol, not "
+                f"rosbridge's: {other_protocol(self.ends.address)}"
+            )
+        self._note_changes()
+
+    def update(self, wanted: frozenset[str]) -> None:
+        """Subscribe to the wanted topics that exist, and to no others."""
+        for topic in self._wanted - wanted:
+            self._unsubscribe(topic)
+        new = wanted - self._wanted
+        self._wanted = wanted
+        for topic in new:
+            self._prepare(topic)
+        self.ends.assets.refuse_all(
+            "rosbridge hands out no files",
+            "give the folder of the package with --package-path",
+        )
+
+    def tick(self, now: float) -> None:
+        """Ask for the topics again when it is time."""
+        self._now = now
+        if now > self._line_end:
+            self._line = ""
+        # Without rosapi, some servers do not answer at all.
+        self.is_ready = self._rosapi.tick(now) or self.is_ready
+        self._note_changes()
+
+    def silence(self) -> str:
+        """Return the sentence for a server that answers nothing."""
+        return f"{self.ends.address.label} does not answer in rosbridge's protocol"
+
+    def notes(self) -> list[str]:
+        """Return the server's warnings, and what is left out."""
+        notes = [] if self._rosapi.is_there else [_NO_ROSAPI]
+        if self._line:
+            notes.append(f"it says: {text(self._line, 200)}")
+        if len(self._rosapi.types) >= MOST_TOPICS:
+            notes.append(f"only the first {MOST_TOPICS} of its topics are listed")
+        return notes
+
+    def topics(self) -> dict[str, SourceTopic]:
+        """Return the topics that rosapi has listed."""
+        found: dict[str, SourceTopic] = {}
+        for name, type_name in self._rosapi.types.items():
+            schema = wire.definition(type_name, self._definition(type_name))
+            found[name] = SourceTopic(
+                name,
+                schema,
+                wire.encoding(type_name),
+                is_latched=is_latched_name(name),
+                publishers=self._rosapi.publishers.get(name),
+            )
+        return found
+
+    def _note_changes(self) -> None:
+        self.topics_changed = self.topics_changed or self._rosapi.has_changed
+        self._rosapi.has_changed = False
+
+    def _publication(self, published: wire.Publication) -> None:
+        subscription = self._subscriptions.get(published.topic)
+        if subscription is None:
+            return
+        if published.stamp_ns is not None:
+            self.ends.clock.note_message(published.stamp_ns)
+        stamp = published.stamp_ns or self.ends.clock.now_ns()
+        channel = self._channel(published.topic, subscription, published.is_json)
+        self.ends.put(
+            Recorded(published.topic, channel, stamp, None, published.payload)
+        )
+
+    def _channel(
+        self, topic: str, subscription: _Subscription, is_json: bool
+    ) -> TopicChannel:
+        known = subscription.channels.get(is_json)
+        if known is not None:
+            return known
+        type_name = subscription.type_name
+        schema = wire.definition(type_name, self._definition(type_name))
+        encoding = "json" if is_json else wire.encoding(type_name)
+        is_latched = is_latched_name(topic)
+        channel = TopicChannel(topic, schema, encoding, is_latched=is_latched)
+        subscription.channels[is_json] = channel
+        return channel
+
+    def _definition(self, type_name: str) -> str:
+        return self._rosapi.definitions.get(type_name, "")
+
+    def _listed(self) -> None:
+        """Follow the list of topics: some are gone, others have another type now."""
+        types = self._rosapi.types
+        for topic, subscription in list(self._subscriptions.items()):
+            if self._rosapi.is_there and types.get(topic) != subscription.type_name:
+                self._unsubscribe(topic)
+        for topic in self._wanted:
+            self._prepare(topic)
+
+    def _prepare(self, topic: str) -> None:
+        """Subscribe when the definition and the publishers have been asked for."""
+        if topic in self._rosapi.types:
+            if self._rosapi.needs_details(topic):
+                self._rosapi.ask_details(topic, partial(self._prepare_wanted, topic))
+            else:
+                then = partial(self._take_publishers, topic)
+                self._rosapi.ask_publishers(topic, then)
+        elif not self._rosapi.is_there and topic not in self._subscriptions:
+            self._subscribe(topic, wire.TYPES_BY_NAME.get(topic, ""), None)
+
+    def _prepare_wanted(self, topic: str) -> None:
+        if topic in self._wanted:
+            self._prepare(topic)
+
+    def _take_publishers(self, topic: str, has_publishers: bool | None) -> None:
+        type_name = self._rosapi.types.get(topic)
+        if topic not in self._wanted or type_name is None:
+            return
+        subscription = self._subscriptions.get(topic)
+        if subscription is None:
+            self._subscribe(topic, type_name, has_publishers)
+        elif subscription.had_publishers is False and has_publishers:
+            self._unsubscribe(topic)
+            self._subscribe(topic, type_name, has_publishers)
+        elif has_publishers is False:
+            subscription.had_publishers = False
+
+    def _subscribe(
+        self, topic: str, type_name: str, has_publishers: bool | None
+    ) -> None:
+        name = f"sambot-viz-{next(self._ids)}"
+        self._subscriptions[topic] = _Subscription(name, type_name, has_publishers)
+        is_latched = is_latched_name(topic)
+        self.ends.send(wire.subscribe(name, topic, type_name, is_latched=is_latched))
+
+    def _unsubscribe(self, topic: str) -> None:
+        subscription = self._subscriptions.pop(topic, None)
+        if subscription is not None:
+            self.ends.send(wire.unsubscribe(subscription.name, topic))
