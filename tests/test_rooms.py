@@ -86,6 +86,7 @@ PURE = (
     "joints",
     "drive",
     "messages",
+    "topics",
 )
 """Rooms that work in a notebook or a grader: no viser, no socket, no thread."""
 
@@ -100,6 +101,8 @@ ROOMS: Mapping[str, Row] = {
     "messages": Row("", "numpy rosbags"),
     # From recordings and robots on the network to messages as bytes.
     "sources": Row("messages", "lz4 msgspec numpy websockets yaml zstandard"),
+    # What the messages mean.
+    "topics": Row("frames joints messages robot sources", "numpy"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
@@ -108,7 +111,7 @@ ROOMS: Mapping[str, Row] = {
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
     "session": Row(
         "bundled checks displays drive frames joints meshes options problems "
-        "robot rviz tools views viser_private",
+        "robot rviz sources tools topics views viser_private",
         "PIL numpy viser",
         "asyncio concurrent",
     ),
@@ -120,8 +123,8 @@ ROOMS: Mapping[str, Row] = {
         "msgspec numpy viser",
     ),
     "server": Row(
-        "displays inputs joints meshes options page panels robot rviz session "
-        "viser_private",
+        "displays frames inputs joints meshes options page panels robot rviz session "
+        "topics viser_private",
         "msgspec numpy segno viser watchfiles websockets",
         "asyncio concurrent http socket threading",
     ),
@@ -152,7 +155,8 @@ ROOMS: Mapping[str, Row] = {
     "files": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
-        "bundled displays joints options robot rviz tools views",
+        "bundled displays joints messages options robot rviz sources tools topics "
+        "views",
         "yourdfpy",
         "concurrent threading",
     ),
@@ -412,6 +416,7 @@ HOLDERS = {
     "scripting/events.py",
     "scripting/files.py",
     "scripting/links.py",
+    "scripting/player.py",
     "server/client_sessions.py",
     "server/places.py",
     "server/reload.py",

@@ -134,3 +134,37 @@ def is_lfs_pointer(data: bytes) -> bool:
     A clone without git-LFS has such a text of three lines in place of each large file.
     """
     return data.startswith(b"version https://git-lfs")
+
+
+RECORDING_ENDINGS = (".mcap", ".db3", ".bag")
+_MAGIC = (b"\x89MCAP0\r\n", b"SQLite format 3\0", b"#ROSBAG V")
+"""What a recording of ROS begins with: MCAP, sqlite3, ROS 1."""
+
+
+def is_recording(path: Path | str) -> bool:
+    """Return whether a file or folder is a recording of ROS, by its bytes or name.
+
+    A folder is one when it has such files or their metadata.yaml, and no package.
+    """
+    path = Path(path)
+    try:
+        if path.is_dir():
+            names = os.listdir(path)
+            recorded = any(name.endswith(RECORDING_ENDINGS) for name in names)
+            return "package.xml" not in names and (
+                recorded or _names_recordings(path / "metadata.yaml")
+            )
+        if not path.is_file():
+            return False
+        with path.open("rb") as file:
+            begin = file.read(16)
+    except (OSError, ValueError):
+        return False
+    return begin.startswith(_MAGIC) or path.suffix.lower() in RECORDING_ENDINGS
+
+
+def _names_recordings(metadata: Path) -> bool:
+    if not metadata.is_file():
+        return False
+    with metadata.open("rb") as file:
+        return b"rosbag2_bagfile_information" in file.read(4096)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from threading import Thread
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz import bundled
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.document import Document
+    from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
 @cache
@@ -81,6 +83,7 @@ class Inputs:
             model; the bundled one is used then.
         broken_config: why the config is not shown yet; only with `may_be_broken`.
         poses: the file for named poses, or None to keep them in memory.
+        recorded: the robot of the recording that moves it; None without a source.
 
     Raises:
         UsageError: a file does not exist, or the model is an object of a wrong type.
@@ -93,6 +96,11 @@ class Inputs:
         self._options = options
         model, config = options.model, options.config
         text = model if isinstance(model, str) and looks_like_text(model) else None
+        self.recorded = _open_recorded(options)
+        self._trusts_model = True
+        if self.recorded is not None:
+            notes = (*options.notes, *self.problems_of_recording())
+            self._options = options.having(notes=notes)
         found = bundled.find(
             Path(model) if isinstance(model, Path | str) and text is None else None,
             Path(config) if isinstance(config, Path | str) else None,
@@ -109,6 +117,11 @@ class Inputs:
         if text is not None:
             self.model, self._may_be_broken = None, False
             self._open_model(text)
+        elif model is None and self.recorded is not None:
+            self.model, self._may_be_broken = None, False
+            # Whoever recorded it is not who reads it.
+            self._trusts_model = False
+            self._open_model(self.recorded.model, self.recorded.label)
         elif model is None or isinstance(model, Path | str):
             self.model = found.model
             # A pipe of the shell can be read only once.
@@ -124,7 +137,8 @@ class Inputs:
         if options.look is None:
             # A config that is broken will be RViz's too.
             given = self.config is not None or config is not None
-            self._options = self._options.with_look("rviz" if given else "studio")
+            look = "rviz" if given else "studio"
+            self._options = self._options.having(look=look)
         self.poses = self._poses_file()
         self._presets: Presets | None = None
 
@@ -143,7 +157,7 @@ class Inputs:
         """Load the robot in a thread; a second call does nothing."""
         opened, self._opened = self._opened, None
         if opened is not None:
-            _in_thread(lambda: self.load(opened), self._robot)
+            _in_thread(lambda: self.load(opened, self._trusts_model), self._robot)
 
     def robot(self) -> Robot:
         """Return the robot, as soon as it is loaded.
@@ -179,7 +193,21 @@ class Inputs:
         refusal = self.refusal()
         of_model = self.robot().problems if refusal is None else refusal.problems
         broken = self.broken_config
-        return (*of_model, *(self._of_config if broken is None else broken.problems))
+        return (
+            *self.problems_of_recording(),
+            *of_model,
+            *(self._of_config if broken is None else broken.problems),
+        )
+
+    def problems_of_recording(self) -> tuple[Problem, ...]:
+        """List what is wrong with the recording."""
+        recorded = self.recorded
+        if recorded is None:
+            return ()
+        found = recorded.problems
+        if self._options.model is None:
+            return found
+        return tuple(p for p in found if p.code != "no-description")
 
     def wait(self, timeout: float) -> bool:
         """Wait for the robot to be loaded, or refused, at most so long [s].
@@ -189,6 +217,22 @@ class Inputs:
         """
         self.begin()
         return bool(wait([self._robot], timeout).done)
+
+    def close(self) -> None:
+        """Close the recordings; a second call does nothing."""
+        if self.recorded is not None:
+            self.recorded.recording.close()
+
+    def __enter__(self) -> Inputs:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
 
     def give_up(self) -> None:
         """Make `robot` raise KeyboardInterrupt for whoever waits for it.
@@ -248,9 +292,9 @@ class Inputs:
             self._presets = Presets(self.poses)
         return self._presets
 
-    def _open_model(self, model: PathLike) -> None:
+    def _open_model(self, model: PathLike, label: str | None = None) -> None:
         try:
-            self._opened = open_model(model)
+            self._opened = open_model(model, label)
         except RobotError as error:
             if not self._may_be_broken:
                 raise
@@ -293,6 +337,20 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> tuple[Robot, dict[str, float]]:
     names, values = untyped.actuated_joint_names, untyped.cfg.tolist()
     positions = {name: q for name, q in zip(names, values, strict=True) if q}
     return Robot.from_yourdfpy(model), positions
+
+
+def _open_recorded(options: Options) -> RecordedRobot | None:
+    """Open the recordings of the options; None when there are none."""
+    if not options.source:
+        return None
+    from sambot_viz.messages import MessageTypes
+    from sambot_viz.sources.bag import open_recording
+    from sambot_viz.topics.recorded_robot import RecordedRobot
+
+    paths = [Path(uri.removeprefix("bag:")) for uri in options.source]
+    types = MessageTypes([Path(folder) for folder in options.msg_path])
+    name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
+    return RecordedRobot(open_recording(paths), types, name, options.at)
 
 
 def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:

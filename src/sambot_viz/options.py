@@ -9,6 +9,7 @@ is used.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from sambot_viz.errors import Problem, UsageError
+from sambot_viz.files import is_recording
 from sambot_viz.flags import (
     AGAIN,
     assignments,
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
 
+_NO_SOURCE = "this is no source; it is bag:PATH for a recording"
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
@@ -61,8 +64,8 @@ class Options:
 
     model: PathLike | Robot | yourdfpy.URDF | None = option(
         None,
-        "model file or package folder; from Python also a Robot, a yourdfpy.URDF or "
-        "the XML text; "
+        "model file, package folder or recording; from Python also a Robot, a "
+        "yourdfpy.URDF or the XML text; "
         "without one, the bundled sam_bot",
     )
     config: PathLike | RvizConfig | None = option(
@@ -94,6 +97,33 @@ class Options:
         "--untrusted",
         group="model",
         switch="off",
+    )
+    source: Sequence[str] | str = option(
+        (),
+        "a recording that moves the robot: bag:PATH of an mcap, db3 or bag file, or of "
+        f"a folder with them{AGAIN}",
+        "--source",
+        group="source",
+        metavar="URI",
+        read=words_of,
+    )
+    at: float | None = option(
+        None,
+        "the time of a recording to look at [s from its first message]; by default the "
+        "page plays it from the begin, and other commands take all of it",
+        "--at",
+        group="source",
+        type=float,
+        metavar="SECONDS",
+    )
+    msg_path: Sequence[PathLike] = option(
+        (),
+        "a folder with definitions of messages (PACKAGE/msg/NAME.msg) that a recording "
+        f"lacks{AGAIN}",
+        "--msg-path",
+        group="source",
+        metavar="DIR",
+        read=words_of,
     )
     fixed_frame: str | None = option(
         None,
@@ -269,6 +299,7 @@ class Options:
     )
 
     def __post_init__(self) -> None:
+        self._take_source()
         for each in declared(Options):
             check_choice(each, getattr(self, each.name))
         if self.fixed_frame is not None and not self.fixed_frame.strip():
@@ -286,6 +317,23 @@ class Options:
         object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
 
+    def _take_source(self) -> None:
+        """Take a recording that was given as the model for a source."""
+        source = (self.source,) if isinstance(self.source, str) else tuple(self.source)
+        model = self.model
+        if isinstance(model, Path | str) and is_recording(model):
+            source = (f"bag:{model}", *source)
+            object.__setattr__(self, "model", None)
+        for uri in source:
+            if not uri.startswith("bag:"):
+                raise UsageError(f"--source {uri}: {_NO_SOURCE}")
+        if self.at is not None and not (source and math.isfinite(self.at)):
+            raise UsageError(
+                f"--at {self.at:g} needs a recording: give its file, or --source "
+                "bag:FILE"
+            )
+        object.__setattr__(self, "source", source)
+
     def _check_presenter(self) -> None:
         if self.presenter is None:
             return
@@ -297,10 +345,11 @@ class Options:
         if self.presenter == self.token:
             raise UsageError("--presenter and --token need different secrets")
 
-    def with_look(self, look: Look) -> Options:
-        """Return the same options with a look; no file of theirs is read again."""
+    def having(self, **values: object) -> Options:
+        """Return the same options with other values; no file is read again."""
         changed = copy(self)
-        object.__setattr__(changed, "look", look)
+        for name, value in values.items():
+            object.__setattr__(changed, name, value)
         return changed
 
     @property

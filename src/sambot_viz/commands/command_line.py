@@ -12,9 +12,11 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from sambot_viz.errors import UsageError, nearest
+from sambot_viz.files import is_recording
 from sambot_viz.flags import Flag, Group, declared, flag_of
 from sambot_viz.frames import FrameTree
 from sambot_viz.frames.robot_frames import robot_frames
+from sambot_viz.inputs import Inputs
 from sambot_viz.joints import JointState
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
@@ -130,12 +132,18 @@ def parse(
     models = [
         m for m in (given.model, given.model_option, launch_model) if m is not None
     ]
+    takes_source = any(option.name == "source" for option in parser.options)
+    recorded = [m for m in models if takes_source and is_recording(m)]
+    models = [m for m in models if m not in recorded]
     if len(models) > 1:
         raise UsageError(f"two models given: '{models[0]}' and '{models[1]}'; name one")
     # A value is read by the room that knows it, imported only when there is a value.
     found = [(option, getattr(given, option.name)) for option in parser.options]
     values = {o.name: _value(o, value) for o, value in found if value != []}
     model = models[0] if models else None
+    if recorded:
+        uris = [f"bag:{path}" for path in recorded]
+        values["source"] = (*uris, *values.get("source", ()))
     options = Options(model=model, xacro_args=arguments, **values, **fixed)
     for transform in options.transforms:
         for warning in transform.warnings:
@@ -239,14 +247,19 @@ def start_state(robot: Robot, options: Options) -> JointState:
     return state
 
 
-def posed_frames(robot: Robot, options: Options) -> FrameTree:
+def posed_frames(robot: Robot, inputs: Inputs) -> FrameTree:
     """Return the frames as ROS has them, with the static transforms of the options.
 
     Raises:
         JointError: a joint that does not exist or cannot be set.
         FrameError: a static transform that would form a ring.
     """
-    tree = robot_frames(robot, start_state(robot, options).all_positions())
+    options, recorded = inputs.options, inputs.recorded
+    positions = start_state(robot, options)
+    if recorded is None:
+        tree = robot_frames(robot, positions.all_positions())
+    else:
+        tree = recorded.frames(robot, positions)
     for added in options.transforms:
         tree.set_static(added.parent, added.child, added.transform)
     return tree

@@ -24,12 +24,13 @@ class _AnyOrder(Parser):
 def run(words: list[str]) -> int:
     """Print the pose of TARGET in SOURCE; 0 when there is one."""
     given, options = parse(parser(), words)
-    robot = Inputs(options).robot()
-    found = [p for p in robot.problems if p.severity != "info"]
-    write_problems(found, model=options.model)
-    tree = posed_frames(robot, options)
+    with Inputs(options) as inputs:
+        robot = inputs.robot()
+        found = [p for p in inputs.problems() if p.severity != "info"]
+        write_problems(found, model=options.model)
+        tree = posed_frames(robot, inputs)
     # What tf2_echo calls the source is the target of tf2's look-up.
-    found = explain(tree, given.source, given.target, robot)
+    found = explain(tree, given.looker, given.seen, robot)
     if found.transform is None:
         raise FrameError(_no_answer(found))
     if given.format == "json":
@@ -50,13 +51,13 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = _AnyOrder(
         prog="sambot-viz echo",
-        groups=("model", "pose"),
+        groups=("model", "source", "pose"),
         description="Print the pose of the frame TARGET, seen from the frame SOURCE, "
         "as tf2_echo does: the transform that takes coordinates in TARGET to SOURCE. "
         "Exit status: 0 printed, 1 no such transform, 2 usage.",
     )
-    made.add_argument("source", metavar="SOURCE", help="the frame to look from")
-    made.add_argument("target", metavar="TARGET", help="the frame to look at")
+    made.add_argument("looker", metavar="SOURCE", help="the frame to look from")
+    made.add_argument("seen", metavar="TARGET", help="the frame to look at")
     made.add_format()
     return made
 

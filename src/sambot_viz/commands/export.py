@@ -13,7 +13,7 @@ def run(words: list[str]) -> int:
     given, options = parse(parser(), words, panels=False, watch=False)
     output = output_path(given.output, "a page", ".html", ".htm")
     inputs = Inputs(options)
-    write_problems(inputs.robot().problems, model=options.model)
+    write_problems(inputs.problems(), model=options.model)
     start_state(inputs.robot(), options)
 
     from sambot_viz.visualizer import Visualizer
@@ -31,7 +31,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz export",
-        groups=("model", "view", "pose"),
+        groups=("model", "source", "view", "pose"),
         description="Write the 3D view with a motion of the robot as one HTML file, "
         "which any browser opens from a disk, without a server and without a network. "
         "Exit status: 0 written, 1 errors found, 2 usage.",

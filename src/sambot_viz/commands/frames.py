@@ -29,10 +29,11 @@ def run(words: list[str]) -> int:
     given, options = parse(parser(), words)
     output = Path(given.output) if given.output else None
     draw = tree_dot if output is None else _format(output)
-    robot = Inputs(options).robot()
-    found = [p for p in robot.problems if p.severity != "info"]
-    write_problems(found, model=options.model)
-    drawing = draw(posed_frames(robot, options), robot)
+    with Inputs(options) as inputs:
+        robot = inputs.robot()
+        found = [p for p in inputs.problems() if p.severity != "info"]
+        write_problems(found, model=options.model)
+        drawing = draw(posed_frames(robot, inputs), robot)
     if output is None:
         sys.stdout.write(drawing)
         sys.stdout.flush()
@@ -45,7 +46,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz frames",
-        groups=("model", "pose"),
+        groups=("model", "source", "pose"),
         description="Draw the tree of frames with joint name and type, xyz [m] and "
         "rpy [rad]. Exit status: 0 drawn, 1 errors found, 2 usage.",
     )

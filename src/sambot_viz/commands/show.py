@@ -33,9 +33,10 @@ commands:
   sambot-viz config FILE.rviz  report what of an RViz config is shown
   sambot-viz completion SHELL  print what completes all this with the Tab key
 
-MODEL is a URDF or xacro file, whatever its ending, or a package folder; without
-one, the bundled sam_bot is shown. NAME:=VALUE is an argument for xacro, anywhere on
-the line; model:=, rvizconfig:= and gui:= mean the same as for display.launch.py.
+MODEL is a URDF or xacro file, whatever its ending, a package folder, or a recording
+(mcap, db3 or ROS 1 bag); without one, the bundled sam_bot is shown. NAME:=VALUE is an
+argument for xacro, anywhere on the line; model:=, rvizconfig:= and gui:= mean the same
+as for display.launch.py.
 """
 
 _OPEN_TO_ALL = """\
@@ -113,7 +114,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz",
-        groups=("model", "view", "pose", "server"),
+        groups=("model", "source", "view", "pose", "server"),
         description="Show a URDF or xacro robot in the browser: no ROS, no X server.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

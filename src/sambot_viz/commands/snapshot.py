@@ -35,7 +35,7 @@ def run(words: list[str]) -> int:
     width, height = _size(given.size)
     output = output_path(given.output, "PNG files", ".png")
     inputs = Inputs(options)
-    write_problems(inputs.robot().problems, model=options.model)
+    write_problems(inputs.problems(), model=options.model)
     start_state(inputs.robot(), options)
 
     from sambot_viz.export.chromium import Chromium
@@ -61,7 +61,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz snapshot",
-        groups=("model", "view", "pose"),
+        groups=("model", "source", "view", "pose"),
         description="Write a PNG of the 3D view alone, drawn by a Chromium or Chrome "
         "of this machine. Exit status: 0 written, 1 errors found, 2 usage.",
     )

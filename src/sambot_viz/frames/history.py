@@ -172,7 +172,7 @@ class FrameHistory:
                 raise way.refusal(sample or gap)
             frame, pose = sample.parent, _product(sample.pose, pose)
             way.step(frame)
-        return _transform(_product(_inverse(pose), found[frame]))
+        return transform_of(_product(_inverse(pose), found[frame]))
 
     def latest_common_time(
         self, target: str, source: str, beside: HeldFrames | None = None
@@ -199,6 +199,20 @@ class FrameHistory:
             way.step(frame)
         low = min(low, found[frame])
         return None if low == _NEVER else low
+
+    def latest(self, child: str) -> Sample | None:
+        """Return the newest sample of a frame, at time 0 for a static one.
+
+        Returns:
+            None for a root and for an unknown frame.
+        """
+        if child in self._samples:
+            return self._samples.latest(child)
+        return self._static.get(child)
+
+    def is_static(self, child: str) -> bool:
+        """Return whether a frame has a transform that holds at all times."""
+        return child in self._static and child not in self._samples
 
     # Inside
 
@@ -275,7 +289,8 @@ def _inverse(pose: Pose) -> Pose:
     return (-x, -y, -z), back
 
 
-def _transform(pose: Pose) -> Transform:
+def transform_of(pose: Pose) -> Transform:
+    """Return the pose of a sample as a transform."""
     matrix = np.eye(4)
     matrix[:3, :3] = rotation_from_xyzw(pose[1])
     matrix[:3, 3] = pose[0]

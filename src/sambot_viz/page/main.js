@@ -12,6 +12,7 @@ import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
 import { followGhost } from "./panels/poses.js";
 import { followPointedJoint } from "./panels/pointed_joint.js";
+import { play } from "./window/player_bar.js";
 import { tellView } from "./panels/views.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
 import { followRole } from "./window/people.js";
@@ -24,7 +25,16 @@ const start = () => {
   document.body.append(host);
   document.body.classList.add("sambot-window");
   render(html`<${Window} />`, host);
-  listenToKeys({ tools: toolKeys, mouse: mousePlace, act, hide: togglePanels, cancelPress });
+  const plays = () => rows.get("player/playing") !== undefined;
+  listenToKeys({
+    tools: toolKeys,
+    mouse: mousePlace,
+    act,
+    hide: togglePanels,
+    cancelPress,
+    plays,
+    play,
+  });
   const hovering = newGesture();
   followMouse({
     wantsHover: () =>

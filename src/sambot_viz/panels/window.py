@@ -16,6 +16,7 @@ from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, PeoplePanel
 from sambot_viz.panels.pictures import AskPage
+from sambot_viz.panels.player import PlayerPanel
 from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.row import Answer, Row
 from sambot_viz.panels.row_store import ClientRows
@@ -78,10 +79,14 @@ class Window:
             ProblemsPanel(session.problems, remake),
             DisplayCommands(session.display_edits, self._displays, remake),
         ]
+        if session.data is not None:
+            panels.append(PlayerPanel(session.data.player, session.data.name))
         if joints:
             arrow = JointArrow(scene, session.worker)
             panels += [
-                JointsPanel(robot, session.motion, history, arrow, remake),
+                JointsPanel(
+                    robot, session.motion, history, arrow, session.data, remake
+                ),
                 PosesPanel(session.poses, robot, session.motion, history, remake),
                 DrivePanel(session.drive, robot, session.follow_view),
             ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import stat
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem, RobotError, did_you_mean
@@ -58,18 +58,21 @@ class OpenedModel:
     document: Element
 
 
-def open_model(model: PathLike) -> OpenedModel:
+def open_model(model: PathLike, label: str | None = None) -> OpenedModel:
     """Read the text of a model as XML, for `load_robot`.
 
     Args:
         model: the file, or the XML text itself.
+        label: what problems call a text; by default `TEXT_LABEL`.
 
     Raises:
         RobotError: it cannot be read, or it is not well-formed.
     """
-    label = os.fspath(model)
+    given, label = label, os.fspath(model)
     try:
         source = read_source(model)
+        if given is not None:
+            source = replace(source, label=given)
         label = source.label
         return OpenedModel(source, parse_xml(source.text, label))
     except XmlFault as fault:

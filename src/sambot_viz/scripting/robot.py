@@ -18,6 +18,7 @@ from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.scripting.files import Motion, page_of, picture_of
 from sambot_viz.scripting.links import FrameControl, LinkControl, Links
+from sambot_viz.scripting.player import PlayerControl
 from sambot_viz.scripting.robots import AddedRobot, Robots
 from sambot_viz.server.server import Server
 from sambot_viz.session.robot.frames import FrameView
@@ -31,6 +32,7 @@ class RobotControl:
     def __init__(self, server: Server) -> None:
         self._server = server
         self._camera = CameraControl(server.sessions)
+        self._player = PlayerControl(server.sessions)
         self._displays = Displays(server.sessions)
         self._links = Links(server.sessions)
         self._robots = Robots(server.sessions, self._move)
@@ -68,6 +70,11 @@ class RobotControl:
     def camera(self) -> CameraControl:
         """The camera of all pages: ``viz.camera.look_at("base_link", (2, 1, 1))``."""
         return self._camera
+
+    @property
+    def player(self) -> PlayerControl:
+        """The player of a recording: ``viz.player.jump(12.5)``."""
+        return self._player
 
     @property
     def displays(self) -> Displays:

@@ -23,6 +23,7 @@ from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
 from sambot_viz.session.worker import Worker
+from sambot_viz.topics.recorded_robot import RecordedRobot
 
 _log = logging.getLogger(__name__)
 
@@ -38,6 +39,7 @@ class Sessions:
         make_config: a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
         poses: the named poses; a private session has a copy that writes no file.
+        recorded: the robot of a recording, which every session plays for itself.
 
     Attributes:
         places: where each of them lives.
@@ -57,7 +59,9 @@ class Sessions:
         make_config: MakeConfig,
         models: ModelThread | None,
         poses: Presets | None,
+        recorded: RecordedRobot | None = None,
     ) -> None:
+        self._recorded = recorded
         self._server = server
         self.options = options
         self._make_config = make_config
@@ -224,6 +228,7 @@ class Sessions:
             self._mesh_thread,
             self.options,
             poses,
+            self._recorded,
         )
         connect([session.scene.statuses], self._tell_files)
         if copy is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from sambot_viz.errors import RobotError
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.inputs import Inputs
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.robot.model import Robot
@@ -63,6 +64,7 @@ class ShownInputs:
             inputs.presets(),
             self.configs,
             ask_page,
+            inputs.recorded,
         )
 
     def start(self) -> None:
@@ -90,6 +92,7 @@ class ShownInputs:
         if self._reloader is not None:
             self._reloader.close()
         self.server.stop()
+        self._inputs.close()
 
     def _show(self, robot: Robot) -> None:
         """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
@@ -105,6 +108,14 @@ class ShownInputs:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
         if document.global_options.get("Fixed Frame") == self._stand_in_frame:
             take_root(document, robot)
+            recorded = self._inputs.recorded
+            if recorded is not None:
+                # What moves is seen to move.
+                top = recorded.top_frame(robot)
+                document.global_options.set("Fixed Frame", top)
+                if top != plain_name(robot.root):
+                    # It would leave the picture.
+                    document.view.set("Target Frame", plain_name(robot.root))
 
     def _follow(self, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""

@@ -15,6 +15,8 @@ import viser
 from sambot_viz.displays.robot_display import ModelReader
 from sambot_viz.displays.scene.session_assets import Reader
 from sambot_viz.frames import FrameTree
+from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
@@ -24,6 +26,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
+from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
@@ -41,6 +44,7 @@ from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Clock, WallClock, Worker
+from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
 class Session:
@@ -56,6 +60,8 @@ class Session:
         reader: reads mesh files in the background; None reads them while drawing.
         options: the start pose, the static transforms and the wheels.
         poses: the named poses; None keeps new ones in memory.
+        recorded: the robot of a recording, which moves this one; None leaves it to
+            the sliders.
         clock: the time of what moves; the computer's by default.
 
     Attributes:
@@ -63,6 +69,7 @@ class Session:
         change: changes the state, sends that, and tells it.
         private: whether only one client sees it.
         own_model: whether its robot is its own: that of the server is not shown in it.
+        data: what a recording moves; None without one.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -78,6 +85,7 @@ class Session:
         reader: Reader | None = None,
         options: Options | None = None,
         poses: Presets | None = None,
+        recorded: RecordedRobot | None = None,
         clock: Clock | None = None,
     ) -> None:
         self.audience, self.worker, self.lock = audience, worker, worker.lock
@@ -90,7 +98,8 @@ class Session:
         self.roles = Roles(change, options.presenter is not None and not private)
         history = self.history = History(change)
 
-        tree = FrameTree()
+        frames = None if recorded is None else FrameHistory()
+        tree = FrameTree(frames)
         scene = self.scene = Scene(audience, tree, change, meshes, models, reader)
         picker = self.picker = Picker(scene, worker)
         document = self.document = ShownDocument(config, scene, history, change)
@@ -99,8 +108,16 @@ class Session:
         self.toggles = Toggles(document, scene, self.display_edits)
 
         added = UserFrames(tree)
-        robot = RobotState(tree, added, scene, history, change, worker, clock)
+        data_frames = DataFrames(tree)
+        robot = RobotState(
+            tree, added, data_frames, scene, history, change, worker, clock
+        )
         self.robot = robot
+        self.data: RobotData | None = None
+        if recorded is not None and frames is not None:
+            self.data = RobotData(
+                recorded, frames, data_frames, robot, change, worker, clock
+            )
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
         self.motion = Motion(robot, self.drive, change, worker, clock)
@@ -135,6 +152,8 @@ class Session:
         """
         with self.lock:
             self.roles.join(handle.client_id, presenter, login)
+            if self.data is not None:
+                self.data.player.begin()
             return self.clients.join(handle)
 
     def leave(self, client_id: int) -> None:
@@ -165,6 +184,8 @@ class Session:
                 (*robot.problems, *(joints.problems if joints else ()))
             )
             self.scene.draw_frames()
+            if self.data is not None:
+                self.data.player.resume()
 
     def copy(self) -> SessionCopy:
         """Copy what is shown now."""
@@ -220,8 +241,12 @@ class Session:
         self.clients.close()
         self.picker.close()
         self.robot.close()
+        if self.data is not None:
+            self.data.player.close()
         self.worker.close()
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)
         self.motion.period = self.document.period
+        if self.data is not None:
+            self.data.player.period = self.document.period

@@ -36,6 +36,10 @@ const PATHS = {
   hide: "M2 3h12v10H2zM5 3v10M11 3v10",
   view: "M1.5 8c3-5 10-5 13 0c-3 5-10 5-13 0M8 6a2 2 0 1 0 .01 0",
   turn: "M13 4.5A6 6 0 1 0 14 9M13.5 1.5v3.5H10",
+  play: "M4.5 3l8 5-8 5z",
+  pause: "M4 3h3v10H4zM9 3h3v10H9z",
+  stepBack: "M3.5 3v10M12.5 3l-7 5 7 5z",
+  stepOn: "M12.5 3v10M3.5 3l7 5-7 5z",
   stop: "M4 4h8v8H4z",
   close: "M4 4l8 8M12 4l-8 8",
   trash: "M2.5 4.5h11M6 4.5V2.5h4v2M4 4.5l.8 9.5h6.4l.8-9.5M6.7 7v4.5M9.3 7v4.5",
@@ -55,7 +59,7 @@ const PATHS = {
   unfold: "M6 3l5 5-5 5",
   menu: "M2 4h12M2 8h12M2 12h12",
 };
-const FILLED = new Set(["stop", "forwards", "back", "left", "right"]);
+const FILLED = new Set(["play", "pause", "stop", "forwards", "back", "left", "right"]);
 const DASHED = new Set(["Select"]);
 
 /** @param {{name?: string}} props */

@@ -3,8 +3,9 @@
 
 /** @typedef {{key: string, code?: string, ctrlKey?: boolean, metaKey?: boolean, altKey?: boolean,
  *   shiftKey?: boolean, repeat?: boolean}} Key */
-/** What a key does: a command with its arguments, or "hide" for the panels.
- * @typedef {{act: string, with?: any[]} | "hide"} Meaning */
+/** What a key does: a command with its arguments, "hide" for the panels, "play" to
+ * play or pause.
+ * @typedef {{act: string, with?: any[]} | "hide" | "play"} Meaning */
 
 const NO_LETTERS = new Set([
   "checkbox",
@@ -50,6 +51,8 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
   }
   // A key that is held would go to and fro.
   if (event.repeat) return undefined;
+  if (key === " ") return "play";
+  if (key === "," || key === ".") return { act: "player/step", with: [key === ","] };
   if (key === "escape") return { act: "tools/escape" };
   const tool = tools.find((one) => one.key === key);
   if (tool) return { act: "tools/press", with: [tool.name] };
@@ -72,9 +75,10 @@ const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
 /**
  * Follow the keyboard.
  * @param {{tools: () => {name: string, key: string}[], mouse: () => [number | null, number | null],
- *   act: (id: string, args?: any[]) => void, hide: () => void, cancelPress: () => void}} window
+ *   act: (id: string, args?: any[]) => void, hide: () => void, cancelPress: () => void,
+ *   plays: () => boolean, play: () => void}} window
  */
-export function listenToKeys({ tools, mouse, act, hide, cancelPress }) {
+export function listenToKeys({ tools, mouse, act, hide, cancelPress, plays, play }) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
     // The text of the whole page is never meant.
@@ -83,7 +87,10 @@ export function listenToKeys({ tools, mouse, act, hide, cancelPress }) {
     const does = meaning(event, tools(), mouse(), drives);
     if (!does) return;
     if (event.key === "Escape") cancelPress();
+    // A button that has the focus is pressed by the space bar.
+    if (does === "play" && (!plays() || event.target instanceof HTMLButtonElement)) return;
     if (does === "hide") hide();
+    else if (does === "play") play();
     else act(does.act, does.with);
     event.preventDefault();
   });

@@ -12,6 +12,7 @@ import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
 import { ViewsPanel } from "../panels/views.js";
 import { panelList, SHEET, showProblems, shownTab, tab, tabNames, TABS } from "./panels.js";
 import { Asking } from "./people.js";
+import { PlayerBar } from "./player_bar.js";
 import { StatusBar } from "./status_bar.js";
 import { Top } from "./header.js";
 import { useRow } from "../state.js";
@@ -43,6 +44,7 @@ export function Window() {
     }
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
+    <${PlayerBar} />
     ${
       !away.all &&
       html`<${StatusBar}

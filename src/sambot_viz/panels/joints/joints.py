@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import zip_longest
 from typing import Any
@@ -21,6 +22,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.robot.parts import Joint
+from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
@@ -49,6 +51,7 @@ class JointsPanel(Panel):
 
     Args:
         arrow: shows which way a joint moves.
+        data: the recording that moves the joints; None when there is none.
         remake: called when rows other than the positions have changed.
     """
 
@@ -60,13 +63,15 @@ class JointsPanel(Panel):
         motion: Motion,
         history: History,
         arrow: JointArrow,
+        data: RobotData | None,
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (robot.changed,)
+        self.remade_by = (robot.changed, robot.followed)
         self._robot = robot
         self._motion = motion
         self._history = history
         self._arrow = arrow
+        self._recording = data
         self._remake = remake
         self._rate = 1.0
 
@@ -81,7 +86,14 @@ class JointsPanel(Panel):
         if joints is None:
             why = _NO_ROBOT if self._robot.model is None else _NOTHING_TO_MOVE
             return [Row("joints/none", "", "note", value=why)]
-        return [*joint_rows(joints, self._move), *self._rate_row(joints)]
+        rows = [*joint_rows(joints, self._move), *self._rate_row(joints)]
+        recording = self._recording
+        if recording is None:
+            return rows
+        follows = bool(self._robot.followed.value)
+        if follows:
+            rows = [replace(row, set=None) for row in rows]
+        return [_follow_row(follows, recording), *rows]
 
     def data(self) -> Sequence[Data]:
         """Return which joints are over a limit or turning, and where all began."""
@@ -109,7 +121,8 @@ class JointsPanel(Panel):
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there are joints to move."""
-        return self._sliders() is not None
+        free = command_id == "joints/copy" or not self._robot.followed.value
+        return free and self._sliders() is not None
 
     def _sliders(self) -> JointState | None:
         joints = self._robot.joints
@@ -244,6 +257,18 @@ class JointsPanel(Panel):
         if joints is None or name not in joints.positions:
             raise UsageError(f"there is no joint '{name}' that can be set")
         return joints.positions[name]
+
+
+def _follow_row(follows: bool, recording: RobotData) -> Row:
+    return Row(
+        "joints/follow",
+        "",
+        "bool",
+        f"Follow {recording.name}",
+        value=follows,
+        help="The joints are where its messages say; else where the sliders are.",
+        set=recording.follow,
+    )
 
 
 _NO_ROBOT = "No robot loaded. If its file has an error, Problems shows it."

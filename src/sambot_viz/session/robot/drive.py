@@ -213,6 +213,8 @@ class Drive:
 
     def _find(self, robot: Robot) -> WheelPair:
         options = self._options
+        if self._robot.has_messages:
+            raise JointError("a recording moves it")
         return find_wheel_pair(
             robot,
             left=options.left_wheel,

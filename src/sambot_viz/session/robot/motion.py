@@ -104,6 +104,7 @@ class Motion:
             state = self._robot.joints
             if state is None:
                 return
+            self._robot.require_free()
             if state.checked(joint, rate) == 0:
                 self._turning.pop(joint, None)
             else:

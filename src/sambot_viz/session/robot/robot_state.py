@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 
-from sambot_viz.errors import Problem
+from sambot_viz.errors import JointError, Problem
 from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.geometry import Matrix
 from sambot_viz.joints import JointState
+from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.joints.presets import StartPose
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
@@ -31,6 +33,7 @@ class RobotState:
     Args:
         tree: the frames; this fills them.
         added: frames that were added by hand or by driving.
+        data: frames that messages bring; they come before the robot's joints.
         clock: the time of the recorder.
 
     Attributes:
@@ -40,6 +43,8 @@ class RobotState:
         joints: the positions of its joints; move them with the methods of this class.
         first: joint → its position before anything has moved it [rad or m].
         moved: whether anything has moved a joint.
+        followed: what moves the joints by its messages, such as a recording; "" while
+            users and programs do.
         recorder: how joints and frames have moved lately.
     """
 
@@ -47,6 +52,7 @@ class RobotState:
         self,
         tree: FrameTree,
         added: UserFrames,
+        data: DataFrames,
         scene: Scene,
         history: History,
         change: Change,
@@ -59,13 +65,16 @@ class RobotState:
         self.joints: JointState | None = None
         self.first: dict[str, float] = {}
         self.moved = False
+        self.followed = Signal(change, "")
         self.recorder = MotionRecorder(clock)
         self._tree = tree
         self._added = added
+        self._data = data
         self._scene = scene
         self._history = history
         self._change = change
         self._pacer = Throttle(worker, 0.0, self.draw_moved)
+        self._is_placed = False
         self._moved: dict[str, None] = {}
         self._new_poses: dict[str, Matrix] = {}
 
@@ -101,12 +110,20 @@ class RobotState:
         if self.model is None or self.joints is None:
             return ()
         self._tree.clear()
-        hang_robot(
-            self._tree, self.model, self.joints.kinematics, self.joints.positions
-        )
+        self._is_placed = self._data.places_links(self.model)
+        # A link of which messages say nothing then has no place, as in RViz.
+        joints = () if self._is_placed else None
+        kinematics, positions = self.joints.kinematics, self.joints.positions
+        hang_robot(self._tree, self.model, kinematics, positions, joints)
         refused = self._added.set_again()
+        self._data.set_again()
         self._scene.publish()
         return refused
+
+    @property
+    def has_messages(self) -> bool:
+        """Whether messages say where frames are."""
+        return self._data.has_history
 
     def set_period(self, period: float) -> None:
         """Set the shortest time between two pictures of a stream [s]."""
@@ -129,8 +146,28 @@ class RobotState:
 
     # What users do
 
+    def set_followed(self, name: str) -> None:
+        """Let the messages of a recording move the joints; "" gives them to users."""
+        with self._change(self.followed):
+            self.followed.set(name)
+            self._data.leave_to_joints(None if name else self.model)
+            self.build_tree()
+
+    def require_free(self) -> None:
+        """Raise JointError while messages move the joints."""
+        if self.followed.value:
+            raise JointError(
+                f"the joints are moved by {self.followed.value}; switch Follow off in "
+                "Joints to move them yourself"
+            )
+
     def set_positions(self, positions: Mapping[str, float], label: str = "") -> None:
-        """Move some joints, as an edit that can be undone; see `move`."""
+        """Move some joints, as an edit that can be undone; see `move`.
+
+        Raises:
+            JointError: as `move`, and while messages move them.
+        """
+        self.require_free()
         names = tuple(positions)
         label = label or (f"Move {names[0]}" if len(names) == 1 else "Move joints")
         self._edit(label, partial(self._note, positions, {}), names)
@@ -151,6 +188,7 @@ class RobotState:
         Returns:
             The joints of the pose that cannot be set in this robot.
         """
+        self.require_free()
         free = self.joints.free if self.joints is not None else ()
         known = {joint: q for joint, q in pose.items() if joint in free}
         if glide is None:
@@ -171,10 +209,12 @@ class RobotState:
 
     def center(self) -> None:
         """Move all joints to their start values."""
+        self.require_free()
         self._edit("Center the joints", lambda: self._note_all(JointState.center))
 
     def randomize(self, seed: int | None = None) -> None:
         """Move all joints to random values of their ranges."""
+        self.require_free()
         self._edit(
             "Randomize the joints",
             lambda: self._note_all(lambda joints: joints.randomize(seed)),
@@ -219,13 +259,50 @@ class RobotState:
             self._note(positions, frames)
         self._pacer.request()
 
+    def note_followed(self, positions: Mapping[str, float]) -> None:
+        """Note positions that messages bring, for `draw_moved`.
+
+        Args:
+            positions: joint → position [rad or m], finite; what is no free joint is
+                passed over.
+        """
+        with self._change.lock:
+            joints = self.joints
+            if joints is not None and self.followed.value:
+                known = {
+                    name: q for name, q in positions.items() if name in joints.free
+                }
+                for name in known:
+                    # A wheel that has driven for an hour has turned a thousand times.
+                    if joints.joints[name].type == "continuous":
+                        known[name] = wrap_angle(known[name])
+                self._note(known, {})
+
+    def after_jump(self) -> None:
+        """Draw what messages say after a jump in time; some frames may be gone."""
+        with self._change(self.positions):
+            if self._data.after_jump():
+                self.build_tree()
+            self.draw_moved()
+
     def draw_moved(self) -> None:
         """Send the poses of all that moved since the last time; `move` does it soon."""
         with self._change.lock:
-            frames = self._settle()
-            if frames:
-                with self._change(self.positions):
-                    self._scene.place(frames.keys())
+            if not (self._data.waiting or self._moved or self._new_poses):
+                return
+            with self._change(self.positions):
+                version = self._tree.version
+                frames = {*self._settle(), *self._data.settle()}
+                if self._tree.version != version and self._is_placed_otherwise():
+                    self.build_tree()
+                # The end of the change draws frames that are new or hang elsewhere.
+                if self._tree.version == version:
+                    self._scene.place(frames)
+
+    def _is_placed_otherwise(self) -> bool:
+        """Return whether messages have begun to say where the links are."""
+        model = self.model
+        return model is not None and self._is_placed != self._data.places_links(model)
 
     def _note(
         self, positions: Mapping[str, float], frames: Mapping[str, Matrix]
@@ -268,9 +345,15 @@ class RobotState:
 
     def _joint_frames(self, moved: Iterable[str]) -> dict[str, Matrix]:
         robot, joints = self.model, self.joints
-        if robot is None or joints is None:
+        if robot is None or joints is None or self._is_placed:
             return {}
         frames = {name: plain_name(robot.joints[name].child) for name in moved}
-        # A frame that a user attached elsewhere no longer follows its joint.
-        free = [name for name, frame in frames.items() if frame not in self._added]
+        # A frame that a user attached elsewhere no longer follows its joint, nor does
+        # one of which messages say where it is.
+        others = self._added, self._data
+        free = [
+            name
+            for name, frame in frames.items()
+            if not any(frame in other for other in others)
+        ]
         return {frames[name]: T for name, T in joints.transforms(free).items()}

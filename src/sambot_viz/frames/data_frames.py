@@ -1,0 +1,114 @@
+"""Frames that messages bring: from /tf and /tf_static of a recording or a robot.
+
+The history of frames answers look-ups at any time. Here the tree is told where each
+frame is now, so that it can be drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable
+
+from sambot_viz.errors import FrameError
+from sambot_viz.frames import FrameTree
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.history import transform_of
+from sambot_viz.robot.model import Robot
+
+
+class DataFrames:
+    """The latest pose of each frame of a history, in the tree that is drawn.
+
+    Args:
+        tree: where they are set, with the history that has them, if it has one; the
+            session that owns it holds the lock.
+
+    Attributes:
+        changed: the frames that were told of since it was called last.
+        waiting: whether there may be some.
+        pairs: gives the (parent, child) that messages are known to join.
+        refused: frame → why it cannot be set, such as a ring.
+    """
+
+    def __init__(self, tree: FrameTree) -> None:
+        self.changed: Callable[[], Collection[str]] = tuple[str, ...]
+        self.waiting = False
+        self.pairs: Callable[[], Iterable[tuple[str, str]]] = tuple[
+            tuple[str, str], ...
+        ]
+        self.refused: dict[str, str] = {}
+        self._tree = tree
+        self._history = tree.history
+        self._left_out = frozenset[str]()
+        self._known: dict[str, None] = {}
+
+    def __contains__(self, frame: object) -> bool:
+        return frame in self._known
+
+    @property
+    def has_history(self) -> bool:
+        """Whether there are messages at all."""
+        return self._history is not None
+
+    def leave_to_joints(self, robot: Robot | None) -> None:
+        """Let the joints of a robot hold its links, whatever messages say of them.
+
+        The tree is to be built again. Frames are then looked up where they are now, and
+        at no other time. None ends it.
+        """
+        joints = () if robot is None else robot.joints.values()
+        self._left_out = frozenset(plain_name(joint.child) for joint in joints)
+        self._tree.history = self._history if robot is None else None
+        for frame in self._left_out:
+            self._known.pop(frame, None)
+
+    def settle(self) -> Collection[str]:
+        """Set the frames that have moved in the tree.
+
+        Returns:
+            Their names.
+        """
+        self.waiting = False
+        changed = self.changed()
+        self._set(changed)
+        return changed
+
+    def set_again(self) -> None:
+        """Set all of them in a tree that was cleared."""
+        self._set(tuple(self._known))
+
+    def places_links(self, robot: Robot) -> bool:
+        """Return whether messages say where the links of a robot are."""
+        if self._left_out:
+            return False
+        joints = robot.joints.values()
+        pairs = {(plain_name(j.parent), plain_name(j.child)) for j in joints}
+        return not pairs.isdisjoint(self.pairs())
+
+    def after_jump(self) -> bool:
+        """Return whether frames have gone that were there before a jump in time."""
+        history = self._history
+        if history is None:
+            return False
+        gone = [child for child in self._known if history.latest(child) is None]
+        for child in gone:
+            del self._known[child]
+        return bool(gone)
+
+    def _set(self, frames: Collection[str]) -> None:
+        history, tree = self._history, self._tree
+        if history is None:
+            return
+        for child in frames:
+            sample = history.latest(child)
+            if sample is None or child in self._left_out:
+                continue
+            transform = transform_of(sample.pose)
+            try:
+                if history.is_static(child):
+                    tree.set_static(sample.parent, child, transform)
+                else:
+                    tree.set(sample.parent, child, transform, sample.stamp * 1e-9)
+            except FrameError as error:
+                self.refused[child] = str(error)
+                continue
+            self._known[child] = None

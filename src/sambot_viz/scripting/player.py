@@ -1,0 +1,87 @@
+"""The player of a recording, as a program uses it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from sambot_viz.errors import UsageError
+from sambot_viz.scripting.displays import first, for_all
+from sambot_viz.server.sessions import Sessions
+from sambot_viz.session import Session
+from sambot_viz.session.data.player import FASTEST, SLOWEST, Player
+
+
+class PlayerControl:
+    """Plays the recording in all open pages; times are from its first message [s].
+
+    With private sessions, what is asked is that of the browser that came first.
+
+    Every method raises UsageError where there is no recording.
+    """
+
+    def __init__(self, sessions: Sessions) -> None:
+        self._sessions = sessions
+
+    @property
+    def time(self) -> float:
+        """Where it is."""
+        player = self._first()
+        return (player.time_ns - player.start_ns) * 1e-9
+
+    @property
+    def duration(self) -> float:
+        """How long it is."""
+        player = self._first()
+        return (player.end_ns - player.start_ns) * 1e-9
+
+    @property
+    def playing(self) -> bool:
+        """Whether the time goes on."""
+        return self._first().playback.value.playing
+
+    def play(self, *, rate: float = 1.0, loop: bool = False) -> None:
+        """Let the time go on.
+
+        Args:
+            rate: how much faster than it was recorded.
+            loop: whether it begins again at the end.
+
+        Raises:
+            UsageError: a rate that cannot be.
+        """
+        if not SLOWEST <= rate <= FASTEST:
+            raise UsageError(f"a rate is from {SLOWEST:g} to {FASTEST:g}, not {rate!r}")
+
+        def play(player: Player) -> None:
+            player.set_rate(rate)
+            player.set_loop(loop)
+            player.play()
+
+        self._for_all(play)
+
+    def pause(self) -> None:
+        """Stop the time."""
+        self._for_all(lambda player: player.pause())
+
+    def jump(self, seconds: float) -> None:
+        """Show a time, or the nearest one that there is; it plays on if it has played.
+
+        Raises:
+            UsageError: no finite number.
+        """
+        if not math.isfinite(seconds):
+            raise UsageError(f"a time is a finite number, not {seconds!r}")
+        self._for_all(lambda p: p.jump(p.start_ns + round(seconds * 1e9)))
+
+    def _first(self) -> Player:
+        return _player(first(self._sessions))
+
+    def _for_all(self, action: Callable[[Player], object]) -> None:
+        for_all(self._sessions, lambda session: action(_player(session)))
+
+
+def _player(session: Session) -> Player:
+    if session.data is None:
+        raise UsageError("no recording is played: give one as the model or the source")
+    return session.data.player

@@ -1,0 +1,1 @@
+"""Recordings and live robots in a session: what their messages move, and when."""

@@ -1,0 +1,1 @@
+"""Topics: what their messages mean for frames and joints, and why one shows nothing."""

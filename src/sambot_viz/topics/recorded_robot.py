@@ -1,0 +1,196 @@
+"""The robot of a recording: its description, and what moves it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+from xml.sax.saxutils import quoteattr
+
+from sambot_viz.errors import DecodeError, Problem
+from sambot_viz.frames import FrameHistory, FrameTree
+from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.robot_frames import hang_robot
+from sambot_viz.joints import JointState
+from sambot_viz.messages import MessageTypes, TransformDecoder
+from sambot_viz.robot.model import Robot
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.joint_states import JointStateTopics
+from sambot_viz.topics.robot_topics import RobotTopics, robot_topics
+from sambot_viz.topics.subscriber import jump
+from sambot_viz.topics.transforms import Transforms, TransformTopics
+
+# It is opened by who has one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
+
+FIRST_SECONDS = 2.0
+"""The frames that move are learnt from the begin of a recording [s]."""
+
+
+class RecordedRobot:
+    """What a recording says of a robot; many sessions may play it at their own times.
+
+    Args:
+        recording: its messages.
+        types: decodes them.
+        name: what it is called.
+        at: where to begin [s from the first message]; None plays from there.
+
+    Attributes:
+        recording: as given.
+        name: as given.
+        at_ns: the log time to begin with [ns]; None as `at`.
+        topics: those that are the robot's.
+        description: the URDF, the last one that was sent; None when there is none.
+    """
+
+    def __init__(
+        self,
+        recording: Bag,
+        types: MessageTypes,
+        name: str,
+        at: float | None = None,
+    ) -> None:
+        self.recording = recording
+        self.name = name
+        self.at_ns: int | None = None
+        if at is not None and recording.start_ns is not None:
+            self.at_ns = recording.start_ns + round(at * 1e9)
+        self._types = types
+        known = {
+            name: types.decoder(topic.schema, topic.message_encoding).type_name
+            for name, topic in recording.topics.items()
+        }
+        self.topics: RobotTopics = robot_topics(known)
+        self.description = self._read_description()
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong with the recording, and what it says of no robot."""
+        found = self.recording.problems
+        if self.description is not None:
+            return found
+        told = ", ".join(sorted(self.recording.topics)[:5]) or "nothing"
+        missing = Problem(
+            "warning",
+            "no-description",
+            f"{self.name} has no /robot_description (it has {told}, …), so there is no "
+            "robot to draw; its frames are shown",
+            "give the robot beside it: --model ROBOT.urdf.xacro",
+        )
+        return (*found, missing)
+
+    @property
+    def model(self) -> str:
+        """The XML text of the robot; of a single link where the recording has none."""
+        if self.description is not None:
+            return self.description
+        root = next(iter(self._roots()), "base_link")
+        return f'<robot name="no robot"><link name={quoteattr(root)}/></robot>'
+
+    @property
+    def label(self) -> str:
+        """What problems of the model name as its file."""
+        topic = self.topics.description
+        return self.name if topic is None else f"{self.name}:{topic}"
+
+    def top_frame(self, robot: Robot) -> str:
+        """Return the frame at the top of the tree of a robot, such as odom."""
+        above = {child: parent for parent, child in self._pairs()}
+        frame = plain_name(robot.root)
+        # Messages may form a ring.
+        for _ in range(len(above)):
+            if frame not in above:
+                break
+            frame = above[frame]
+        return frame
+
+    def frames(self, robot: Robot, joints: JointState) -> FrameTree:
+        """Return where all frames are at the time to look at, or else at the end.
+
+        Args:
+            robot: its joints hold the frames of which messages say nothing.
+            joints: their positions, which messages change.
+        """
+        history = FrameHistory()
+        tree = FrameTree(history)
+        transforms, states = self.transforms(history), self.joint_states()
+        at_ns = self.recording.end_ns if self.at_ns is None else self.at_ns
+        if at_ns is not None:
+            jump(self.recording, at_ns, (transforms, states))
+        known = {n: q for n, q in states.changed().items() if n in joints.free}
+        joints.set_all(known)
+        frames = DataFrames(tree)
+        frames.changed, frames.pairs = transforms.changed, transforms.pairs
+        by_joints = not frames.places_links(robot)
+        robot_joints = robot.joints.values() if by_joints else ()
+        fixed = [joint.name for joint in robot_joints if joint.type != "floating"]
+        kinematics = joints.kinematics
+        hang_robot(tree, robot, kinematics, joints.all_positions(), fixed)
+        frames.settle()
+        return tree
+
+    def transforms(self, history: FrameHistory) -> TransformTopics:
+        """Return what takes the transforms into a history; its static ones are there.
+
+        Args:
+            history: an empty one.
+        """
+        topics, recording = self.topics, self.recording
+        made = TransformTopics(
+            history, topics.moving, topics.static, self._transform_decoder()
+        )
+        start = recording.start_ns
+        if start is not None and topics.moving:
+            end = start + round(FIRST_SECONDS * 1e9)
+            made.expect(recording.messages(start, end, topics.moving))
+        made.expect(m for m in recording.latched() if m.topic in made.always)
+        return made
+
+    def joint_states(self) -> JointStateTopics:
+        """Return what takes the positions of joints."""
+        return JointStateTopics(self.topics.joint_states, self.decode)
+
+    def decode(self, message: Recorded) -> Any:
+        """Return a message as an object with its fields.
+
+        Raises:
+            DecodeError: its bytes are not what its type says.
+        """
+        channel = message.channel
+        decoder = self._types.decoder(channel.schema, channel.message_encoding)
+        if decoder.reason is not None:
+            raise DecodeError(decoder.reason.text)
+        return decoder.decode(message.payload)
+
+    def _pairs(self) -> list[tuple[str, str]]:
+        return list(self.transforms(FrameHistory()).pairs())
+
+    def _roots(self) -> Iterator[str]:
+        pairs = self._pairs()
+        children = {child for _, child in pairs}
+        return (parent for parent, _ in pairs if parent not in children)
+
+    def _transform_decoder(self) -> Callable[[Recorded], Transforms]:
+        decoders: dict[str, TransformDecoder] = {}
+
+        def decode(message: Recorded) -> Transforms:
+            encoding = message.channel.message_encoding
+            decoder = decoders.get(encoding)
+            if decoder is None:
+                decoder = decoders[encoding] = TransformDecoder(encoding)
+            return decoder.decode(message.payload)
+
+        return decode
+
+    def _read_description(self) -> str | None:
+        name = self.topics.description
+        found: str | None = None
+        for message in self.recording.latched():
+            if message.topic == name:
+                try:
+                    found = str(self.decode(message).data) or found
+                except DecodeError:
+                    continue
+        return found

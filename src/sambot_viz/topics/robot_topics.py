@@ -1,0 +1,86 @@
+"""The topics of a source that tell of a robot: description, transforms, joints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
+TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
+JOINT_STATE_TYPES = frozenset({"sensor_msgs/msg/JointState"})
+
+
+@dataclass(frozen=True, slots=True)
+class RobotTopics:
+    """The topics of one robot.
+
+    Attributes:
+        description: of the URDF; None when there is none.
+        moving: of the transforms that hold at their stamps.
+        static: of the transforms that hold at all times.
+        joint_states: of the positions of joints.
+        others: descriptions of further robots, which are not shown.
+    """
+
+    description: str | None = None
+    moving: tuple[str, ...] = ()
+    static: tuple[str, ...] = ()
+    joint_states: tuple[str, ...] = ()
+    others: tuple[str, ...] = ()
+
+    @property
+    def all(self) -> tuple[str, ...]:
+        """Every topic of which messages are taken."""
+        own = () if self.description is None else (self.description,)
+        return (*own, *self.moving, *self.static, *self.joint_states)
+
+
+def robot_topics(
+    types: Mapping[str, str], descriptions: Iterable[str] = ()
+) -> RobotTopics:
+    """Choose the topics of a robot.
+
+    Without a namespace where there is such a robot, else those of the first namespace
+    that has a description. Transforms without a namespace belong to every robot.
+
+    Args:
+        types: topic → the name of its type, as ``std_msgs/msg/String``.
+        descriptions: topics that are a description by their name and type; by default
+            those whose name ends in robot_description.
+    """
+    found = list(descriptions) or [
+        name
+        for name, kind in types.items()
+        if kind in DESCRIPTION_TYPES and _last(name) == "robot_description"
+    ]
+    found.sort(key=lambda name: (name.count("/"), name))
+    description = found[0] if found else None
+    space = "" if description is None else description.rpartition("/")[0]
+    transforms = _of(types, TRANSFORM_TYPES, space)
+    return RobotTopics(
+        description,
+        tuple(name for name in transforms if not _is_static(name)),
+        tuple(name for name in transforms if _is_static(name)),
+        _of(types, JOINT_STATE_TYPES, space, "joint_states"),
+        tuple(found[1:]),
+    )
+
+
+def _of(
+    types: Mapping[str, str], kinds: frozenset[str], space: str, word: str = ""
+) -> tuple[str, ...]:
+    """Return the topics of some types in a namespace, or else those in the least."""
+    names = [n for n, kind in types.items() if kind in kinds and word in _last(n)]
+    for prefix in dict.fromkeys((space, "")):
+        near = [name for name in names if name.rpartition("/")[0] == prefix]
+        if near:
+            return tuple(near)
+    return tuple(names)
+
+
+def _is_static(name: str) -> bool:
+    return _last(name) == "tf_static"
+
+
+def _last(name: str) -> str:
+    return name.rpartition("/")[2]

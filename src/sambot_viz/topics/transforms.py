@@ -1,0 +1,178 @@
+"""The transforms that messages bring, kept as tf2's listeners keep them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from sambot_viz.errors import DecodeError
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.history import DURATION, FrameHistory
+from sambot_viz.frames.samples import FramePair, Poses
+from sambot_viz.sources.message import Recorded
+
+Transforms = Sequence[tuple[int, tuple[FramePair, ...], Poses]]
+"""By stamp [ns]: (parent, child) of each row, and the rows (see `FrameHistory.add`)."""
+Decode = Callable[[Recorded], Transforms]
+
+TURNED_BACK = 1_000_000_000
+"""A stamp that is older than the newest of its frames by more is of a new time [ns]."""
+
+
+@dataclass(slots=True)
+class _Publication:
+    """The frames that a publisher sends together, and their newest stamp [ns]."""
+
+    edges: tuple[FramePair, ...]
+    children: tuple[str, ...]
+    newest: int
+
+
+class TransformTopics:
+    """Takes the messages of /tf and /tf_static into a history of frames.
+
+    Args:
+        history: where they are kept.
+        moving: the topics whose transforms hold at their stamps.
+        static: the topics whose transforms hold at all times.
+        decode: the transforms of a message; raises DecodeError.
+
+    Attributes:
+        history: as given.
+        topics: all of them.
+        always: the static ones: they hold for ever.
+        faults: topic and tf2's name of a fault → how often a transform was ignored.
+        undecoded: topic → how many messages could not be decoded.
+        parents: child → its parents, and the topic that names each.
+        turned_back_by: by how much the stamps went back the last time [ns]; 0: never.
+    """
+
+    depth_ns = round(DURATION * 1e9)
+
+    def __init__(
+        self,
+        history: FrameHistory,
+        moving: Collection[str],
+        static: Collection[str],
+        decode: Decode,
+    ) -> None:
+        self.history = history
+        self.topics = (*moving, *static)
+        self.always = frozenset(static)
+        self.faults: Counter[tuple[str, str]] = Counter()
+        self.undecoded: Counter[str] = Counter()
+        self.parents: dict[str, dict[str, str]] = {}
+        self.turned_back_by = 0
+        self._decode = decode
+        # All that has ever moved, and what has a place since the last jump.
+        self._moving: dict[str, None] = {}
+        self._placed: set[str] = set()
+        # By id: a decoder gives the same tuple for the messages of one publisher, and
+        # to hash 300 names costs as much as to keep their poses.
+        self._groups: dict[int, _Publication] = {}
+        self._changed_groups: dict[int, _Publication] = {}
+        self._changed: dict[str, None] = {}
+
+    def take(self, message: Recorded) -> None:
+        """Take the transforms of a message, as tf2's listener does."""
+        is_static = message.topic in self.always
+        for stamp, edges, poses in self._transforms_of(message):
+            if is_static:
+                self._take_static(message.topic, edges, poses)
+            else:
+                self._take_moving(message.topic, stamp, edges, poses)
+
+    def take_older(self, message: Recorded) -> None:
+        """Take the frames of an older message that have no place yet."""
+        for stamp, edges, poses in self._transforms_of(message):
+            for row, (parent, child) in enumerate(edges):
+                if plain_name(child) not in self._placed:
+                    pair = ((parent, child),)
+                    self._take_moving(message.topic, stamp, pair, poses[row : row + 1])
+
+    def clear(self) -> None:
+        """Forget what moves; static transforms stay."""
+        self.history.clear()
+        self._groups.clear()
+        self._placed.clear()
+
+    def lacks(self) -> bool:
+        """Return whether a frame that has moved before has no place yet."""
+        return len(self._placed) < len(self._moving)
+
+    def expect(self, messages: Iterable[Recorded]) -> None:
+        """Learn from messages, without taking them, which frames there will be."""
+        for message in messages:
+            for _, edges, _ in self._transforms_of(message):
+                for parent, child in edges:
+                    self._note_parent(message.topic, parent, child)
+                if message.topic not in self.always:
+                    self._moving.update((plain_name(c), None) for _, c in edges)
+
+    def pairs(self) -> Iterator[tuple[str, str]]:
+        """Yield (parent, child) of all transforms that were told of."""
+        for child, parents in self.parents.items():
+            for parent in parents:
+                yield parent, child
+
+    def changed(self) -> Collection[str]:
+        """Return the frames that were told of since the last call."""
+        changed, self._changed = self._changed, {}
+        groups, self._changed_groups = self._changed_groups, {}
+        for group in groups.values():
+            changed.update(dict.fromkeys(group.children))
+        return changed.keys()
+
+    def _transforms_of(self, message: Recorded) -> Transforms:
+        try:
+            return self._decode(message)
+        except DecodeError:
+            self.undecoded[message.topic] += 1
+            return ()
+
+    def _take_static(
+        self, topic: str, edges: Sequence[FramePair], poses: Poses
+    ) -> None:
+        for (parent, child), row in zip(edges, poses.tolist(), strict=True):
+            x, y, z, qx, qy, qz, qw = row
+            pose = ((x, y, z), (qx, qy, qz, qw))
+            fault = self.history.add_static(parent, child, pose)
+            if fault is None:
+                self._note_parent(topic, parent, child)
+                self._changed[plain_name(child)] = None
+            else:
+                self.faults[topic, fault] += 1
+
+    def _take_moving(
+        self, topic: str, stamp: int, edges: tuple[FramePair, ...], poses: Poses
+    ) -> None:
+        group = self._groups.get(id(edges))
+        if group is not None and stamp < group.newest - TURNED_BACK:
+            # A simulation was reset: the robot would stand still until the old stamps
+            # are passed.
+            self.turned_back_by = group.newest - stamp
+            self.clear()
+            group = None
+        is_new = group is None
+        if group is None:
+            children = tuple(plain_name(child) for _, child in edges)
+            group = self._groups[id(edges)] = _Publication(edges, children, stamp)
+        group.newest = max(group.newest, stamp)
+        is_new = is_new or not self._placed.issuperset(group.children)
+        faults = self.history.add(stamp, edges, poses)
+        for fault in faults.values():
+            self.faults[topic, fault] += 1
+        if is_new:
+            taken = [edge for row, edge in enumerate(edges) if row not in faults]
+            for parent, child in taken:
+                self._note_parent(topic, parent, child)
+            names = dict.fromkeys(plain_name(child) for _, child in taken)
+            self._moving.update(names)
+            self._placed.update(names)
+        self._changed_groups[id(edges)] = group
+
+    def _note_parent(self, topic: str, parent: str, child: str) -> None:
+        self.parents.setdefault(plain_name(child), {}).setdefault(
+            plain_name(parent), topic
+        )

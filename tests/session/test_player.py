@@ -1,0 +1,165 @@
+"""A recording is played in a session: it moves the robot, and jumps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from inside import session_of
+
+from sambot_viz import JointError, UsageError, Visualizer
+from sambot_viz.session.data.player import Player
+
+LEFT, WHEEL = "drivewhl_l_joint", "drivewhl_l_link"
+
+
+@pytest.fixture
+def viz(repository: Path) -> Iterator[Visualizer]:
+    path = repository / "tests" / "data" / "bags" / "square.mcap"
+    with Visualizer(path, port=0) as viz:
+        yield viz
+
+
+@pytest.fixture
+def player(viz: Visualizer) -> Player:
+    """The player, with steps that only the test takes."""
+    data = session_of(viz).data
+    assert data is not None
+    data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
+    return data.player
+
+
+def place(viz: Visualizer) -> tuple[float, float]:
+    x, y, _ = viz.frames.lookup("odom", "base_link").translation
+    return round(float(x), 3), round(float(y), 3)
+
+
+def test_the_robot_is_where_it_was_at_each_time(
+    viz: Visualizer, player: Player
+) -> None:
+    viz.player.jump(4.0)
+    assert place(viz) == (1.0, 0.0)
+    viz.player.jump(14.0)
+    assert place(viz) == (0.0, 1.0)
+    viz.player.jump(9.0)
+    assert place(viz) == (1.0, 1.0)
+    assert viz.player.time == pytest.approx(9.0)
+    assert not viz.player.playing
+
+
+def test_playing_gives_what_a_jump_gives(viz: Visualizer, player: Player) -> None:
+    player.play()
+    for _ in range(70):
+        player.advance(0.1)
+    there = viz.frames.lookup("odom", WHEEL).matrix
+    positions = dict(viz.joint_positions)
+    viz.player.jump(0.5)
+    assert not np.allclose(viz.frames.lookup("odom", WHEEL).matrix, there)
+    viz.player.jump(7.0)
+    assert viz.frames.lookup("odom", WHEEL).matrix == pytest.approx(there)
+    assert dict(viz.joint_positions) == pytest.approx(positions)
+
+
+def test_it_stops_at_the_end_or_begins_again(viz: Visualizer, player: Player) -> None:
+    player.play()
+    player.advance(100.0)
+    assert not viz.player.playing
+    assert viz.player.time == pytest.approx(viz.player.duration)
+    player.play()
+    assert viz.player.time == 0.0
+    player.set_loop(True)
+    player.advance(100.0)
+    assert viz.player.playing
+    assert viz.player.time == 0.0
+
+
+def test_steps_go_from_message_to_message_of_a_topic(
+    viz: Visualizer, player: Player
+) -> None:
+    viz.player.jump(1.0)
+    times: list[float] = []
+    for back in (False, False, True):
+        player.step("/scan", back=back)
+        times.append(viz.player.time)
+    assert times[1] - times[0] == pytest.approx(0.2, abs=1e-6)
+    assert times[2] == pytest.approx(times[0])
+    before = viz.player.time
+    player.step(None)
+    assert 0 < viz.player.time - before < 0.05
+
+
+def test_a_paused_recording_reads_and_sends_nothing(
+    viz: Visualizer, player: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    viz.player.jump(3.0)
+    calls: list[float] = []
+    monkeypatch.setattr(player, "advance", calls.append)
+    player._step()  # pyright: ignore[reportPrivateUsage]
+    assert calls == []
+
+
+def test_the_joints_follow_until_a_user_takes_them(
+    viz: Visualizer, player: Player
+) -> None:
+    viz.player.jump(2.0)
+    followed = viz.joint_positions[LEFT]
+    assert followed != 0
+    with pytest.raises(JointError, match="Follow"):
+        viz.set_joint_positions({LEFT: 0.0})
+    assert viz.joint_positions[LEFT] == followed
+    data = session_of(viz).data
+    assert data is not None
+    data.follow(False)
+    viz.set_joint_positions({LEFT: 0.5})
+    session_of(viz).robot.draw_moved()
+    turned = viz.frames.lookup("base_link", WHEEL).matrix
+    player.play()
+    player.advance(1.0)
+    # The wheel stays, the robot drives on.
+    assert viz.frames.lookup("base_link", WHEEL).matrix == pytest.approx(turned)
+    assert place(viz)[0] == pytest.approx(0.75, abs=0.02)
+    assert viz.joint_positions[LEFT] == 0.5
+    data.follow(True)
+    assert viz.joint_positions[LEFT] != 0.5
+    assert not np.allclose(viz.frames.lookup("base_link", WHEEL).matrix, turned)
+
+
+def test_wheels_that_have_turned_often_stay_on_their_sliders(
+    viz: Visualizer, player: Player
+) -> None:
+    viz.player.jump(19.0)
+    assert all(abs(q) <= 3.1416 for q in viz.joint_positions.values())
+
+
+def test_only_what_has_moved_is_sent(viz: Visualizer, player: Player) -> None:
+    viz.player.jump(3.0)
+    session = session_of(viz)
+    placed: list[set[str]] = []
+    session.scene.place = lambda frames: placed.append({*frames})  # type: ignore[method-assign]
+    version = session.frames.tree.version
+    player.play()
+    player.advance(0.05)
+    moved = set[str]().union(*placed)
+    assert moved == {"base_link", "drivewhl_l_link", "drivewhl_r_link"}
+    assert session.frames.tree.version == version
+
+
+def test_a_robot_that_a_recording_moves_is_not_driven(viz: Visualizer) -> None:
+    with pytest.raises(JointError, match="a recording moves it"):
+        session_of(viz).drive.set_velocity(0.1, 0.0)
+
+
+def test_without_a_config_the_view_follows_the_robot_in_odom(viz: Visualizer) -> None:
+    session = session_of(viz)
+    assert session.scene.context.fixed_frame == "odom"
+    assert session.document.config.view.get("Target Frame") == "base_link"
+
+
+def test_a_robot_without_a_recording_has_no_player(
+    make_viz: Callable[..., Visualizer],
+) -> None:
+    viz = make_viz()
+    with pytest.raises(UsageError, match="no recording"):
+        viz.player.jump(1.0)

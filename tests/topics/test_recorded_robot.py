@@ -1,0 +1,221 @@
+"""A recording says where the robot is at every time of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from sambot_viz.errors import RobotError, UsageError
+from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.subscriber import jump
+
+TOLERANCE = 1e-6
+FRAMES = ("base_footprint", "lidar_link", "drivewhl_l_link", "drivewhl_r_link")
+
+
+@pytest.fixture
+def square(repository: Path) -> Path:
+    return repository / "tests" / "data" / "bags" / "square.mcap"
+
+
+@pytest.fixture
+def opened(square: Path) -> Iterator[RecordedRobot]:
+    with recorded_in(Options(square)) as recorded:
+        yield recorded
+
+
+@contextmanager
+def recorded_in(options: Options) -> Iterator[RecordedRobot]:
+    with Inputs(options) as inputs:
+        assert inputs.recorded is not None
+        yield inputs.recorded
+
+
+def frames_at(path: Path, time_ns: int) -> FrameTree:
+    """The frames as `sambot-viz frames --at` has them."""
+    with recorded_in(Options(path)) as recorded:
+        assert recorded.recording.start_ns is not None
+        at = (time_ns - recorded.recording.start_ns) * 1e-9
+    with Inputs(Options(path, at=at)) as inputs:
+        return frames_of(inputs)
+
+
+def frames_of(inputs: Inputs) -> FrameTree:
+    robot, recorded = inputs.robot(), inputs.recorded
+    assert recorded is not None
+    return recorded.frames(robot, inputs.options.start_pose.state(robot))
+
+
+def differences(tree: FrameTree, shown: dict[str, Any]) -> list[str]:
+    """What of an entry of the index is otherwise; empty when nothing is."""
+    found: list[str] = []
+    for frame, expected in shown.items():
+        try:
+            transform = tree.lookup("odom", frame)
+        except LookupRefused:
+            if expected is not None:
+                found.append(f"{frame} has no place")
+            continue
+        if expected is None:
+            found.append(f"{frame} has a place")
+            continue
+        history = tree.history
+        assert history is not None
+        stamp, xyz, xyzw = expected
+        if history.latest_common_time("odom", frame, tree) != stamp:
+            found.append(f"{frame} is of another time")
+        turned = abs(float(np.dot(transform.rotation_xyzw, xyzw)))
+        far = float(np.abs(transform.translation - xyz).max())
+        if far > TOLERANCE or turned < 1 - TOLERANCE:
+            found.append(f"{frame} is elsewhere: {far} m, {turned}")
+    return found
+
+
+def recordings(shared: Path) -> dict[str, dict[str, Any]]:
+    index = shared / "data" / "bags" / "made" / "index.yaml"
+    listed = yaml.load(index.read_text("utf-8"), yaml.CSafeLoader)
+    # Its frames follow from the model and the joint states, which tf2 does not have.
+    listed.pop("joints_only.mcap")
+    return {
+        name: about
+        for name, about in listed.items()
+        if about.get("shown") and name.endswith(".mcap")
+    }
+
+
+def test_the_frames_at_all_given_times_are_those_of_tf2(shared: Path) -> None:
+    found = {
+        (name, time): wrong
+        for name, about in recordings(shared).items()
+        for time, shown in about["shown"].items()
+        if (
+            wrong := differences(
+                frames_at(shared / "data" / "bags" / "made" / name, time), shown
+            )
+        )
+    }
+    assert not found
+
+
+def test_joint_states_place_the_links_where_no_transform_does(shared: Path) -> None:
+    path = shared / "data" / "bags" / "made" / "joints_only.mcap"
+    with Inputs(Options(path, at=2.0)) as inputs:
+        robot, recorded = inputs.robot(), inputs.recorded
+        assert recorded is not None
+        states = recorded.joint_states()
+        jump(recorded.recording, recorded.at_ns or 0, (states,))
+        expected = robot.forward_kinematics(states.changed())
+        tree = frames_of(inputs)
+    assert abs(expected["drivewhl_l_link"][0, 2]) > 0.1
+    for link in robot.links:
+        here = tree.lookup(robot.root, link).matrix
+        assert here == pytest.approx(expected[link], abs=1e-9)
+
+
+def played(recorded: RecordedRobot, at_ns: int) -> FrameHistory:
+    """The frames after all messages up to a time."""
+    history = FrameHistory()
+    transforms = recorded.transforms(history)
+    for message in recorded.recording.messages(None, at_ns, transforms.topics):
+        transforms.take(message)
+    return history
+
+
+def jumped(recorded: RecordedRobot, *times_ns: int) -> FrameHistory:
+    history = FrameHistory()
+    transforms = recorded.transforms(history)
+    for time in times_ns:
+        jump(recorded.recording, time, (transforms,))
+    return history
+
+
+def poses(history: FrameHistory) -> dict[str, Any]:
+    return {frame: history.latest(frame) for frame in history.frames}
+
+
+def without_order(history: FrameHistory) -> dict[str, Any]:
+    return {
+        frame: sample and (sample.stamp, sample.parent, sample.pose)
+        for frame, sample in poses(history).items()
+    }
+
+
+def test_a_jump_gives_what_playing_up_to_it_gives(opened: RecordedRobot) -> None:
+    start, end = opened.recording.start_ns, opened.recording.end_ns
+    assert start is not None and end is not None
+    random = np.random.default_rng(1)
+    for _ in range(20):
+        first, second = (int(t) for t in random.integers(start, end, 2))
+        # Whatever was shown before; static transforms of later stay.
+        latest = without_order(jumped(opened, end, first, second))
+        expected = without_order(played(opened, second))
+        assert {f: latest[f] for f in expected} == expected
+
+
+def test_a_frame_that_was_told_once_long_ago_is_there_after_a_jump(
+    write_recording: Callable[..., Path],
+) -> None:
+    map_to_odom = {"map": "odom"}
+    messages = [(0.0, map_to_odom), *((n / 10, {"odom": "base"}) for n in range(300))]
+    with recorded_in(Options(write_recording(messages))) as recorded:
+        assert recorded.recording.end_ns is not None
+        history = jumped(recorded, recorded.recording.end_ns)
+    assert history.latest("odom") is not None
+
+
+def test_a_recording_without_a_description_shows_its_frames_and_says_so(
+    shared: Path,
+) -> None:
+    path = shared / "data" / "bags" / "made" / "no_description.mcap"
+    with Inputs(Options(path)) as inputs:
+        assert [p.code for p in inputs.problems()] == ["no-description"]
+        assert "--model" in inputs.problems()[0].hint
+        assert {"odom", *FRAMES} <= set(frames_of(inputs).frames)
+
+
+def test_a_model_beside_a_recording_is_the_robot(
+    shared: Path, repository: Path
+) -> None:
+    bag = shared / "data" / "bags" / "made" / "no_description.mcap"
+    model = repository / "assets" / "sam_bot.urdf.xacro"
+    with Inputs(Options(model, source=f"bag:{bag}")) as inputs:
+        assert inputs.robot().name == "sam_bot"
+        assert inputs.problems() == inputs.robot().problems
+
+
+def test_what_a_description_has_of_xacro_reads_no_file(
+    write_recording: Callable[..., Path], tmp_path: Path
+) -> None:
+    secret = tmp_path / "secret.yaml"
+    secret.write_text("name: taken\n", encoding="utf-8")
+    text = (
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        f"<xacro:property name='x' value=\"${{load_yaml('{secret}')}}\"/>"
+        "<link name='base_${x[\"name\"]}'/></robot>"
+    )
+    path = write_recording([(0.0, {"odom": "base"})], text)
+    with Inputs(Options(path)) as inputs, pytest.raises(RobotError) as refused:
+        inputs.robot()
+    assert "taken" not in str(refused.value)
+
+
+@pytest.mark.parametrize("uri", ["square.mcap", "file:square.mcap", "bga:square.mcap"])
+def test_a_source_that_is_none_is_refused_with_the_right_form(uri: str) -> None:
+    with pytest.raises(UsageError, match="bag:PATH"):
+        Options(source=uri)
+
+
+@pytest.mark.parametrize("at", [1.0, math.nan])
+def test_a_time_needs_a_recording(at: float) -> None:
+    with pytest.raises(UsageError, match="needs a recording"):
+        Options(at=at)
