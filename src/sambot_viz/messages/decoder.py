@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import TypeDefinition
+from sambot_viz.messages.functions import Functions
 from sambot_viz.messages.reason import Reason
-
-if TYPE_CHECKING:
-    from rosbags.interfaces import Msgdef
 
 Payload = bytes | bytearray | memoryview
 _PADDING = 3
@@ -89,9 +87,9 @@ class _Layout:
     """One definition, made into functions when the first message comes."""
 
     def __init__(self, definition: TypeDefinition, encoding: str) -> None:
-        self._definition = definition
+        self.definition = definition
         self._is_ros1 = encoding == "ros1"
-        self._made: tuple[Callable[[str], Any], Msgdef[object]] | None = None
+        self._functions: Functions | None = None
 
     def read(self, payload: memoryview) -> tuple[Any, int]:
         """Return a message, and how many bytes are left over.
@@ -99,13 +97,23 @@ class _Layout:
         Raises:
             DecodeError: the bytes are no such message.
         """
-        if self._made is None:
-            store = self._definition.compile()
-            self._made = store.get_msgdef, store.get_msgdef(self._definition.name)
-        get_msgdef, own = self._made
-        store = cast("Any", _Store(get_msgdef, len(payload)))
-        function = own.deserialize_ros1
-        if not self._is_ros1:
+        try:
+            return self._read(payload)
+        except DecodeError:
+            raise
+        except Exception as error:
+            # Generated code: struct.error, ValueError, IndexError, SerdeError, ….
+            raise DecodeError(_cause(error)) from error
+
+    def _read(self, payload: memoryview) -> tuple[Any, int]:
+        if self._functions is None:
+            self._functions = Functions(self.definition.types)
+        get_msgdef = self._functions.get_msgdef
+        own = get_msgdef(self.definition.name)
+        store = _Store(get_msgdef, len(payload))
+        if self._is_ros1:
+            function = own.deserialize_ros1
+        else:
             head = bytes(payload[:2])
             if len(payload) < 4 or head not in (b"\0\0", b"\0\1"):
                 raise DecodeError(f"it begins with {head.hex() or 'nothing'}, not CDR")
@@ -135,25 +143,57 @@ class FieldDecoder(Decoder):
         type_name: str,
         encoding: str,
         definitions: Sequence[TypeDefinition],
-        others: Callable[[], Sequence[TypeDefinition]] = tuple,
+        others: Callable[[], Sequence[TypeDefinition]] | None = None,
     ) -> None:
         super().__init__(type_name, encoding)
-        self._layouts = [_Layout(one, encoding) for one in definitions]
+        self._layouts = tuple(_Layout(one, encoding) for one in definitions)
         self._others = others
+        self._own = definitions[0] if others is not None else None
 
     def decode(self, payload: Payload) -> Any:
         """Return a message."""
-        view = memoryview(payload).toreadonly()
-        return self._read(self._layouts[0], view)[0]
-
-    def _read(self, layout: _Layout, view: memoryview) -> tuple[Any, int]:
+        view = memoryview(payload).toreadonly().cast("B")
+        # Replaced as a whole and never changed: several players read at a time.
+        layouts = self._layouts
         try:
-            return layout.read(view)
+            message, left = layouts[0].read(view)
         except DecodeError:
-            raise
-        except Exception as error:
-            # Generated code: struct.error, ValueError, IndexError, SerdeError, ….
-            raise DecodeError(_cause(error)) from error
+            if (better := self._fitting(layouts, view)) is None:
+                raise
+            return better[0]
+        if left <= _PADDING or (left <= _ZEROS and not any(view[-left:])):
+            return message
+        better = self._fitting(layouts, view)
+        return message if better is None else better[0]
+
+    def _fitting(
+        self, layouts: tuple[_Layout, ...], view: memoryview
+    ) -> tuple[Any] | None:
+        """Return the message by another definition that it fits to its last byte."""
+        if (others := self._others) is not None:
+            more = (one for one in others() if one != self._own)
+            layouts = (*layouts, *(_Layout(one, self.encoding) for one in more))
+            self._layouts, self._others = layouts, None
+        for layout in layouts[1:]:
+            try:
+                message, left = layout.read(view)
+            except DecodeError:
+                continue
+            if left <= _PADDING:
+                rest = (one for one in layouts if one is not layout)
+                self._layouts = (layout, *rest)
+                if self._own is not None and layout.definition != self._own:
+                    self.note = definition_wrong(
+                        "the definition that came with it does not fit its messages",
+                        self.type_name,
+                    )
+                return (message,)
+        return None
+
+
+def definition_wrong(cause: str, type_name: str) -> Reason:
+    """Return the note of messages that are read by another definition than theirs."""
+    return Reason("definition-wrong", f"{cause}; the standard {type_name} is used")
 
 
 def _cause(error: Exception) -> str:

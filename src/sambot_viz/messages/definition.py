@@ -1,9 +1,8 @@
-"""The definition of a message: parsed by rosbags, checked, made into functions.
+"""The definition of a message: a type with all types that it is made of.
 
 A definition comes from a file or a peer that nobody vouches for, and rosbags makes
 Python code of it. So only names that are plain words get that far, and no array that
-would make the code, or what it makes of a small message, grow without bound. Constants
-are left out: their values are nothing that a message needs to be read.
+would make the code, or what it makes of a small message, grow without bound.
 """
 
 from __future__ import annotations
@@ -11,54 +10,34 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
-from threading import Lock
 from typing import TYPE_CHECKING, Any, cast
 
 from sambot_viz.errors import DecodeError
 
 if TYPE_CHECKING:
-    from rosbags.interfaces.typing import Fielddefs, FieldDesc
-    from rosbags.typesys.store import Typestore
+    from rosbags.interfaces.typing import Fielddefs
 
 Types = Mapping[str, "Fielddefs"]
 """The fields of each type that a definition has, by their names."""
 Lookup = Callable[[str], "Types | None"]
 """Finds types that a definition names and does not have."""
 
-LANGUAGES = ("ros2msg", "ros2idl", "ros1msg")
-"""The encodings of definitions that can be parsed."""
-_LONGEST = 1 << 20
-"""A longer text is none of a message: MoveIt's largest has 60 kB."""
+BASE, NAME, ARRAY, SEQUENCE = 1, 2, 3, 4
+"""rosbags' kinds of fields."""
 _MOST_TYPES = 1000
 _MOST_PARTS = 1000
-"""Parts of fixed arrays of one type; each is lines of code."""
+"""Parts of the fixed arrays of a type that become lines of code."""
 _MOST_EMPTY = 64
 """Values that no byte of a message stands for."""
-_NAME = re.compile(r"[A-Za-z]\w*(?:/[A-Za-z]\w*)+", re.ASCII)
+_DEEPEST = 50
+_UNREADABLE = {"wstring", "wchar", "float128", "fixed"}
+_TYPE = re.compile(r"[A-Za-z]\w*(?:/[A-Za-z]\w*)+", re.ASCII)
 _WORD = re.compile(r"[A-Za-z]\w*", re.ASCII)
-_DDS = re.compile(r"(\w+)::(\w+)::(?:dds_::)?(\w+?)_?", re.ASCII)
-# rosbags' generated module lies in sys.modules while its dataclasses are made.
-_register_lock = Lock()
-
-
-def canonical_name(name: str) -> str:
-    """Return the name of a type as ROS 2 says it, others as they are.
-
-    "pkg/Name" of ROS 1 and of old recordings gets its "/msg/"; a name of DDS
-    ("pkg::msg::dds_::Name_") gets slashes.
-    """
-    if match := _DDS.fullmatch(name):
-        return "/".join(match.groups())
-    parts = name.split("/")
-    if len(parts) == 2 and all(map(_WORD.fullmatch, parts)):
-        return f"{parts[0]}/msg/{parts[1]}"
-    return name
 
 
 @dataclass(frozen=True)
 class TypeDefinition:
-    """A type with all types that it is made of.
+    """A type with all types that it is made of, and no others.
 
     Attributes:
         name: of the type, "pkg/msg/Name".
@@ -68,61 +47,14 @@ class TypeDefinition:
     name: str
     types: Types
 
-    def compile(self) -> Typestore:
-        """Return a store of rosbags' that has the types, and nothing else."""
-        from rosbags.typesys.store import Typestore
-
-        store = Typestore()
-        types = {name: (list[Any](), fields) for name, fields in self.types.items()}
-        with _register_lock:
-            store.register(types)
-        return store
-
-
-def parse(name: str, language: str, text: str | bytes, find: Lookup) -> TypeDefinition:
-    """Return the definition that a text has.
-
-    Args:
-        name: of the type, as `canonical_name` gives it.
-        language: of `LANGUAGES`.
-        text: the definition; an empty one is that of an empty message.
-        find: finds what the text names and does not have.
-
-    Raises:
-        DecodeError: the text cannot be parsed, or what it defines cannot be read.
-    """
-    if isinstance(text, bytes):
-        text = text.decode("utf-8", "replace")
-    if len(text) > _LONGEST:
-        raise DecodeError(f"the definition is longer than {_LONGEST:,} characters")
-    text = text.replace("\r\n", "\n")
-    try:
-        types = _parsed(_inner_name(name), language, text)
-    except Exception as error:
-        # rosbags' parser raises what it comes upon: of its own, KeyError, ValueError.
-        raise DecodeError("the definition cannot be parsed") from error
-    return closed(_inner_name(name), types, find)
-
-
-def _inner_name(name: str) -> str:
-    parts = name.split("/")
-    package = parts[0] if len(parts) > 1 else "unknown"
-    folder = "action" if parts[1:-1] == ["action"] else "msg"
-    return f"{package}/{folder}/{parts[-1]}"
-
-
-def _parsed(name: str, language: str, text: str) -> Types:
-    from rosbags.typesys import get_types_from_idl, get_types_from_msg
-
-    if language == "ros2idl":
-        types = get_types_from_idl(text)
-    else:
-        types = get_types_from_msg(text, name)
-    return {name: fields for name, (_, fields) in types.items()}
-
 
 def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
-    """Return a definition with all that a type needs, and nothing that it does not.
+    """Return a definition with all that a type needs.
+
+    Args:
+        name: of the type.
+        types: what is defined.
+        find: finds what is not.
 
     Raises:
         DecodeError: a type is missing or contains itself, or the definition is one
@@ -138,82 +70,86 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
         if one not in known:
             known |= find(one) or {}
         if one not in known:
-            raise DecodeError(f"there is no definition of {one}")
+            raise DecodeError(f"no definition of {one}")
         if len(needed) == _MOST_TYPES:
             raise DecodeError(f"the definition has more than {_MOST_TYPES} types")
         needed[one] = known[one]
-        pending += _needs(known[one])
-    _check(name, needed)
+        pending += (part.what for part in _parts(known[one]) if part.kind == NAME)
+    for one, fields in needed.items():
+        _check(one, fields)
+    _Size(needed).of(name)
     return TypeDefinition(name, needed)
 
 
-def _needs(fields: Fielddefs) -> Iterator[str]:
-    for _, (kind, what) in _elements(fields):
-        if kind == 2:
-            yield what
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """A field, or the elements of a field.
+
+    Attributes:
+        kind: BASE or NAME.
+        what: the name of a type, in full or of the base types.
+        times: how often it is there; None when a message says so.
+    """
+
+    kind: int
+    what: str
+    times: int | None
 
 
-def _elements(fields: Fielddefs) -> Iterator[tuple[str, tuple[int, Any]]]:
-    """Yield the fields, of arrays and sequences their elements."""
-    for field, desc in fields:
-        inner = cast("FieldDesc", desc[1][0] if desc[0] > 2 else desc)
-        yield field, (int(inner[0]), inner[1])
+def _parts(fields: Fielddefs) -> Iterator[_Part]:
+    for _, desc in fields:
+        # The unions that rosbags declares cannot be told apart by their first item.
+        kind, what = cast("tuple[int, Any]", desc)
+        times: int | None = 1
+        if kind in (ARRAY, SEQUENCE):
+            (inner, of), count = what
+            times = count if kind == ARRAY else None
+            kind, what = inner, of
+        yield _Part(int(kind), what if kind == NAME else what[0], times)
 
 
-def _check(name: str, types: Types) -> None:
-    """Refuse what must not become code, or would take unbounded time or memory."""
-    for one, fields in types.items():
-        if not _NAME.fullmatch(one):
-            raise DecodeError("the definition has a type without a proper name")
-        if not all(_WORD.fullmatch(field) for field, _ in fields):
-            raise DecodeError(f"the definition of {one} has a field without a name")
-    _Size(types).of(name)
+def _check(name: str, fields: Fielddefs) -> None:
+    """Refuse what must not become code, and what rosbags makes no code for."""
+    if not _TYPE.fullmatch(name):
+        raise DecodeError("the definition has a type without a proper name")
+    if not all(_WORD.fullmatch(field) for field, _ in fields):
+        raise DecodeError(f"the definition of {name} has a field without a proper name")
+    for part in _parts(fields):
+        if part.kind == BASE and part.what in _UNREADABLE:
+            raise DecodeError(f"{name} has a {part.what}, which is not read yet")
 
 
-@dataclass
 class _Size:
     """How many values a message has at least, and how many bytes.
 
-    Sequences are as long as a message says and are checked when it is read; all else
+    Sequences are as long as a message says, which is checked when it is read; all else
     is known from the definition.
     """
 
-    types: Types
-
-    def __post_init__(self) -> None:
+    def __init__(self, types: Types) -> None:
+        self._types = types
         self._done: dict[str, tuple[int, int]] = {}
-        self._open: set[str] = set()
+        self._open: list[str] = []
 
     def of(self, name: str) -> tuple[int, int]:
         if name in self._done:
             return self._done[name]
-        if name in self._open or len(self._open) > 100:
+        if name in self._open:
             raise DecodeError(f"{name} contains itself")
-        self._open.add(name)
-        values, size, parts = 1, 0, 0
-        for (_, desc), (_, (kind, what)) in zip(
-            self.types[name], _elements(self.types[name]), strict=True
-        ):
-            times = cast("int", desc[1][1]) if desc[0] == 3 else 1
-            inner = self.of(what) if kind == 2 else (0, 1)
-            is_code = kind == 2 or what[0] == "string"
-            parts += times * is_code
-            if desc[0] == 4:
-                # Its length alone; but what it contains must be readable too.
+        if len(self._open) == _DEEPEST:
+            raise DecodeError("the definition has types in types in types")
+        self._open.append(name)
+        values, size, lines = 1, 0, 0
+        for part in _parts(self._types[name]):
+            inner = self.of(part.what) if part.kind == NAME else (0, 1)
+            if part.times is None:
                 values, size = values + 1, size + 4
-            else:
-                values, size = values + times * inner[0], size + times * inner[1]
-        if parts > _MOST_PARTS or (size == 0 and values > _MOST_EMPTY):
+                continue
+            if part.kind == NAME or part.what == "string":
+                lines += part.times
+            values, size = values + part.times * inner[0], size + part.times * inner[1]
+        if lines > _MOST_PARTS or (size == 0 and values > _MOST_EMPTY):
             raise DecodeError(f"the definition of {name} has too large an array")
-        self._open.remove(name)
+        self._open.pop()
         self._done[name] = values, size
         return values, size
-
-
-@cache
-def standard_types(distro: str) -> Types:
-    """Return the types that a distribution of ROS has by itself."""
-    from rosbags.typesys import Stores, get_typestore
-
-    fielddefs = get_typestore(Stores(distro)).fielddefs
-    return {name: fields for name, (_, fields) in fielddefs.items()}

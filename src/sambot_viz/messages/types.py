@@ -2,41 +2,46 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from threading import Lock
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.messages.decoder import Decoder, FieldDecoder, JsonDecoder
-from sambot_viz.messages.definition import (
-    LANGUAGES,
-    Types,
-    canonical_name,
-    closed,
-    parse,
-    standard_types,
+from sambot_viz.messages.decoder import (
+    Decoder,
+    FieldDecoder,
+    JsonDecoder,
+    definition_wrong,
 )
+from sambot_viz.messages.definition import closed
+from sambot_viz.messages.definition_text import LANGUAGES, canonical_name, parse
+from sambot_viz.messages.known_types import KnownTypes
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.schema import Schema
 
-_DISTROS = ("ros2_humble", "ros2_lyrical")
+_READ = ("cdr", "ros1", "json")
 
 
 class MessageTypes:
     """Makes decoders, one for all channels with the same definition and encoding.
 
+    Types without a definition are ROS's own, or found in folders: those given, then
+    those of AMENT_PREFIX_PATH.
+
     Args:
-        msg_path: folders with .msg files, for types without a definition.
-        distro: the ROS distribution whose types come first, such as "humble".
+        msg_path: folders of packages, packages, workspaces or installations with .msg
+            files.
+        distro: the ROS distribution whose types come first, such as "humble"; None:
+            that of ROS_DISTRO.
     """
 
     def __init__(
         self, msg_path: Sequence[Path] = (), distro: str | None = None
     ) -> None:
-        self._msg_path = tuple(msg_path)
-        self._distros = tuple(
-            dict.fromkeys(([f"ros2_{distro}"] if distro else []) + list(_DISTROS))
-        )
+        prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+        folders = [*msg_path, *(Path(prefix) for prefix in prefixes if prefix)]
+        self._known = KnownTypes(folders, distro or os.environ.get("ROS_DISTRO"))
         self._decoders: dict[tuple[Schema, str], Decoder] = {}
         # Players of several sessions ask at the same time.
         self._lock = Lock()
@@ -51,22 +56,43 @@ class MessageTypes:
 
     def _made(self, schema: Schema, encoding: str) -> Decoder:
         name = canonical_name(schema.name)
+        if encoding not in _READ:
+            return Decoder(name, encoding, _not_read(name, encoding))
         if encoding == "json":
             return JsonDecoder(name, encoding)
-        if encoding not in ("cdr", "ros1"):
-            text = f"the encoding {encoding or 'of the messages'} cannot be read here"
-            return Decoder(name, encoding, Reason("encoding", text))
         try:
-            if schema.encoding in LANGUAGES:
-                made = parse(name, schema.encoding, schema.text, self._find)
-            else:
-                made = closed(name, {}, self._find)
-        except DecodeError as error:
-            return Decoder(name, encoding, Reason("type-unknown", str(error)))
-        return FieldDecoder(name, encoding, [made])
+            return self._by_fields(name, schema, encoding)
+        except Exception as error:
+            # One type must never cost the others, and rosbags' errors are its own.
+            cause = str(error) if isinstance(error, DecodeError) else repr(error)
+            remedy = "give the folder of its package with --msg-path"
+            return Decoder(name, encoding, Reason("type-unknown", f"{cause}: {remedy}"))
 
-    def _find(self, name: str) -> Types | None:
-        for distro in self._distros:
-            if name in (types := standard_types(distro)):
-                return {name: types[name]}
-        return None
+    def _by_fields(self, name: str, schema: Schema, encoding: str) -> Decoder:
+        def find(one: str):
+            return self._known.find(one, encoding)
+
+        def others():
+            return self._known.definitions(name, encoding)
+
+        if schema.encoding not in LANGUAGES:
+            if known := others():
+                return FieldDecoder(name, encoding, known)
+            closed(name, {}, find)  # raises: it says which type is missing
+        try:
+            own = parse(name, schema.encoding, schema.text, find)
+        except DecodeError as error:
+            if not (known := others()):
+                raise
+            decoder = FieldDecoder(name, encoding, known)
+            decoder.note = definition_wrong(str(error), name)
+            return decoder
+        return FieldDecoder(name, encoding, [own], others)
+
+
+def _not_read(name: str, encoding: str) -> Reason:
+    if encoding in ("protobuf", "flatbuffer", "cbor", "msgpack"):
+        of = f" ({name})" if name else ""
+        return Reason("encoding", f"its messages are {encoding}{of}, not read yet")
+    named = f"encoding is {encoding}" if encoding else "channel has no encoding"
+    return Reason("encoding", f"its {named}, which is not known here")
