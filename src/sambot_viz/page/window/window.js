@@ -125,14 +125,10 @@ function Sheet() {
   </aside>`;
 }
 
-/** How much of the tabs fades where there are more beyond the edge [px]. */
-const EDGE = 32;
-
-/** Fade the ends of a strip beyond which there is more. @param {HTMLElement} strip */
-function fadeEdges(strip) {
-  const rest = strip.scrollWidth - strip.clientWidth - strip.scrollLeft;
-  strip.style.setProperty("--before", `${Math.min(EDGE, strip.scrollLeft)}px`);
-  strip.style.setProperty("--after", `${Math.max(0, Math.min(EDGE, rest))}px`);
+/** Give tabs that do not fit into a line two lines, where all can be read. @param {HTMLElement} tabs */
+function wrapTabs(tabs) {
+  tabs.classList.remove("two");
+  tabs.classList.toggle("two", tabs.scrollWidth > tabs.clientWidth);
 }
 
 /**
@@ -152,22 +148,15 @@ function Tabs({ names, of, current }) {
   };
   /** @type {Ref} */
   const element = useRef(null);
-  const fade = () => fadeEdges(element.current);
-  // The chosen tab is in sight, and so is that there are others beside it.
+  const wrap = () => wrapTabs(element.current);
+  useLayoutEffect(wrap);
   useLayoutEffect(() => {
-    const strip = element.current;
-    const { left, right } = strip.getBoundingClientRect();
-    const chosen = strip.querySelector("[aria-selected=true]")?.getBoundingClientRect();
-    if (chosen && chosen.left < left + EDGE) strip.scrollLeft -= left + EDGE - chosen.left;
-    if (chosen && chosen.right > right - EDGE) strip.scrollLeft += chosen.right - right + EDGE;
-  }, [current]);
-  useLayoutEffect(fade);
-  useLayoutEffect(() => {
-    const observer = new ResizeObserver(fade);
+    const observer = new ResizeObserver(wrap);
     observer.observe(element.current);
     return () => observer.disconnect();
   }, []);
-  return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key} onScroll=${fade}>
+  return html`<div class="tabs" role="tablist" ref=${element} onKeyDown=${key}
+    style=${`--half: ${Math.ceil(names.length / 2)}`}>
     ${names.map(
       (name) => html`<button role="tab" key=${name} data-tab=${name}
         aria-selected=${String(name === current)}
