@@ -16,6 +16,7 @@ from sambot_viz.options import Options
 from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.problems import ProblemsPanel
 from sambot_viz.panels.row import Row
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
@@ -223,6 +224,25 @@ def test_a_fixed_frame_that_is_missing_is_taken_and_every_status_says_which_ther
     assert displays.named("Global Status", "Fixed Frame").extra is None
 
 
+def test_a_frame_that_is_missing_is_repaired_by_the_nearest_name(
+    displays: Displays, session: Session
+) -> None:
+    displays.change("Global Options", "Fixed Frame", to="arm_tip")
+    for status in (("Global Status",), ("Robot", "Status")):
+        assert displays.named(*status, "Fixed Frame").extra == {
+            "repair": ["Use arm/tip", "options/Fixed Frame", "arm/tip"]
+        }
+    displays.set("options/Fixed Frame", "base")
+    path = ("Ground", "Floor")
+    for wrong, right in (("bsae", "base"), ("nowhere", "<Fixed Frame>")):
+        displays.change(*path, "Reference Frame", to=wrong)
+        row = displays.named(*path, "Reference Frame").id
+        status = displays.named(*path, "Status", "Transform")
+        assert status.extra == {"repair": [f"Use {right}", row, right]}
+        displays.set(row, right)
+        assert displays.named(*path, "Status").value == "Ok"
+
+
 def test_bad_rows_of_a_status_come_first(displays: Displays) -> None:
     displays.change("Global Options", "Fixed Frame", to="map")
     levels = [
@@ -244,6 +264,13 @@ def test_while_there_is_no_robot_its_display_names_the_mistakes(tmp_path: Path) 
         mistake = displays.named("RobotModel", "Status", "Model").value
         assert mistake.startswith("two.urdf:")
         assert "'amr'" in mistake
+        line = mistake.split(":")[1]
+        extra = displays.named("RobotModel", "Status", "Model").extra
+        problems = rows_of(panel_of(ProblemsPanel, session_of(viz)))
+        assert extra is not None
+        said, panel, row = extra["leads"]
+        assert (said, panel) == (f"Show line {line}", "problems")
+        assert "'amr'" in problems[row].value
         urdf = displays.named("RobotModel", "Status", "URDF")
         assert urdf.value == "There is no robot to show"
 

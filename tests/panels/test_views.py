@@ -11,6 +11,7 @@ from panel_rows import data_of, edit, panel_of, row_named, rows_of
 
 from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
+from sambot_viz.panels.row import Row
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
@@ -147,3 +148,20 @@ def test_with_follow_the_presenter_the_others_see_what_one_does(
     assert rows_of(panel)["view/:lead"].value is True
     edit(panel, "view/Distance", 4.0)
     assert rows_of(other)["view/Distance"].value == 4.0
+
+
+def test_a_target_frame_that_does_not_exist_is_repaired_by_the_nearest_name(
+    panel: ViewsPanel,
+) -> None:
+    def status() -> Row | None:
+        return rows_of(panel).get("view/:target")
+
+    assert status() is None
+    for wrong, right in (("base_lnk", "base_link"), ("map", "<Fixed Frame>")):
+        edit(panel, "view/Target Frame", wrong)
+        said = status()
+        assert said is not None
+        assert said.value == f"Frame [{wrong}] does not exist"
+        assert said.extra == {"repair": [f"Use {right}", "view/Target Frame", right]}
+        edit(panel, "view/Target Frame", right)
+        assert status() is None

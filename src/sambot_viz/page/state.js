@@ -93,6 +93,8 @@ export const useAfter = (effect, of) => useEffect(effect, of);
 export const folds = new Cell({});
 /** The selected row of each panel. @type {Cell<Record<string, string>>} */
 export const selected = new Cell({});
+/** The row that a button leads to. @type {Cell<{panel: string, id: string} | null>} */
+export const wantedRow = new Cell(/** @type {any} */ (null));
 /** Angles in degrees. @type {Cell<boolean>} */
 export const degrees = new Cell(false, "degrees");
 

@@ -72,7 +72,7 @@ class BrowserPanels:
         document, history, robot = session.document, session.history, session.robot
         scene, roles, frames = session.scene, session.roles, session.frames
         keep, clients = displays.keep_unfolded, session.clients
-        views = ViewsPanel(client, document, clients, roles, history, self.say)
+        views = ViewsPanel(client, document, scene, clients, roles, history, self.say)
         return [
             OwnRolePanel(roles, client.client_id, self.say),
             ToolsPanel(client, scene, clients, robot),

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import hashlib
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path, PurePath
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Level, Row
-from sambot_viz.panels.status_rows import place_of
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
 from sambot_viz.session.problems import Problems
+from sambot_viz.text import text
 
 MOST_SHOWN = 100
 """So many groups of problems, and of the problems of one group, have rows."""
 LINES_AROUND = 2
+_LONGEST_FILE = 60
 _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
 
 
@@ -74,7 +75,7 @@ class ProblemsPanel(Panel):
             yield _rest("problems/rest", "", len(groups) - MOST_SHOWN)
 
     def _several_rows(self, group: ProblemGroup, *, unfolded: bool) -> Iterator[Row]:
-        row_id = _id(group.severity, group.first.code, group.hint, group.first.cause)
+        row_id = _group_id(group)
         unfolded = self._lazy.is_unfolded(row_id) or unfolded
         yield _head(row_id, "", group.message, group.first, lazy=not unfolded)
         if not unfolded:
@@ -94,8 +95,8 @@ class ProblemsPanel(Panel):
         hint: bool = True,
         unfolded: bool = False,
     ) -> Iterator[Row]:
-        key = (problem.severity, problem.place, str(problem))
-        row_id = f"{parent}/{_id(*key)}" if parent else _id(*key)
+        own = _problem_id(problem)
+        row_id = f"{parent}/{own}" if parent else own
         below = [*_details(problem, row_id, hint=hint)] if unfolded else None
         if below is None and self._lazy.is_unfolded(row_id):
             below = [*_details(problem, row_id, hint=hint)]
@@ -104,6 +105,35 @@ class ProblemsPanel(Panel):
             row_id, parent, problem.message, problem, lazy=below is None and more
         )
         yield from below or ()
+
+
+def place_of(problem: Problem) -> str:
+    """Return the name of a problem's file, and the line."""
+    if problem.file is None:
+        return ""
+    name = text(PurePath(problem.file).name, _LONGEST_FILE)
+    return name if problem.line is None else f"{name}:{problem.line}"
+
+
+def rows_by_place(problems: Iterable[Problem]) -> dict[str, str]:
+    """Return the ids of the rows that say what is wrong at a line, by `place_of`."""
+    return {
+        place_of(problem): _group_id(group)
+        for group in group_problems(problems)[:MOST_SHOWN]
+        for problem in group.problems
+        if problem.line is not None
+    }
+
+
+def _group_id(group: ProblemGroup) -> str:
+    first = group.first
+    if len(group.problems) == 1:
+        return _problem_id(first)
+    return _id(group.severity, first.code, group.hint, first.cause)
+
+
+def _problem_id(problem: Problem) -> str:
+    return _id(problem.severity, problem.place, str(problem))
 
 
 def _head(

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from pathlib import PurePath
+from collections.abc import Iterator, Mapping, Sequence
 
 from sambot_viz.displays.display import Display
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Problem, nearest
+from sambot_viz.panels.problems import place_of, rows_by_place
 from sambot_viz.panels.row import Json, Level, Row
+from sambot_viz.rviz import TfFrameProperty
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.text import text
 
 LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
 MOST_NAMES = 12
 FIXED_FRAME = "options/Fixed Frame"
 """The id of the row that sets it."""
-_STATUS = "status"
-_LONGEST_FILE = 60
+_STATUS, _TRANSFORM = "status", "Transform"
+_PLACE = re.compile(r"[^\s:]{1,60}:\d{1,9}")
+"""A line of a file in a sentence; the file's name is as long as in `place_of`."""
+_LONGEST_SENTENCE = 2000
+_LONGEST_NAME = 200
+"""Of a longer frame no near name is looked for, which would take long."""
 
 
 def global_status_rows(scene: Scene) -> Iterator[Row]:
@@ -42,6 +47,7 @@ def status_rows(
     parent: str,
     scene: Scene,
     mistakes: Sequence[Problem],
+    problems: Sequence[Problem],
     *,
     all_rows: bool,
 ) -> Iterator[Row]:
@@ -53,6 +59,7 @@ def status_rows(
         parent: the id of its row.
         scene: where it is drawn.
         mistakes: problems of the model, while there is no robot for them.
+        problems: those that have rows, which a status that names their line leads to.
         all_rows: False leaves out the rows of a status that is Ok.
     """
     status = display.status
@@ -74,29 +81,40 @@ def status_rows(
             extra=_other_fixed_frame(scene),
         )
     own_robot = display.robot_display and display.robot_display.own_robot
+    rows = dict[str, str]() if status.level == "Ok" else rows_by_place(problems)
     if own_robot is None and status.level != "Ok":
-        yield from _why_no_robot(mistakes, row_id)
+        yield from _why_no_robot(mistakes, row_id, rows)
+    frame = _other_frame(display, parent, scene)
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]
-        yield Row(f"{row_id}/{key}", row_id, "status", key, row.text, level=level)
+        extra = None
+        if row.level != "Ok":
+            extra = frame if key == _TRANSFORM else _lines_of(row.text, rows)
+        yield Row(
+            f"{row_id}/{key}", row_id, "status", key, row.text, level=level, extra=extra
+        )
 
 
-def _why_no_robot(mistakes: Sequence[Problem], parent: str) -> Iterator[Row]:
+def _why_no_robot(
+    mistakes: Sequence[Problem], parent: str, rows: Mapping[str, str]
+) -> Iterator[Row]:
     """Yield the mistakes of the model, each at its line, while there is no robot."""
     errors = [problem for problem in mistakes if problem.severity == "error"]
     for index, problem in enumerate(errors[:MOST_NAMES]):
         where = place_of(problem)
         said = f"{where}: {problem.message}" if where else problem.message
         row_id = f"{parent}/:model{index}"
-        yield Row(row_id, parent, "status", "Model", said, level="error")
+        extra = _lines_of(where, rows)
+        yield Row(row_id, parent, "status", "Model", said, level="error", extra=extra)
 
 
-def place_of(problem: Problem) -> str:
-    """Return the name of a problem's file, and the line."""
-    if problem.file is None:
-        return ""
-    name = text(PurePath(problem.file).name, _LONGEST_FILE)
-    return name if problem.line is None else f"{name}:{problem.line}"
+def _lines_of(sentence: str, rows: Mapping[str, str]) -> dict[str, Json] | None:
+    """Lead to the problem whose line a sentence names."""
+    for place in _PLACE.findall(sentence[:_LONGEST_SENTENCE]):
+        if place in rows:
+            line = place.rpartition(":")[2]
+            return {"leads": [f"Show line {line}", "problems", rows[place]]}
+    return None
 
 
 def _head(row_id: str, parent: str, name: str, level: str, *, lazy: bool) -> Row:
@@ -121,8 +139,13 @@ def fixed_frame_missing(scene: Scene) -> str:
 
 
 def _other_fixed_frame(scene: Scene) -> dict[str, Json]:
-    """Offer the root of the largest tree of frames: the page sets it by a button."""
+    """Offer the frame with the nearest name, or the root of the largest tree of frames.
+
+    The page sets it by a button.
+    """
     tree = scene.context.tree
+    if near := _nearest(scene.context.fixed_frame, scene):
+        return _use(near, FIXED_FRAME)
     roots: dict[str, str] = {}
     for frame in sorted(tree.frames):
         below: list[str] = []
@@ -132,7 +155,46 @@ def _other_fixed_frame(scene: Scene) -> dict[str, Json]:
             root = above
         roots |= dict.fromkeys((*below, root), roots.get(root, root))
     most = Counter(roots.values()).most_common(1)[0][0]
-    return {"repair": [f"Use {most}", FIXED_FRAME, most]}
+    return _use(most, FIXED_FRAME)
+
+
+def _use(frame: str, row_id: str) -> dict[str, Json]:
+    return {"repair": [f"Use {frame}", row_id, frame]}
+
+
+def use_other_frame(
+    frame: str, row_id: str, other: str, scene: Scene
+) -> dict[str, Json] | None:
+    """Offer a frame in place of one that does not exist.
+
+    Args:
+        frame: the name that a row has.
+        row_id: the id of that row.
+        other: what may take its place where no name is near.
+        scene: has the frames.
+    """
+    frames = scene.context.tree.frames
+    if frame in (other, scene.context.fixed_frame) or frame in frames:
+        return None
+    return _use(_nearest(frame, scene) or other, row_id)
+
+
+def _nearest(frame: str, scene: Scene) -> str | None:
+    if len(frame) > _LONGEST_NAME:
+        return None
+    frames = scene.context.tree.frames
+    return nearest(frame, [name for name in frames if len(name) <= _LONGEST_NAME])
+
+
+def _other_frame(display: Display, parent: str, scene: Scene) -> dict[str, Json] | None:
+    """Offer another frame for a display whose own one does not exist."""
+    config = display.config
+    for path, declared in config.declared.items():
+        prop = declared.property
+        if isinstance(prop, TfFrameProperty):
+            row_id, frame = f"{parent}/{path}", str(config.get(path))
+            return use_other_frame(frame, row_id, prop.default, scene)
+    return None
 
 
 def listed(names: Sequence[str], most: int = MOST_NAMES) -> str:

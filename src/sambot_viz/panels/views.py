@@ -12,6 +12,7 @@ from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Answer, Data, Json, Level, Row
+from sambot_viz.panels.status_rows import use_other_frame
 from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import row_text
@@ -20,6 +21,7 @@ from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import mouse_facts
 from sambot_viz.session.people.roles import Roles
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.undo import History
 from sambot_viz.views.registry import VIEWS
 
@@ -35,6 +37,7 @@ class ViewsPanel(Panel):
     Args:
         client: whose camera it is.
         document: has the saved views.
+        scene: has the frames that a view may follow.
         clients: may all follow the presenter.
         roles: tells whether there is one.
         history: does not record what a page restores.
@@ -47,6 +50,7 @@ class ViewsPanel(Panel):
         self,
         client: Client,
         document: ShownDocument,
+        scene: Scene,
         clients: Clients,
         roles: Roles,
         history: History,
@@ -58,6 +62,7 @@ class ViewsPanel(Panel):
         self._brought = clients.brought.value
         self.remade_by = (
             document.views,
+            scene.frames,
             clients.leading,
             clients.brought,
             clients.free,
@@ -65,6 +70,7 @@ class ViewsPanel(Panel):
             client.view.changed,
         )
         self._document = document
+        self._scene = scene
         self._roles = roles
         self._history = history
         self._ids = Ids[ViewConfig]("saved")
@@ -112,7 +118,21 @@ class ViewsPanel(Panel):
         if not self._client.view.supported:
             yield Row("view/:unknown", CURRENT, "note", value=_UNKNOWN, level="warn")
         change = self._client.view.set
-        yield from property_rows(view.config, CURRENT, change, client_local=True)
+        for row in property_rows(view.config, CURRENT, change, client_local=True):
+            yield row
+            if row.kind == "frame":
+                yield from self._missing_target(row)
+
+    def _missing_target(self, row: Row) -> Iterator[Row]:
+        """Say that the frame does not exist that the view is to follow."""
+        frame = str(row.value)
+        other = use_other_frame(frame, row.id, row.options[0], self._scene)
+        if other is not None:
+            said = f"Frame [{frame}] does not exist"
+            status = f"{CURRENT}/:target"
+            yield Row(
+                status, CURRENT, "status", "Status", said, level="warn", extra=other
+            )
 
     def _follow_rows(self) -> Iterator[Row]:
         clients, client_id = self._clients, self._client.client_id

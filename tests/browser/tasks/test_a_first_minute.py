@@ -78,9 +78,22 @@ def test_task_02_start_with_a_mistake(
     user.reads(f"{model.name}:{line}")
     for said in ("is closed by </rob>", "write </robot>", f" {line} "):
         user.until(lambda s=said: s in re.sub(r"\s+", " ", user.see().text))
+    # A status leads to the lines, also when the list is closed.
+    user.click("button", "Close Problems")
+    user.gone("treegrid", "Problems")
+    user.unfold("Displays", "RobotModel")
+    button = user.row("Displays", "RobotModel", "Status", "Model").one("button")
+    assert button.name == f"Show line {line}"
+    user.click_on(button)
+    user.until(lambda: f" {line} " in re.sub(r"\s+", " ", problems(user)))
     model.write_text(model.read_text("utf-8").replace("</rob>", "</robot>"), "utf-8")
     user.row("Joints", "drivewhl_l_joint")
     user.find("button", "No problems")
+
+
+def problems(user: User) -> str:
+    """The text of the open list of problems."""
+    return user.see().one("treegrid", "Problems").text
 
 
 def test_task_03_what_is_wrong_if_anything(make_desk: Callable[[str], Desk]) -> None:

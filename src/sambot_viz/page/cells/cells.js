@@ -10,7 +10,7 @@ import { Icon } from "../window/icons.js";
 import { refusals, refuse } from "../window/notices.js";
 import { NumberCell, SliderCell } from "./number_cells.js";
 import { formatNumber, parseNumber } from "./numbers.js";
-import { degrees, useData } from "../state.js";
+import { degrees, useData, wantedRow } from "../state.js";
 import { shownUnit } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -123,14 +123,22 @@ function FactCell({ row, tab }) {
   return html`<span class="fact" title=${row.kind === "readonly" ? String(row.value) : undefined}>
     ${row.value}</span>
     ${row.repair && html`<${RepairButton} row=${row} tab=${tab} />`}
+    ${row.leads && html`<${LeadButton} row=${row} tab=${tab} />`}
     ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;
 }
 
 /** Sets another row so that what a status says is over. @param {{row: Row, tab: number}} props */
 function RepairButton({ row, tab }) {
   const [label, id, value] = row.repair;
-  return html`<button class="repair needs-control" tabindex=${tab}
-    onClick=${() => send(id, value)}>${label}</button>`;
+  return html`<button class=${`repair ${rows.get(id)?.local ? "" : "needs-control"}`}
+    tabindex=${tab} onClick=${() => send(id, value)}>${label}</button>`;
+}
+
+/** Goes to a row that says more than a status. @param {{row: Row, tab: number}} props */
+function LeadButton({ row, tab }) {
+  const [label, panel, id] = row.leads;
+  return html`<button class="repair" tabindex=${tab}
+    onClick=${() => wantedRow.set({ panel, id })}>${label}</button>`;
 }
 
 /** @param {{row: Row, tab: number}} props */

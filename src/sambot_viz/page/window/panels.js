@@ -8,8 +8,8 @@ import { FramesPanel } from "../panels/frames.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
 import { ViewsPanel } from "../panels/views.js";
-import { Cell } from "../state.js";
-import { Tree } from "../tree/tree.js";
+import { Cell, fold, wantedRow } from "../state.js";
+import { reveal, Tree } from "../tree/tree.js";
 import { rows } from "../wire/channel.js";
 import { hidden, shape } from "./splitters.js";
 
@@ -53,6 +53,14 @@ export function openPanel(name) {
   hidden.set({ ...hidden.value, [side]: false, [name]: false });
   if (name in TABS) choose(name);
 }
+
+wantedRow.listeners.add(() => {
+  const wanted = wantedRow.value;
+  if (!wanted) return;
+  openPanel(wanted.panel);
+  fold(wanted.id, true);
+  reveal(wanted.panel, wanted.id);
+});
 
 /** Show a panel that has a tab. @param {string} name */
 function choose(name) {

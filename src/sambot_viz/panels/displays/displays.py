@@ -241,8 +241,9 @@ class DisplaysPanel(Panel):
         of_model = self._problems.of_saves.get("model", ())
         mistakes = of_model if self._robot.model is None else ()
         unfolded = self._lazy.is_unfolded(row_id)
+        listed = self._problems.shown.value.listed
         return status_rows(
-            display, row_id, parent, self._scene, mistakes, all_rows=unfolded
+            display, row_id, parent, self._scene, mistakes, listed, all_rows=unfolded
         )
 
     def _property_rows(self, display: Display, parent: str) -> Iterator[Row]:
