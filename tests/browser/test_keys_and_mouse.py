@@ -121,7 +121,7 @@ def test_digits_drive_only_where_the_hand_is_in_the_drive_panel(
     viewer.page.mouse.click(*middle(viewer))
     user.keys("5")
     user.until(lambda: not drive.moving)
-    user.click("button", "Reset", ("group", "Drive"))
+    user.click("button", "Back to start", ("group", "Drive"))
     user.until(lambda: desk.fixed_frame == "base_link")
 
 

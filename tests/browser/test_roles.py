@@ -101,7 +101,7 @@ def test_a_viewer_turns_the_view_and_is_told_what_needs_control(
     assert not user.find("menuitem", "Download Config").state("disabled")
     user.keys("Escape")
     yaw = user.row("Views", "Yaw").text
-    user.click("button", "Zero", ("toolbar", "Tools"))
+    user.click("button", "Zero", ("region", "Views"))
     user.until(lambda: user.row("Views", "Yaw").text != yaw)
     user.keys("Control+s")
     user.reads("View only: request control, or open your own copy")

@@ -22,7 +22,9 @@ from sambot_viz.session.robot.drive import Drive
 from sambot_viz.views.camera import vector
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
-IN_ODOM = Answer("Fixed Frame set to odom to show the motion; Undo or Reset reverts it")
+IN_ODOM = Answer(
+    "Fixed Frame set to odom to show the motion; Undo or Back to start reverts it"
+)
 
 
 @pytest.fixture

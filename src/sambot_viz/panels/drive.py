@@ -157,7 +157,8 @@ class DrivePanel(Panel):
         if not shown:
             return None
         return Answer(
-            f"Fixed Frame set to {ODOM} to show the motion; Undo or Reset reverts it"
+            f"Fixed Frame set to {ODOM} to show the motion; "
+            "Undo or Back to start reverts it"
         )
 
 

@@ -101,6 +101,6 @@ def test_task_53_drive_a_square_stop_and_reset(s: Desk) -> None:
     speed("Linear speed", "0.5")
     user.click("button", re.compile("Stop"))
     user.until(lambda: user.row("Drive", "Linear speed").one("textbox").value == "0")
-    user.click("button", "Reset", ("group", "Drive"))
+    user.click("button", "Back to start", ("group", "Drive"))
     user.until(lambda: pose("x") == pose("y") == pose("yaw") == 0.0)
     user.until(lambda: set(s.viz.joint_positions.values()) == {0.0})

@@ -283,6 +283,24 @@ def test_task_59_other_windows(
         user.find("button", "Interact", ("toolbar", "Tools"))
 
 
+def test_task_59_a_high_window_has_no_empty_rows_beside_ones_to_scroll(
+    s: Desk,
+) -> None:
+    user = s.user
+    last = user.row("Views", "Lead all views")
+    assert not user.can_see(last)
+    s.page.set_viewport(1440, 900)
+    try:
+        user.until(lambda: user.can_see(user.row("Views", "Lead all views")))
+        user.until(lambda: user.can_see(user.find("button", "Forwards")))
+        user.tab("Drive")
+        user.until(lambda: len(user.see().all("button", "Forwards")) == 1)
+        user.tab("Joints")
+    finally:
+        s.page.set_viewport(1280, 720)
+        user.gone("button", "Forwards")
+
+
 def test_task_59_one_panel_folded_one_widened(
     s: Desk, open_more: Callable[..., ViewerPage]
 ) -> None:

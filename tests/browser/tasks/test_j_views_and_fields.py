@@ -89,7 +89,7 @@ def test_task_67_look_at_a_robot_that_drives(s: Desk, kind: str) -> None:
         x, y = on_page(s, frame="base_link")
         assert abs(x - left - width / 2) < 0.1 * width
         assert abs(y - top - height / 2) < 0.5 * height
-    user.click("button", "Reset", ("group", "Drive"))
+    user.click("button", "Back to start", ("group", "Drive"))
     user.until(lambda: drive.pose.x == drive.pose.yaw == 0.0)
     user.until(lambda: s.fixed_frame != "odom")
     choose_view(s, "Orbit")

@@ -48,7 +48,7 @@ export function useSizes() {
 
 /**
  * An edge that a hand can move; arrow keys move it too.
- * @param {{side: keyof Sizes, label: string}} props
+ * @param {{side: Exclude<keyof Sizes, "chosen">, label: string}} props
  */
 export function Splitter({ side, label }) {
   const sizes = useSizes();
@@ -71,10 +71,13 @@ export function Splitter({ side, label }) {
     }
     chosen.set(next);
   };
+  /** The size before a hand changes it. @param {{currentTarget: any}} event */
+  const now = ({ currentTarget }) =>
+    side === "views" ? currentTarget.closest(".lower").offsetHeight : sizes[side];
   /** @param {Press} event */
   const drag = (event) => {
     const from = across ? event.clientX : event.clientY;
-    const size = sizes[side];
+    const size = now(event);
     event.target.setPointerCapture(event.pointerId);
     event.target.onpointermove = (e) =>
       set(size + sign * ((across ? e.clientX : e.clientY) - from));
@@ -92,7 +95,7 @@ export function Splitter({ side, label }) {
       ArrowDown: across ? 0 : 16,
     })[event.key];
     if (!by) return;
-    set(sizes[side] + sign * by);
+    set(now(event) + sign * by);
     event.preventDefault();
     event.stopPropagation();
   };

@@ -26,8 +26,6 @@ export function Toolbar() {
     <${Button} icon="focus" name="Focus" keys="F"
       help="Look at the selection, or at the whole robot if nothing is selected."
       onClick=${() => act("tools/focus", [null, null])} />
-    <${Button} icon="zero" name="Zero" keys="Z" help="Reset the view to its default."
-      onClick=${() => act("tools/zero")} />
     <span class="gap"></span>
     <${EditButton} id="undo" keys="Ctrl+Z" />
     <${EditButton} id="redo" keys="Ctrl+Shift+Z" />

@@ -5,7 +5,7 @@ import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
 import { rows } from "../wire/channel.js";
 import { Connection } from "../wire/connection.js";
 import { Dialogs } from "../dialogs/dialog.js";
-import { hidden, shape, Splitter, togglePanels, useSizes } from "./splitters.js";
+import { hidden, room, shape, Splitter, togglePanels, useSizes } from "./splitters.js";
 import { DisplaysPanel } from "../panels/displays.js";
 import { Driving } from "../panels/drive.js";
 import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
@@ -80,12 +80,13 @@ function Left() {
   const away = hidden.use();
   useRow("panel:views");
   const views = rows.children("panel:views").length > 0 && !away.views;
+  const sizes = useSizes();
   if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
   return html`<aside class="left" aria-label="Left panels">
     ${!away.displays && html`<${DisplaysPanel} />`}
     ${
       views &&
-      html`<div class="lower" style=${`height:${useSizes().views}px`}>
+      html`<div class=${sizes.chosen ? "lower" : "lower free"} style=${`flex-basis:${sizes.views}px`}>
       <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`
     }
     <${Splitter} side="left" label="Width of the left panels" />
@@ -98,13 +99,34 @@ function Right() {
   for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
   const names = tabNames(TABS);
   const current = shownTab(TABS);
+  const below = useBelow(names, current);
   if (away.right || !current) return html`<${Tab} side="right" />`;
   return html`<aside class="right" aria-label="Right panels">
     <${Tabs} names=${names} of=${TABS} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}>
     <${TABS[current].content} /></div>
+    ${
+      below &&
+      html`<section class="panel below" aria-label=${TABS[below].title}>
+        <header class="title">${TABS[below].title}</header>
+        <div class="content"><${TABS[below].content} /></div>
+      </section>`
+    }
     <${Splitter} side="right" label="Width of the right panels" />
   </aside>`;
+}
+
+/** A window as high as this has room for another panel below a few joints [px]. */
+const HIGH = 800;
+const FEW_JOINTS = 6;
+
+/** The panel below Joints, where that would leave most of the column empty; in a component.
+ * @param {string[]} names the tabs that there are @param {string} current the chosen one */
+function useBelow(names, current) {
+  const { height } = room.use();
+  const joints = rows.panels.get("joints") || [];
+  const fits = height >= HIGH && current === "joints" && joints.length <= FEW_JOINTS;
+  return fits ? ["drive", "frames"].find((name) => names.includes(name)) : undefined;
 }
 
 function Sheet() {
