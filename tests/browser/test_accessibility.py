@@ -21,6 +21,9 @@ AXE = Path(__file__).parents[1] / ".venv/node/node_modules/axe-core/axe.min.js"
 RUN = """axe.run('#sambot').then(found => JSON.stringify(found.violations
   .filter(one => ['serious', 'critical'].includes(one.impact))
   .map(one => [one.id, one.nodes.map(node => node.html.slice(0, 200))])))"""
+SAID = """axe.run('#sambot', {runOnly: ['label-content-name-mismatch']})
+  .then(found => JSON.stringify(found.violations
+    .flatMap(one => one.nodes.map(node => node.html.slice(0, 200)))))"""
 TABS = ("Joints", "Frames", "Selection", "Drive", "Tool Properties")
 
 
@@ -50,6 +53,19 @@ def test_axe_finds_nothing_serious_in_light_and_in_dark(
             viewer.page.set_dark(dark)
             viewer.wait_for_frames()
             has_none(viewer.page)
+
+
+def test_what_is_said_to_a_button_of_a_phone_is_what_is_written_on_it(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    if not AXE.is_file():
+        pytest.skip("axe-core is not installed; bash tests/page/check installs it")
+    viewer = open_viewer(viz.url, width=390, height=844, touch=True)
+    open_viewer(viz.url)
+    viewer.user.find("button", "People: 2 browsers")
+    viewer.page.evaluate(AXE.read_text("utf-8") + ";0")
+    found = json.loads(viewer.page.evaluate(SAID, timeout=60.0))
+    assert found == []
 
 
 def test_axe_finds_nothing_serious_in_an_exported_page(

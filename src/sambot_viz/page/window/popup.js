@@ -64,8 +64,10 @@ export function Popup({ label, name, role, title, opened, children }) {
     event.preventDefault();
     event.stopPropagation();
   };
+  // Who speaks to the page says what is written on the button.
+  const spoken = typeof label === "string" ? `${name}: ${label}` : name;
   return html`<span class="popup">
-    <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${name}
+    <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${spoken}
       title=${title}
       onClick=${() => setOpen(!open)}>${label}</button>
     ${
