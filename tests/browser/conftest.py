@@ -170,7 +170,9 @@ def sit(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Callable[..., 
             letter: str, config: str | None = None, resolution: float = COARSE
         ) -> Desk:
             leaving.callback(_leave, desks, letter, request)
-            return desks.take(letter, config, resolution)
+            desk = desks.take(letter, config, resolution)
+            desk.viewer.sleep(False)
+            return desk
 
         yield at
 
@@ -186,6 +188,7 @@ def _leave(desks: Desks, letter: str, request: pytest.FixtureRequest) -> None:
         desk.tidy()
         assert desk.viewer.errors() == []
         assert desk.viewer.foreign_requests() == []
+        desk.viewer.sleep()
     except BaseException:
         desks.drop(letter)
         raise

@@ -43,12 +43,15 @@ _DRAW_SELDOM = f"""(() => {{
   const {{ gl, camera, invalidate }} = __viserMutable.scene.__r3f.root.getState();
   const draw = gl.render;
   let last = -Infinity;
+  let pause = 0;
   let later = null;
   gl.hurry = 0;
+  gl.asleep = false;
   gl.render = (scene, eye) => {{
     // A picture that was asked for has a camera of its own.
     const coarse = gl.getPixelRatio() <= {COARSE} && eye === camera;
-    const left = last + 400 - performance.now();
+    if (gl.asleep && eye === camera) return;
+    const left = last + pause - performance.now();
     if (coarse && gl.hurry === 0 && left > 0) {{
       later ??= setTimeout(() => {{
         later = null;
@@ -59,6 +62,8 @@ _DRAW_SELDOM = f"""(() => {{
     }}
     last = performance.now();
     draw.call(gl, scene, eye);
+    // Software draws a long time after this call, the longer the more it was told.
+    pause = Math.max(400, 30 * (performance.now() - last));
   }};
 }})()"""
 _TWO_FRAMES = """new Promise(done => {
@@ -70,6 +75,11 @@ _TWO_FRAMES = """new Promise(done => {
     done(null);
   }));
 })"""
+_SLEEP = """(() => {
+  const { gl, invalidate } = __viserMutable.scene.__r3f.root.getState();
+  gl.asleep = ASLEEP;
+  invalidate();
+})()"""
 _SET_RESOLUTION = """(() => {
   const { viewport, setDpr } = __viserMutable.scene.__r3f.root.getState();
   const before = viewport.dpr;
@@ -146,6 +156,10 @@ class ViewerPage:
     def wait_for(self, condition: str, timeout: float = 10.0) -> None:
         """Wait until a JavaScript expression is true."""
         self.page.wait_for(condition, patience(timeout))
+
+    def sleep(self, asleep: bool = True) -> None:
+        """Draw nothing while no test uses the page: viser draws once a second."""
+        self.page.evaluate(_SLEEP.replace("ASLEEP", "true" if asleep else "false"))
 
     def wait_for_frames(self) -> None:
         """Ask for a picture and wait until two frames have been drawn."""
