@@ -84,8 +84,8 @@ def test_the_secrets_may_come_from_variables(
     monkeypatch.setenv("SAMBOT_VIZ_PRESENTER", "of-the-teacher")
     for flags in ((), ("--presenter", "--token")):
         with running("--port", "0", *flags, cwd=tmp_path) as process:
-            assert address(process).endswith("/?token=of-the-environment")
-            assert address(process).endswith("/?token=of-the-teacher")
+            assert address(process).endswith("/?view=of-the-environment")
+            assert address(process).endswith("/?present=of-the-teacher")
 
 
 def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:

@@ -125,15 +125,16 @@ def test_a_presenter_gets_a_second_link_and_the_model_stays_the_model(
             process.stdout.readline().split() for _ in range(2)
         )
         assert (whose, secrets) == ("viewers:", "presenter:")
-        page, _, query = secret.partition("/?token=")
+        page, _, query = secret.partition("/?present=")
         assert page == link and len(query) == 22
         port = int(link.rsplit(":", 1)[1])
         drives: list[bool] = []
-        for path in ("", f"/?token={query}"):
+        # Links that were noted down before say "token".
+        for path in ("", f"/?present={query}", f"/?token={query}"):
             client = protocol(port, path=path)
             client.wait_until(lambda c=client: "role/me" in c.rows)
             drives.append(client.row("role/me")["value"]["control"])
-        assert drives == [False, True]
+        assert drives == [False, True, True]
 
 
 def test_a_presenters_secret_of_ones_own_is_written_in_one_word(tmp_path: Path) -> None:
@@ -142,7 +143,7 @@ def test_a_presenters_secret_of_ones_own_is_written_in_one_word(tmp_path: Path) 
         "--presenter=for-the-teacher", "arm.urdf", "--port", "0", cwd=tmp_path
     ) as process:
         assert address(process).startswith("http://127.0.0.1:")
-        assert address(process).endswith("/?token=for-the-teacher")
+        assert address(process).endswith("/?present=for-the-teacher")
 
 
 def test_behind_a_proxy_the_links_that_browsers_can_open_are_printed_too(
@@ -155,8 +156,8 @@ def test_behind_a_proxy_the_links_that_browsers_can_open_are_printed_too(
         assert address(process).startswith("http://127.0.0.1:")
         assert process.stderr is not None
         lines = [process.stderr.readline().strip() for _ in range(2)]
-    page = "https://lab.example.org/robot/?token="
+    page = "https://lab.example.org/robot/"
     assert lines == [
-        f"sambot-viz: from other machines, viewers: {page}for-the-class",
-        f"sambot-viz: from other machines, presenter: {page}for-the-teacher",
+        f"sambot-viz: from other machines, viewers: {page}?view=for-the-class",
+        f"sambot-viz: from other machines, presenter: {page}?present=for-the-teacher",
     ]

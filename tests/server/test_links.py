@@ -33,7 +33,7 @@ def options(**given: object) -> Options:
                 "presenter": "teach-the-class",
             },
             "http://localhost:8080/robot/",
-            "https://lab.example.org/robot/?token=secret-word",
+            "https://lab.example.org/robot/?view=secret-word",
             False,
         ),
         # Opened beside the server, which listens on a network.
@@ -59,7 +59,7 @@ def test_the_link_of_presenters_is_another_one() -> None:
         token="secret-word",
         presenter="teach-the-class",
     )
-    assert listener.public_url(given) == "https://lab.example.org/?token=secret-word"
+    assert listener.public_url(given) == "https://lab.example.org/?view=secret-word"
     presenter = listener.public_url(given, presenter=True)
-    assert presenter == "https://lab.example.org/?token=teach-the-class"
+    assert presenter == "https://lab.example.org/?present=teach-the-class"
     assert listener.public_url(options()) is None

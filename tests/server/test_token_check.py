@@ -14,15 +14,19 @@ from types import SimpleNamespace
 import pytest
 import viser
 from patience import until
+from websockets.datastructures import Headers
 from websockets.exceptions import InvalidStatus
+from websockets.http11 import Request
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
 from sambot_viz.server import token_check
 from sambot_viz.server.listener import Listener, listen
+from sambot_viz.server.token_check import TokenCheck
 
 TOKEN = "s3cret-of.the_lab"
+PRESENTER = "teach-the-class"
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
 
@@ -78,6 +82,32 @@ def test_the_printed_link_lets_in_and_leaves_the_address_bar(
     page = ask(port, "/?fixedDpr=1", {"Cookie": f"other=1; {cookie_of(first)}"})
     assert page.status == 200
     assert "</html>" in page.text
+
+
+def test_where_there_is_a_presenter_the_links_say_whose_they_are() -> None:
+    with listen(Options(token=TOKEN, presenter=PRESENTER)) as listener:
+        port = listener.viser.get_port()
+        page = f"http://127.0.0.1:{port}/"
+        assert listener.url() == f"{page}?view={TOKEN}"
+        assert listener.url(presenter=True) == f"{page}?present={PRESENTER}"
+        for name in ("view", "present", "token"):
+            for secret in (TOKEN, PRESENTER):
+                first = ask(port, f"/?{name}={secret}&fixedDpr=1")
+                assert (first.status, first.headers["Location"]) == (
+                    303,
+                    "./?fixedDpr=1",
+                )
+                assert cookie_of(first).endswith(f"={secret}")
+            assert ask(port, f"/?{name}=wrong-word").status == 401
+        assert ask(port, f"/?view={TOKEN}&present={PRESENTER}").status == 400
+
+
+@pytest.mark.parametrize("name", ["present", "token", "view"])
+def test_the_secret_decides_who_is_a_presenter_and_not_its_name(name: str) -> None:
+    check = TokenCheck(TOKEN, PRESENTER)
+    for secret, expected in ((PRESENTER, True), (TOKEN, False), ("wrong", False)):
+        request = Request(f"/?{name}={secret}", Headers({"Host": "127.0.0.1"}))
+        assert check.is_presenter(request) is expected
 
 
 def test_the_cookie_goes_where_the_page_was_opened(port: int) -> None:

@@ -7,7 +7,7 @@ from urllib.parse import urlsplit
 from sambot_viz.options import Options
 from sambot_viz.panels.people import Invitation
 from sambot_viz.server.access import only_this_machine
-from sambot_viz.server.listener import public_url, reachable_at, with_token
+from sambot_viz.server.listener import public_url, reachable_at, with_secret
 
 
 def invite(options: Options, opened_at: str) -> Invitation:
@@ -29,7 +29,7 @@ def invite(options: Options, opened_at: str) -> Invitation:
         name = f"[{host}]" if ":" in host else host
         port = "" if here.port is None else f":{here.port}"
         base, local = here._replace(netloc=f"{name}{port}").geturl(), False
-    return _as_code(with_token(base, options.token), local)
+    return _as_code(with_secret(base, options), local)
 
 
 def _as_code(link: str, only_here: bool) -> Invitation:

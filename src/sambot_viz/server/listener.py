@@ -90,12 +90,12 @@ class Listener:
         options = self._options
         if options.unix_socket is not None:
             return f"unix:{options.unix_socket}"
-        token = options.presenter if presenter else options.token
         own = self.viser.get_host()
         host = host or _ANYWHERE.get(own, own)
         name = f"[{host}]" if ":" in host else host
         path = "" if options.base_path == "/" else options.base_path
-        return with_token(f"http://{name}:{self.viser.get_port()}{path}", token)
+        base = f"http://{name}:{self.viser.get_port()}{path}"
+        return with_secret(base, options, presenter=presenter)
 
     def __enter__(self) -> Listener:
         """Return this listener, which the end of the block closes."""
@@ -115,9 +115,16 @@ class Listener:
                 os.unlink(path)
 
 
-def with_token(base: str, token: str | None) -> str:
-    """Return the address of a page with a secret in it."""
-    return base if token is None else f"{base.rstrip('/')}/?token={token}"
+def with_secret(base: str, options: Options, *, presenter: bool = False) -> str:
+    """Return the address of a page with its secret, under a name that says whose it is.
+
+    Two links that look alike end up in the wrong chat.
+    """
+    secret = options.presenter if presenter else options.token
+    if secret is None:
+        return base
+    name = "token" if options.presenter is None else "view"
+    return f"{base.rstrip('/')}/?{'present' if presenter else name}={secret}"
 
 
 def public_url(options: Options, *, presenter: bool = False) -> str | None:
@@ -129,8 +136,8 @@ def public_url(options: Options, *, presenter: bool = False) -> str | None:
     if not options.allowed_origins:
         return None
     path = "" if options.base_path == "/" else options.base_path
-    token = options.presenter if presenter else options.token
-    return with_token(f"{options.allowed_origins[0]}{path}", token)
+    base = f"{options.allowed_origins[0]}{path}"
+    return with_secret(base, options, presenter=presenter)
 
 
 def reachable_at(host: str) -> str:

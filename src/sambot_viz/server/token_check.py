@@ -3,7 +3,8 @@
 The first page that is opened with ``?token=…`` is answered with a cookie and the same
 address without the token, which so is neither in the history nor on a screen that is
 shared. Programs may send it with every request, as ``Authorization: Bearer …`` or in
-the address.
+the address. Where there is a presenter, the links say ``?view=…`` and ``?present=…``;
+only the secret counts, so a link that was noted down as ``?token=…`` still works.
 
 What stays weak: without TLS, whoever reads along on the network reads the token too; a
 browser that has it can pass it on.
@@ -29,6 +30,8 @@ MOST_WAITING = 20
 """So many wrong tokens are answered at the same time; more are not looked at."""
 _KEPT = "%!$&'()*+,;=:@~"
 """In the last part of a path, what is sent back as it came."""
+SECRET_NAMES = ("token", "view", "present")
+"""The parameters of an address that may hold a secret."""
 Knows = Callable[[str], bool]
 """Takes the Cookie header of a request."""
 _REMEMBERED = 30 * 24 * 3600
@@ -202,8 +205,9 @@ def _split(path: str) -> tuple[str, list[bytes]]:
     # Not urlsplit, which raises for some paths that a client can send.
     where, _, text = path.partition("?")
     query = parse_qsl(text, keep_blank_values=True)
-    given = [_bytes(value) for name, value in query if name == "token"]
-    rest = urlencode([pair for pair in query if pair[0] != "token"], errors="replace")
+    given = [_bytes(value) for name, value in query if name in SECRET_NAMES]
+    others = [pair for pair in query if pair[0] not in SECRET_NAMES]
+    rest = urlencode(others, errors="replace")
     # Relative: a proxy may show the page below another path, and on another host.
     where = f"./{quote(where.rpartition('/')[2], safe=_KEPT, errors='replace')}"
     return f"{where}?{rest}" if rest else where, given
