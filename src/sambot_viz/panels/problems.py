@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import cache
 from pathlib import Path, PurePath
+from typing import cast
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Level, Row
+from sambot_viz.panels.row import Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
 from sambot_viz.session.problems import Problems
@@ -20,6 +24,8 @@ MOST_SHOWN = 100
 """So many groups of problems, and of the problems of one group, have rows."""
 LINES_AROUND = 2
 _LONGEST_FILE = 60
+_FOLDERS = re.compile(r"(?<![\w.)])/([^\s/'\"<>]+)/(?:[^\s/'\"<>]+/)*")
+"""The folders of an absolute path in a text."""
 _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
 
 
@@ -32,11 +38,19 @@ class ProblemsPanel(Panel):
     Args:
         problems: what is shown.
         remake: called when a page has unfolded something.
+        folders: whether paths are whole; others than those at the server's own disk
+            see only the names of its files.
     """
 
     name = "problems"
 
-    def __init__(self, problems: Problems, remake: Callable[[Panel], None]) -> None:
+    def __init__(
+        self,
+        problems: Problems,
+        remake: Callable[[Panel], None],
+        folders: bool = True,
+    ) -> None:
+        self._folders = folders
         self.remade_by = (problems.shown,)
         self._problems = problems
         self._lazy = LazyRows("problems/unfold", lambda: remake(self))
@@ -48,7 +62,10 @@ class ProblemsPanel(Panel):
         note = shown.note
         banner = Row("problems/good", "", "note", value=note, level="error")
         groups = group_problems(shown.listed)
-        return [*([banner] if note else ()), *self._group_rows(groups)]
+        made = [*([banner] if note else ()), *self._group_rows(groups)]
+        if self._folders:
+            return made
+        return [replace(row, value=_without_folders(row.value)) for row in made]
 
     def data(self) -> Sequence[Data]:
         """Return how many causes there are of each severity."""
@@ -113,6 +130,24 @@ def place_of(problem: Problem) -> str:
         return ""
     name = text(PurePath(problem.file).name, _LONGEST_FILE)
     return name if problem.line is None else f"{name}:{problem.line}"
+
+
+def _without_folders(value: Json) -> Json:
+    """Leave out the folders of this computer in a sentence, or in lines of a file."""
+    if isinstance(value, list):
+        return [
+            (number, _without_folders(line))
+            for number, line in cast("list[tuple[int, str]]", value)
+        ]
+    if not isinstance(value, str):
+        return value
+    return _FOLDERS.sub(lambda m: "" if _is_folder(m[1]) else m[0], value)
+
+
+@cache
+def _is_folder(name: str) -> bool:
+    """Tell folders of the disk from the names of topics, which look like them."""
+    return Path(f"/{name}").is_dir()
 
 
 def rows_by_place(problems: Iterable[Problem]) -> dict[str, str]:

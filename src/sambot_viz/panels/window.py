@@ -71,12 +71,13 @@ class Window:
         session, remake = self._session, self._remake
         robot, scene, history = session.robot, session.scene, session.history
         is_copy = session.private and session.options.session == "shared"
+        folders = self._files is not None and not session.roles.presented
         panels: list[Panel] = [
             SessionInfoPanel(session.document, scene, session.private),
             StatusBarPanel(scene),
             PeoplePanel(session.roles, is_copy),
             self._displays,
-            ProblemsPanel(session.problems, remake),
+            ProblemsPanel(session.problems, remake, folders),
             DisplayCommands(session.display_edits, self._displays, remake),
         ]
         if session.data is not None:
