@@ -4,7 +4,7 @@ Nothing is decoded here, no thread is started, and a file is never read whole.
 """
 
 from sambot_viz.sources.bag.bag import Bag, RecordedTopic
-from sambot_viz.sources.bag.open_bag import open_bag, open_recording
+from sambot_viz.sources.bag.opening import open_bag, open_recording
 from sambot_viz.sources.bag.recording import Recording
 
 __all__ = ["Bag", "RecordedTopic", "Recording", "open_bag", "open_recording"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections import Counter, OrderedDict
+from collections import Counter, OrderedDict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -63,7 +63,7 @@ class BlockBag(ABC):
         self._counts: Counter[int] = Counter()
         # What the file itself says, when that is used in place of counting.
         self._stated: Counter[int] | None = None
-        self._to_collect: list[Block] = []
+        self._to_collect: deque[Block] = deque()
         self._met = 0
         self._broken: set[int] = set()
         self._latched = LatchedMessages()
@@ -172,29 +172,28 @@ class BlockBag(ABC):
     def _find_all(self) -> Iterator[int]:
         yield from self._find()
         self._is_finding = False
+        wanted = self._wanted()
         while self._to_collect:
-            block = self._to_collect.pop(0)
-            wanted = {
-                number
-                for number, channel in self._channels.items()
-                if channel.is_latched and self._latched.wants(channel.topic)
-            }
+            block = self._to_collect.popleft()
             if not wanted.isdisjoint(block.channels):
                 entries = self._read_or_none(block)
                 if entries is not None:
                     self._collect(block, entries)
+                    wanted = self._wanted()
                     yield entries.size // 1000 + len(entries.times)
             yield 1
 
+    def _wanted(self) -> set[int]:
+        """Return the channels of latched topics for whose messages there is room."""
+        return {
+            number
+            for number, channel in self._channels.items()
+            if channel.is_latched and self._latched.wants(channel.topic)
+        }
+
     def _collect(self, block: Block, entries: Entries) -> None:
         """Keep the messages of latched topics that are in a block."""
-        latched = [
-            number
-            for number in block.channels
-            if (channel := self._channels.get(number)) is not None
-            and channel.is_latched
-            and self._latched.wants(channel.topic)
-        ]
+        latched = sorted(self._wanted() & block.channels)
         if latched:
             for number in np.flatnonzero(np.isin(entries.channels, latched)).tolist():
                 message = self._taken(entries, number)
@@ -202,8 +201,9 @@ class BlockBag(ABC):
                     with self._lock:
                         self._latched.add(message)
 
-    def index_more(self, work: int = STEP) -> bool:
+    def index_more(self, work: int | None = None) -> bool:
         """Find more messages; see `Bag.index_more`."""
+        work = STEP if work is None else work
         with self._finding:
             done = 0
             try:

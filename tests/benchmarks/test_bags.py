@@ -1,0 +1,138 @@
+"""A recording of 1.1 GB is opened and jumped in without being read.
+
+    python -m pytest tests/benchmarks/test_bags.py -s
+
+The same is done with the `mcap` package in the same run; the file is in the cache of
+the system for both.
+"""
+
+from __future__ import annotations
+
+import random
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from mcap.reader import make_reader
+from mcap.writer import CompressionType, Writer
+
+from sambot_viz.sources.bag import Bag, open_bag
+
+SIZE = 1_100_000_000
+TOPICS = ("/tf", "/joint_states", "/odom", "/scan", "/points", "/tf_static")
+START = 1_700_000_000 * 10**9
+STEP = 4_000_000
+OPENING = 1.0
+JUMP = 0.05
+MEMORY = 100.0
+
+
+def write(path: Path, *, chunks: bool) -> None:
+    """Write what a robot with a lidar records, by rosbag2's default in chunks."""
+    rng = random.Random(1)
+    small = [rng.randbytes(size) for size in (120, 300, 1500, 3000)]
+    cloud = rng.randbytes(400_000)
+    with path.open("wb") as stream:
+        writer = Writer(
+            stream,
+            768 * 1024,
+            CompressionType.NONE,
+            use_chunking=chunks,
+            enable_crcs=False,
+        )
+        writer.start("ros2", "benchmark")
+        schema = writer.register_schema("a/msg/A", "ros2msg", b"uint8[] a")
+        channels = [writer.register_channel(name, "cdr", schema) for name in TOPICS]
+        writer.add_message(channels[5], START, small[1], START)
+        number = total = 0
+        while total < SIZE:
+            number += 1
+            kind = 4 if number % 27 == 0 else number % 4
+            data = cloud if kind == 4 else small[kind]
+            at = START + number * STEP
+            writer.add_message(channels[kind], at, data, at)
+            total += len(data)
+        writer.finish()
+
+
+@pytest.fixture(scope="module", params=[True, False], ids=["chunks", "fastwrite"])
+def large(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Path]:
+    path = tmp_path_factory.mktemp("bags") / "large.mcap"
+    write(path, chunks=request.param)
+    yield path
+    path.unlink()
+
+
+def jump(bag: Bag, at: int) -> None:
+    """Get what the displays of six topics show."""
+    for topic in TOPICS:
+        assert bag.last(topic, at) is not None
+
+
+def test_it_opens_and_jumps_faster_than_the_package(
+    large: Path, compare: Callable[..., Any]
+) -> None:
+    def ours() -> None:
+        open_bag(large).close()
+
+    def theirs() -> None:
+        with large.open("rb") as stream:
+            make_reader(stream).get_summary()
+
+    opening = compare("opening", ours, theirs, rounds=5)
+    assert min(opening.ours) < OPENING
+    rng = random.Random(2)
+    with open_bag(large) as bag, large.open("rb") as stream:
+        reader = make_reader(stream)
+        first, last = bag.start_ns or 0, bag.end_ns or 0
+        times: list[float] = []
+        for _ in range(100):
+            at = rng.randrange(first + 10**9, last)
+            begin = time.perf_counter()
+            jump(bag, at)
+            times.append(time.perf_counter() - begin)
+        times.sort()
+        print(f"\njump p50 {times[50] * 1e3:.1f} ms, worst {times[-1] * 1e3:.1f} ms")
+        assert times[50] < JUMP
+
+        def our_step() -> None:
+            at = rng.randrange(first + 10**9, last)
+            next(bag.messages(at, at + 10**9))
+
+        def their_step() -> None:
+            at = rng.randrange(first + 10**9, last)
+            next(iter(reader.iter_messages(starting_at=at, ending_before=at + 10**9)))
+
+        rounds = 5 if times[50] else 0
+        result = compare(
+            f"message at a time, {large.name}", our_step, their_step, rounds
+        )
+        assert result.ratio < 1
+
+
+def test_it_takes_little_memory(large: Path) -> None:
+    script = (
+        "import sys, numpy, zstandard, lz4.frame\n"
+        "from sambot_viz.sources.bag import open_bag\n"
+        "def peak():\n"
+        "    lines = open('/proc/self/status').read().splitlines()\n"
+        "    (line,) = [line for line in lines if line.startswith('VmHWM')]\n"
+        "    return int(line.split()[1]) / 1024\n"
+        "before = peak()\n"
+        "with open_bag(sys.argv[1]) as bag:\n"
+        "    for n, m in enumerate(bag.messages()):\n"
+        "        if n > 20000: break\n"
+        "    for at in range(bag.start_ns, bag.end_ns, 10**10):\n"
+        "        [bag.last(topic, at) for topic in bag.topics]\n"
+        "print(peak() - before)\n"
+    )
+    command = [sys.executable, "-c", script, str(large)]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    print(f"\nown memory {float(done.stdout):.0f} MB")
+    assert float(done.stdout) < MEMORY
