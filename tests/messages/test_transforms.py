@@ -87,3 +87,95 @@ def test_any_cut_is_refused(encoding: str) -> None:
 def test_an_announced_length_costs_nothing() -> None:
     with pytest.raises(DecodeError, match="longer than its message"):
         TransformDecoder("cdr").decode(b"\0\1\0\0" + b"\xff" * 200)
+
+
+def many(
+    count: int, second: int = 5, word: str = "frame"
+) -> tuple[tuple[int, str, str], ...]:
+    """Rows with frames of all lengths, so that CDR aligns in all ways."""
+    names = [word + "x" * (i % 9) + str(i) for i in range(count + 1)]
+    return tuple((second * 10**9 + 7, names[i], names[i + 1]) for i in range(count))
+
+
+WRITERS = {
+    "cdr": ("cdr", message),
+    "cdr, big-endian": ("cdr", lambda *rows: message(*rows, order=">")),
+    "ros1": ("ros1", message_ros1),
+}
+
+
+@pytest.mark.parametrize("how", WRITERS)
+def test_the_second_message_with_the_same_frames_is_read_as_the_first(how: str) -> None:
+    encoding, write = WRITERS[how]
+    decoder = TransformDecoder(encoding)
+    ((_, edges, poses),) = decoder.decode(write(*many(50)))
+    for second in (-6, 1_750_000_000) if encoding == "cdr" else (0, 4_000_000_000):
+        ((stamp, again, same),) = decoder.decode(write(*many(50, second)))
+        assert stamp == second * 10**9 + 7
+        assert again is edges
+        assert same.dtype == np.float64 and same.dtype.isnative
+        assert same.tolist() == poses.tolist()
+
+
+@pytest.mark.parametrize("how", WRITERS)
+def test_a_message_as_long_with_other_frames_is_not_mistaken(how: str) -> None:
+    encoding, write = WRITERS[how]
+    decoder = TransformDecoder(encoding)
+    words = ("frame", "phase", "flame", "stage", "place", "plane")
+    for word in (*words, *words):
+        rows = many(20, word=word)
+        ((_, edges, _),) = decoder.decode(write(*rows))
+        assert edges == tuple(row[1:] for row in rows)
+
+
+@pytest.mark.parametrize("how", WRITERS)
+def test_stamps_that_part_are_told_apart_by_a_template_too(how: str) -> None:
+    encoding, write = WRITERS[how]
+    decoder = TransformDecoder(encoding)
+    decoder.decode(write(*many(9)))
+    rows = [(i % 2 * 10**9, *row[1:]) for i, row in enumerate(many(9))]
+    first, second = decoder.decode(write(*rows))
+    assert (first[0], second[0]) == (0, 10**9)
+    assert first[1] == tuple(row[1:] for row in rows[::2])
+    assert second[2][:, 0].tolist() == [1, 3, 5, 7]
+
+
+@pytest.mark.parametrize("how", WRITERS)
+def test_a_template_reads_what_a_new_decoder_reads(how: str) -> None:
+    """Whatever byte of a message is changed: the same transforms, or refused."""
+    encoding, write = WRITERS[how]
+    payload = write(*many(7))
+    trained = TransformDecoder(encoding)
+    trained.decode(payload)
+
+    def outcome(decoder: TransformDecoder, data: bytes) -> object:
+        try:
+            found = decoder.decode(data)
+        except DecodeError:
+            return None
+        return [(stamp, edges, poses.tobytes()) for stamp, edges, poses in found]
+
+    for place in range(len(payload)):
+        for flip in (1, 0x80, 0xFF):
+            data = bytearray(payload)
+            data[place] ^= flip
+            expected = outcome(TransformDecoder(encoding), data)
+            assert outcome(trained, data) == expected, (place, flip)
+
+
+def test_zeros_behind_a_message_are_tolerated_and_more_is_not() -> None:
+    decoder, payload = TransformDecoder("cdr"), message(*many(8))
+    for _ in range(2):
+        assert decoder.decode(payload + bytes(8))[0][0] == 5_000_000_007
+        assert decoder.decode(payload + b"abc")[0][0] == 5_000_000_007
+        for more in (b"abcd", bytes(9)):
+            with pytest.raises(DecodeError, match="longer than its transforms"):
+                decoder.decode(payload + more)
+
+
+def test_frames_that_change_for_ever_fill_no_memory() -> None:
+    decoder = TransformDecoder("cdr")
+    for number in range(1000):
+        decoder.decode(message(*many(6, word=f"{number}" + "y" * (number % 60))))
+    assert len(decoder._templates) <= 32
+    assert len(decoder._edges) <= 513

@@ -1,8 +1,14 @@
-"""The one type that has a decoder by hand: transforms, which come by the thousand."""
+"""The one type that has a decoder by hand: transforms, which come by the thousand.
+
+A publisher sends the same frames again and again, so that its messages differ in their
+stamps and poses alone. The first one is read field by field and leaves a template; the
+next ones are compared with it and give their numbers by two look-ups in numpy.
+"""
 
 from __future__ import annotations
 
 import struct
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,6 +24,15 @@ Transforms = tuple[int, Edges, NDArray[np.float64]]
 
 _MOST_KEPT = 512
 """So many lists of frames are kept; each publisher has one or two."""
+_MOST_TEMPLATES = 32
+_MOST_OF_A_LENGTH = 4
+_FEWEST_ROWS = 6
+"""Fewer transforms are read field by field in less time."""
+_LARGEST_TEMPLATE = 1 << 18
+"""Bytes of a message; a template has twice as many."""
+_PADDING = 3
+_ZEROS = 8
+"""As many zeros as rclpy.serialize_message leaves behind a message."""
 
 
 class TransformDecoder:
@@ -33,6 +48,8 @@ class TransformDecoder:
     def __init__(self, message_encoding: str) -> None:
         self._is_ros1 = message_encoding == "ros1"
         self._edges: dict[Edges, Edges] = {}
+        # Tuples that are replaced as a whole: several players may read at a time.
+        self._templates: dict[tuple[int, int], tuple[_TransformTemplate, ...]] = {}
 
     def decode(self, payload: Payload) -> list[Transforms]:
         """Return the transforms of a message, one entry for each stamp in it.
@@ -40,55 +57,179 @@ class TransformDecoder:
         Raises:
             DecodeError: the bytes are no such message.
         """
+        data = bytes(payload)
+        key = len(data), 0 if self._is_ros1 or not data[1:] else data[1]
+        for template in self._templates.get(key, ()):
+            if (found := template.read(data)) is not None:
+                stamps, poses = found
+                return self._split(stamps, template.edges, poses)
         try:
-            rows = _Ros1(payload) if self._is_ros1 else _Cdr(payload)
-            return self._grouped(rows.read())
+            rows = _Ros1(data) if self._is_ros1 else _Cdr(data)
+            read = rows.read()
         except (struct.error, UnicodeDecodeError):
             raise DecodeError("it is cut off or of another type") from None
+        edges = self._one(tuple((row[1], row[2]) for row in read))
+        if len(read) >= _FEWEST_ROWS and len(data) <= _LARGEST_TEMPLATE:
+            self._keep(key, _TransformTemplate(data, rows, edges))
+        poses = np.array([row[3] for row in read], dtype=np.float64)
+        return self._split([row[0] for row in read], edges, poses)
 
-    def _grouped(self, rows: list[_Row]) -> list[Transforms]:
-        stamps: dict[int, list[_Row]] = {}
-        for row in rows:
-            stamps.setdefault(row[0], []).append(row)
-        found: list[Transforms] = []
-        for stamp, some in stamps.items():
-            edges = tuple((row[1], row[2]) for row in some)
-            if len(self._edges) > _MOST_KEPT:
-                self._edges.clear()
-            edges = self._edges.setdefault(edges, edges)
-            poses = np.array([row[3] for row in some], dtype=np.float64)
-            found.append((stamp, edges, poses))
-        return found
+    def _keep(self, key: tuple[int, int], template: _TransformTemplate) -> None:
+        if len(self._templates) >= _MOST_TEMPLATES:
+            self._templates = {}
+        known = self._templates.get(key, ())
+        self._templates[key] = (template, *known)[:_MOST_OF_A_LENGTH]
+
+    def _split(
+        self, stamps: list[int], edges: Edges, poses: NDArray[np.float64]
+    ) -> list[Transforms]:
+        """Return an entry for each stamp, in the order of their first rows."""
+        if stamps.count(stamps[0] if stamps else 0) == len(stamps):
+            return [(stamps[0], edges, poses)] if stamps else []
+        rows: dict[int, list[int]] = {}
+        for row, stamp in enumerate(stamps):
+            rows.setdefault(stamp, []).append(row)
+        return [
+            (stamp, self._one(tuple(edges[row] for row in some)), poses[some])
+            for stamp, some in rows.items()
+        ]
+
+    def _one(self, edges: Edges) -> Edges:
+        if len(self._edges) > _MOST_KEPT:
+            self._edges.clear()
+        return self._edges.setdefault(edges, edges)
 
 
 _Row = tuple[int, str, str, Any]
 
 
-class _Cdr:
+class _FieldReader:
+    """Reads a message field by field, and notes where its numbers are.
+
+    Attributes:
+        order: of the bytes, "<" or ">".
+        sec: kind of a stamp's seconds: "i4", or "u4" in ROS 1.
+        stamps: where each stamp begins.
+        poses: where each pose begins.
+        gaps: (begin, end) of bytes without meaning.
+    """
+
+    order: str = "<"
+    sec: str = "u4"
+
+    def __init__(self) -> None:
+        self.stamps: list[int] = []
+        self.poses: list[int] = []
+        self.gaps: list[tuple[int, int]] = []
+
+    def read(self) -> list[_Row]:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, slots=True)
+class _SameBytes:
+    """Which bytes are the same in all messages of a template, and these bytes."""
+
+    mask: NDArray[np.uint8]
+    constant: bytes
+
+    @classmethod
+    def of(cls, data: bytes, reader: _FieldReader) -> _SameBytes:
+        mask = np.full(len(data), 255, np.uint8)
+        for begin in reader.stamps:
+            mask[begin : begin + 8] = 0
+        for begin in reader.poses:
+            mask[begin : begin + 56] = 0
+        for begin, end in reader.gaps:
+            mask[begin:end] = 0
+        return cls(mask, (np.frombuffer(data, np.uint8) & mask).tobytes())
+
+    def fits(self, data: bytes) -> bool:
+        return (np.frombuffer(data, np.uint8) & self.mask).tobytes() == self.constant
+
+
+class _TransformTemplate:
+    """The layout of messages that have the same frames.
+
+    Args:
+        data: one of them.
+        reader: what has read it.
+        edges: its frames.
+    """
+
+    def __init__(self, data: bytes, reader: _FieldReader, edges: Edges) -> None:
+        self.edges = edges
+        self._pattern = _SameBytes.of(data, reader)
+        self._stamps = np.array(reader.stamps, np.intp)
+        self._poses = np.array(reader.poses, np.intp)
+        self._seconds = np.dtype(reader.order + reader.sec)
+        self._nanoseconds = np.dtype(reader.order + "u4")
+        self._number = np.dtype(reader.order + "f8")
+
+    def read(self, data: bytes) -> tuple[list[int], NDArray[np.float64]] | None:
+        """Return the stamps [ns] and poses of a message as long as the first one.
+
+        None when it has other frames.
+        """
+        if not self._pattern.fits(data):
+            return None
+        stamps = _pieces(data, 8, self._stamps)
+        seconds = np.frombuffer(stamps, self._seconds)[::2].astype(np.int64)
+        nanoseconds = np.frombuffer(stamps, self._nanoseconds)[1::2].astype(np.int64)
+        poses = np.frombuffer(_pieces(data, 56, self._poses), self._number)
+        times = (seconds * 1_000_000_000 + nanoseconds).tolist()
+        return times, np.reshape(poses.astype(np.float64), (-1, 7))
+
+
+def _pieces(data: bytes, size: int, places: NDArray[np.intp]) -> bytes:
+    """Return the pieces of that size that begin at some bytes, one after the other."""
+    # A piece begins at every byte: fields of ROS 1 are not aligned.
+    begins = len(data) - size + 1
+    every = np.ndarray((begins,), np.dtype((np.void, size)), data, 0, (1,))
+    return every[places].tobytes()
+
+
+class _Cdr(_FieldReader):
     """A reader of CDR: all is aligned to its size, texts end with a zero."""
 
-    def __init__(self, payload: Payload) -> None:
-        head = bytes(payload[:2])
-        if len(payload) < 4 or head not in (b"\0\0", b"\0\1"):
-            raise DecodeError(f"it begins with {head.hex() or 'nothing'}, not CDR")
-        order = "<" if head[1] else ">"
-        self._data = bytes(memoryview(payload)[4:])
-        self._length = struct.Struct(order + "I").unpack_from
-        self._stamp = struct.Struct(order + "iI").unpack_from
-        self._pose = struct.Struct(order + "7d").unpack_from
+    sec = "i4"
+
+    def __init__(self, data: bytes) -> None:
+        super().__init__()
+        if len(data) < 4 or data[:2] not in (b"\0\0", b"\0\1"):
+            raise DecodeError(f"it begins with {data[:2].hex() or 'nothing'}, not CDR")
+        self.order = "<" if data[1] else ">"
+        self._data = data[4:]
+        self._length = struct.Struct(self.order + "I").unpack_from
+        self._stamp = struct.Struct(self.order + "iI").unpack_from
+        self._pose = struct.Struct(self.order + "7d").unpack_from
+        # Two bytes of the head are options that nobody reads.
+        self.gaps.append((2, 4))
 
     def read(self) -> list[_Row]:
         data, position, rows = self._data, 4, list[_Row]()
         for _ in range(_checked(self._length(data, 0)[0], data)):
-            position = (position + 3) & -4
+            position = self._aligned(position, 4)
             sec, nanosec = self._stamp(data, position)
+            self.stamps.append(position + 4)
             parent, position = self._text(position + 8)
-            child, position = self._text((position + 3) & -4)
-            position = (position + 7) & -8
+            child, position = self._text(self._aligned(position, 4))
+            position = self._aligned(position, 8)
             pose = self._pose(data, position)
+            self.poses.append(position + 4)
             position += 56
             rows.append((sec * 10**9 + nanosec, parent, child, pose))
+        left = len(data) - position
+        if left > _PADDING and (left > _ZEROS or any(data[position:])):
+            raise DecodeError("it is longer than its transforms")
+        self.gaps.append((position + 4, position + 4 + min(left, _PADDING)))
         return rows
+
+    def _aligned(self, position: int, size: int) -> int:
+        end = (position + size - 1) & -size
+        if end > position:
+            self.gaps.append((position + 4, end + 4))
+        return end
 
     def _text(self, position: int) -> tuple[str, int]:
         end = position + 4 + self._length(self._data, position)[0]
@@ -97,11 +238,12 @@ class _Cdr:
         return self._data[position + 4 : end].rstrip(b"\0").decode(), end
 
 
-class _Ros1:
+class _Ros1(_FieldReader):
     """A reader of ROS 1: nothing is aligned, headers have a number."""
 
-    def __init__(self, payload: Payload) -> None:
-        self._data = bytes(payload)
+    def __init__(self, data: bytes) -> None:
+        super().__init__()
+        self._data = data
         self._length = struct.Struct("<I").unpack_from
         self._stamp = struct.Struct("<4xII").unpack_from
         self._pose = struct.Struct("<7d").unpack_from
@@ -110,11 +252,17 @@ class _Ros1:
         data, position, rows = self._data, 4, list[_Row]()
         for _ in range(_checked(self._length(data, 0)[0], data)):
             sec, nanosec = self._stamp(data, position)
+            # The number of the message, which nobody reads.
+            self.gaps.append((position, position + 4))
+            self.stamps.append(position + 4)
             parent, position = self._text(position + 12)
             child, position = self._text(position)
             pose = self._pose(data, position)
+            self.poses.append(position)
             position += 56
             rows.append((sec * 10**9 + nanosec, parent, child, pose))
+        if position != len(data):
+            raise DecodeError("it is longer than its transforms")
         return rows
 
     def _text(self, position: int) -> tuple[str, int]:
