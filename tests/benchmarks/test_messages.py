@@ -1,0 +1,112 @@
+"""Decoding: what the decoder by hand saves, and that a cloud is not copied."""
+
+from __future__ import annotations
+
+import statistics
+import time
+import tracemalloc
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from sambot_viz.messages import MessageTypes, Schema, TransformDecoder
+
+FRAMES = 300
+MICROSECONDS = 60
+"""For a message of 300 transforms; printed, and judged with the slack of a busy
+machine."""
+LEAST_RATIO = 15
+
+
+def medians(*ways: Callable[[], object], rounds: int = 15) -> list[float]:
+    """Median seconds of each, run in turn, ten times each."""
+    times: list[list[float]] = [[] for _ in ways]
+    for _ in range(rounds):
+        for way, spent in zip(ways, times, strict=True):
+            start = time.perf_counter()
+            for _ in range(10):
+                way()
+            spent.append((time.perf_counter() - start) / 10)
+    return [statistics.median(each) for each in times]
+
+
+def transforms(store: Any) -> bytes:
+    stamp = store.types["builtin_interfaces/msg/Time"](sec=7, nanosec=5)
+    head, row, transform, vector, turn = (
+        store.types[name]
+        for name in (
+            "std_msgs/msg/Header",
+            "geometry_msgs/msg/TransformStamped",
+            "geometry_msgs/msg/Transform",
+            "geometry_msgs/msg/Vector3",
+            "geometry_msgs/msg/Quaternion",
+        )
+    )
+    rows = [
+        row(
+            header=head(stamp=stamp, frame_id=f"robot_link_{number}"),
+            child_frame_id=f"robot_link_{number + 1}",
+            transform=transform(
+                translation=vector(x=float(number), y=0.0, z=0.0),
+                rotation=turn(x=0.0, y=0.0, z=0.0, w=1.0),
+            ),
+        )
+        for number in range(FRAMES)
+    ]
+    name = "tf2_msgs/msg/TFMessage"
+    return bytes(store.serialize_cdr(store.types[name](transforms=rows), name))
+
+
+def test_transforms_cost_a_fraction_of_what_rosbags_takes() -> None:
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    payload, name = transforms(store), "tf2_msgs/msg/TFMessage"
+    decoder = TransformDecoder("cdr")
+    ((_, edges, poses),) = decoder.decode(payload)
+    assert len(edges) == FRAMES
+    assert poses[:, 0].tolist() == list(range(FRAMES))
+    ours, theirs = medians(
+        lambda: decoder.decode(payload), lambda: store.deserialize_cdr(payload, name)
+    )
+    print(f"\n{FRAMES} transforms: {ours * 1e6:.0f} µs, rosbags {theirs * 1e6:.0f} µs")
+    assert theirs / ours >= LEAST_RATIO
+    assert ours * 1e6 <= 4 * MICROSECONDS
+
+
+def test_a_cloud_of_a_megabyte_is_not_copied() -> None:
+    from rosbags.typesys import Stores, get_typestore
+
+    store, name = get_typestore(Stores.ROS2_JAZZY), "sensor_msgs/msg/PointCloud2"
+    size = 1 << 20
+    message = store.types[name](
+        header=store.types["std_msgs/msg/Header"](
+            stamp=store.types["builtin_interfaces/msg/Time"](sec=7, nanosec=5),
+            frame_id="lidar",
+        ),
+        height=1,
+        width=size // 16,
+        fields=[],
+        is_bigendian=False,
+        point_step=16,
+        row_step=size,
+        data=np.zeros(size, np.uint8),
+        is_dense=True,
+    )
+    payload = bytes(store.serialize_cdr(message, name))
+    decoder = MessageTypes(distro="jazzy").decoder(Schema(name), "cdr")
+    decoder.decode(payload)
+    tracemalloc.start()
+    try:
+        cloud = decoder.decode(payload)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < size / 10
+    assert np.shares_memory(cloud.data, np.frombuffer(payload, np.uint8))
+    assert not cloud.data.flags.writeable
+    decoding, copying = medians(
+        lambda: decoder.decode(payload), lambda: bytearray(payload)
+    )
+    print(f"\n1 MB: {decoding * 1e6:.0f} µs, a copy of it {copying * 1e6:.0f} µs")
