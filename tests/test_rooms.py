@@ -175,6 +175,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/source.py": "concurrent",
     "sources/websocket/assets.py": "concurrent",
     "sources/websocket/delivery.py": "threading",
+    "sources/websocket/runner.py": "asyncio",
     "sources/websocket/event_loop.py": "asyncio socket threading",
     "sources/websocket/trouble.py": "socket ssl",
     "sources/websocket/websocket_source.py": "asyncio concurrent threading",

@@ -6,8 +6,10 @@ nothing is published, no parameter is set, no service is called.
 
 from __future__ import annotations
 
+import time
 from itertools import count
 
+from sambot_viz.messages import Schema
 from sambot_viz.sources import foxglove_wire as wire
 from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
 from sambot_viz.sources.source import SourceTopic
@@ -19,6 +21,8 @@ _ALLOW = (
     "if the file is there, add a pattern for it to the parameter "
     "`asset_uri_allowlist` of foxglove_bridge"
 )
+_DESCRIPTION = "robot_description"
+_TICKS_FOR_TOPICS = 2
 _LINE_LASTS = 30.0
 _MOST_LINES, _MOST_NOTES = 100, 3
 
@@ -37,11 +41,15 @@ class FoxgloveConversation(Conversation):
         ] = {}  # channel by id of the subscription
         self._ids = count(1)
         self._wanted: frozenset[str] = frozenset()
+        # Descriptions that no topic has and a parameter may have.
+        self._asked: set[str] = set()
+        self._from_parameters: dict[str, TopicChannel] = {}
+        self._ticks = 0
         # What the server says about itself: by id until it takes it back; without one
         # it is an event, and shown for a while.
         self._lines: dict[str, str] = {}
         self._line = ""
-        self._line_end = self._now = 0.0
+        self._line_end = 0.0
 
     def begin(self) -> None:
         """Say nothing: the server speaks first."""
@@ -66,13 +74,21 @@ class FoxgloveConversation(Conversation):
         for topic in new:
             for channel_id in self._by_topic.get(topic, ()):
                 self._subscribe(channel_id)
+        for topic in gone & self._from_parameters.keys():
+            del self._from_parameters[topic]
+            self._asked.discard(topic)
+            self.topics_changed = True
         self._ask_for_assets()
 
     def tick(self, now: float) -> None:
         """Let lines of the server that have no id end after a while."""
-        self._now = now
         if now > self._line_end:
             self._line = ""
+        # The bridge advertises topics one after the other; it is given a moment.
+        if self.is_ready and "parameters" in self.capabilities:
+            self._ticks += 1
+            if self._ticks > _TICKS_FOR_TOPICS:
+                self._ask_for_descriptions()
 
     def silence(self) -> str:
         """Return the sentence for a server that does not say who it is."""
@@ -102,6 +118,15 @@ class FoxgloveConversation(Conversation):
                 is_latched=channel.is_latched,
                 publishers=self._publishers.get(name, ()) if has_graph else None,
             )
+        for name, channel in self._from_parameters.items():
+            if name not in found:
+                found[name] = SourceTopic(
+                    name,
+                    channel.schema,
+                    channel.message_encoding,
+                    is_latched=True,
+                    publishers=(f"parameter of {_publisher_of(name)}",),
+                )
         return found
 
     def _binary(self, frame: bytes) -> None:
@@ -132,6 +157,9 @@ class FoxgloveConversation(Conversation):
         elif isinstance(content, wire.Unadvertised):
             for channel_id in content.channel_ids:
                 self._remove(channel_id)
+        elif isinstance(content, wire.ParameterValues):
+            for parameter in content.parameters:
+                self._parameter(parameter)
         elif isinstance(content, wire.ServerStatus):
             self._status(content)
         elif isinstance(content, wire.StatusesRemoved):
@@ -209,11 +237,42 @@ class FoxgloveConversation(Conversation):
             self._publishers.pop(name, None)
         self.topics_changed = True
 
+    def _ask_for_descriptions(self) -> None:
+        """Ask for a robot's description by name; nothing waits for the answer.
+
+        A request for all parameters would make some bridges ask nodes that are gone.
+        """
+        for topic in self._wanted - self._by_topic.keys() - self._asked:
+            if topic.endswith(_DESCRIPTION):
+                self._asked.add(topic)
+                names = [_publisher_of(topic) + "." + _DESCRIPTION, topic]
+                self.ends.send(wire.get_parameters(names, topic))
+
+    def _parameter(self, parameter: wire.ParameterValue) -> None:
+        for topic in self._asked - self._by_topic.keys():
+            names = (_publisher_of(topic) + "." + _DESCRIPTION, topic)
+            if parameter.name in names and isinstance(parameter.value, str):
+                self._describe(topic, parameter.value)
+
+    def _describe(self, topic: str, description: str) -> None:
+        if topic not in self._from_parameters:
+            schema = Schema("std_msgs/msg/String", "ros2msg", "string data\n")
+            channel = TopicChannel(topic, schema, "cdr", is_latched=True)
+            self._from_parameters[topic] = channel
+            self.topics_changed = True
+        content = description.encode("utf-8", "replace") + b"\0"
+        # As a node would publish it, so that nobody needs to know the difference.
+        payload = b"\0\1\0\0" + len(content).to_bytes(4, "little") + content
+        now = self.ends.clock.now_ns()
+        channel = self._from_parameters[topic]
+        self.ends.put(Recorded(topic, channel, now, None, payload))
+
     def _status(self, status: wire.ServerStatus) -> None:
         if status.level < 1:
             return
         if status.id is None:
-            self._line, self._line_end = status.message, self._now + _LINE_LASTS
+            self._line = status.message
+            self._line_end = time.monotonic() + _LINE_LASTS
         elif status.id in self._lines or len(self._lines) < _MOST_LINES:
             self._lines[status.id] = status.message
 
@@ -228,3 +287,8 @@ class FoxgloveConversation(Conversation):
                 f"the server at {self.ends.address.label} hands out no files",
                 "with foxglove_bridge, add assets to its parameter `capabilities`",
             )
+
+
+def _publisher_of(topic: str) -> str:
+    """Return the node that has the description of a topic as a parameter."""
+    return topic.removesuffix(_DESCRIPTION) + "robot_state_publisher"

@@ -6,6 +6,7 @@ asked for, and a server without it answers late or never.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from itertools import count
 from typing import TypeVar
@@ -50,7 +51,8 @@ class Rosapi:
         self._on_list = on_list
         self._calls: dict[str, tuple[_Answer, float]] = {}
         self._ids = count(1)
-        self._now = self._next_poll = 0.0
+        self._now = time.monotonic()
+        self._next_poll = 0.0
         self._has_raw_types = True
         self._is_polling = False
 

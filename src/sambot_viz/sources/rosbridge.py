@@ -7,6 +7,7 @@ when it appears, and again when its first publisher does.
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import count
@@ -52,7 +53,6 @@ class RosbridgeConversation(Conversation):
         self._subscriptions: dict[str, _Subscription] = {}
         self._wanted: frozenset[str] = frozenset()
         self._ids = count(1)
-        self._now = 0.0
         self._line, self._line_end = "", 0.0
 
     def begin(self) -> None:
@@ -73,7 +73,8 @@ class RosbridgeConversation(Conversation):
         elif isinstance(operation, wire.StatusLine):
             self.is_ready = True
             if operation.level in ("error", "warning"):
-                self._line, self._line_end = operation.msg, self._now + _LINE_LASTS
+                self._line = operation.msg
+                self._line_end = time.monotonic() + _LINE_LASTS
         elif operation.op == "serverInfo":
             raise WrongServer(
                 f"{self.ends.address.label} speaks Foxglove's protocol, not "
@@ -96,7 +97,6 @@ class RosbridgeConversation(Conversation):
 
     def tick(self, now: float) -> None:
         """Ask for the topics again when it is time."""
-        self._now = now
         if now > self._line_end:
             self._line = ""
         # Without rosapi, some servers do not answer at all.

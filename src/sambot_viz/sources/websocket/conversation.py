@@ -15,9 +15,12 @@ from sambot_viz.sources.source import SourceTopic
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
+from sambot_viz.text import text
 
 MOST_TOPICS = 20_000
 """So many topics of a peer are listed; a broken one may advertise without end."""
+_LATE = 1.0
+"""A lag is said from so much on [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,3 +97,24 @@ class Conversation(ABC):
     @abstractmethod
     def topics(self) -> dict[str, SourceTopic]:
         """Return the topics as they are now."""
+
+    def sentence(self, dropped: int = 0, lag_s: float | None = None) -> str:
+        """Return what the page says while there is a connection.
+
+        Args:
+            dropped: messages that were dropped here.
+            lag_s: how late the newest ones came [s], None if that is not known.
+        """
+        server = text(self.server, 60)
+        place = f"Connected to {self.ends.address.label}"
+        parts = [f"{place} ({server})" if server else place]
+        if lag_s is not None and lag_s > _LATE:
+            parts.append(
+                f"messages come {lag_s:.0f} s late: hide displays with large messages, "
+                "such as images and point clouds"
+            )
+        if dropped:
+            parts.append(f"{dropped} messages were dropped, displays were too slow")
+        if self.unreadable:
+            parts.append(f"{self.unreadable} of its frames made no sense")
+        return "; ".join([*parts, *self.notes()])

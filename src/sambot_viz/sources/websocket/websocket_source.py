@@ -20,15 +20,17 @@ from typing import Any
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
+from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage, SourceStatus, SourceTopic
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
+from sambot_viz.sources.websocket.clock_topic import CLOCK, is_clock, told_time
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.delivery import Delivery
 from sambot_viz.sources.websocket.event_loop import SourceLoop
-from sambot_viz.sources.websocket.trouble import WrongServer, explain
-from sambot_viz.text import text
+from sambot_viz.sources.websocket.runner import ConversationRunner
+from sambot_viz.sources.websocket.trouble import explain
 
 FIRST_PAUSE, LONGEST_PAUSE, GROWTH = 0.5, 15.0, 1.7
 """Before the second attempt and at most [s], and how much each pause is longer."""
@@ -38,11 +40,6 @@ MOST_BYTES = 256 * 2**20
 """The largest message that is taken: a mesh, or a picture that is not compressed."""
 LONGEST_STOP = 5.0
 """`close` waits this long for the thread [s]."""
-_TICK = 0.5
-_ANSWER = 10.0
-"""The server has so long to say who it is [s]."""
-_LATE = 1.0
-"""A lag is said from so much on [s]."""
 _TOPICS_PAUSE = 0.05
 """Topics that are advertised one by one are told together [s]."""
 
@@ -212,7 +209,7 @@ class WebsocketSource:
         ends = Ends(
             self._address,
             outbound.put_nowait,
-            self._delivery.put,
+            self._put,
             self._clock,
             self._assets,
             self._session_id,
@@ -221,29 +218,16 @@ class WebsocketSource:
         self._delivery.forget()
         self._clock.reset()
         conversation.begin()
-        conversation.update(self._delivery.wanted())
-        tasks = [
-            asyncio.ensure_future(self._read(websocket, conversation)),
-            asyncio.ensure_future(_write(websocket, outbound)),
-            asyncio.ensure_future(self._tick(conversation)),
-        ]
-        try:
-            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
-        for task in done:
-            task.result()
+        conversation.update(self._wanted())
+        runner = ConversationRunner(
+            websocket, conversation, outbound, self._follow, self._tell_health
+        )
+        await runner.run()
 
-    async def _read(
-        self, websocket: ClientConnection, conversation: Conversation
-    ) -> None:
-        while True:
-            conversation.receive(await websocket.recv())
-            self._follow(conversation)
-
-    def _follow(self, conversation: Conversation) -> None:
+    def _follow(self) -> None:
+        conversation = self._conversation
+        if conversation is None:
+            return
         if conversation.is_ready and not self._status.is_connected:
             self._welcome(conversation)
         if conversation.topics_changed and self._is_told:
@@ -259,53 +243,39 @@ class WebsocketSource:
         conversation.topics_changed = True
         self._say(
             is_connected=True,
-            sentence=self._connected(conversation),
+            sentence=conversation.sentence(),
             retry_s=None,
             session=session,
         )
 
-    async def _tick(self, conversation: Conversation) -> None:
-        loop = asyncio.get_running_loop()
-        begun = loop.time()
-        while True:
-            await asyncio.sleep(_TICK)
-            conversation.tick(loop.time())
-            self._follow(conversation)
-            self._assets.expire("the server has not sent it in time")
-            if conversation.is_ready:
-                self._tell_health(conversation)
-            elif loop.time() - begun > _ANSWER:
-                raise WrongServer(conversation.silence())
-
-    def _tell_health(self, conversation: Conversation) -> None:
-        dropped, unreadable = self._delivery.dropped, conversation.unreadable
-        lag = self._clock.lag_s()
-        parts = [self._connected(conversation)]
-        if lag is not None and lag > _LATE:
-            parts.append(
-                f"messages come {lag:.0f} s late: hide displays with large messages, "
-                "such as images and point clouds"
-            )
-        if dropped:
-            parts.append(f"{dropped} messages were dropped, displays were too slow")
-        if unreadable:
-            parts.append(f"{unreadable} of its frames made no sense")
+    def _tell_health(self) -> None:
+        conversation = self._conversation
+        if conversation is None:
+            return
+        self._assets.expire("the server has not sent it in time")
+        dropped, lag = self._delivery.dropped, self._clock.lag_s()
         self._say(
-            sentence="; ".join([*parts, *conversation.notes()]),
+            sentence=conversation.sentence(dropped, lag),
             dropped=dropped,
-            unreadable=unreadable,
+            unreadable=conversation.unreadable,
             # Streams differ by milliseconds all the time.
             lag_s=None if lag is None else round(lag, 1),
         )
 
-    def _connected(self, conversation: Conversation) -> str:
-        server = text(conversation.server, 60)
-        place = f"Connected to {self._address.label}"
-        return f"{place} ({server})" if server else place
-
     def _update(self) -> None:
         if self._conversation is not None:
-            self._conversation.update(self._delivery.wanted())
+            self._conversation.update(self._wanted())
+
+    def _put(self, message: Recorded) -> None:
+        if message.topic == CLOCK and (told := told_time(message)) is not None:
+            self._clock.note_time(told)
+        self._delivery.put(message)
+
+    def _wanted(self) -> frozenset[str]:
+        """Return the topics that somebody wants, and with them the simulated time."""
+        wanted = self._delivery.wanted()
+        has_time = "time" in self._capabilities or not is_clock(self._topics.get(CLOCK))
+        return wanted if has_time or not wanted else wanted | {CLOCK}
 
     def _tell_topics(self) -> None:
         self._is_told = True
@@ -313,6 +283,7 @@ class WebsocketSource:
         if conversation is not None and conversation.topics_changed:
             conversation.topics_changed = False
             self._topics = MappingProxyType(conversation.topics())
+            self._update()
             self._delivery.post(self._call_on_topics)
 
     def _say(self, **changes: Any) -> None:
@@ -333,11 +304,6 @@ def next_pause(attempt: int) -> float:
     """Return the pause before the next attempt [s], after so many that failed."""
     grown = FIRST_PAUSE * GROWTH ** min(attempt, 20)
     return min(LONGEST_PAUSE, grown * random.uniform(1.0, 1.5))
-
-
-async def _write(websocket: ClientConnection, outbound: asyncio.Queue[str]) -> None:
-    while True:
-        await websocket.send(await outbound.get())
 
 
 def _nothing() -> None:
