@@ -96,3 +96,36 @@ def test_a_database_may_have_rows_of_any_kind(tmp_path: Path) -> None:
     with open_bag(path) as bag:
         assert list(bag.topics) == ["/a"]
         assert [bytes(m.payload) for m in bag.messages()] == [b"\x00", b"\x04"]
+
+
+@pytest.mark.parametrize(
+    "name", ["square_fastwrite.mcap", "square_jazzy/square_jazzy_0.db3"]
+)
+def test_a_file_compressed_as_a_whole_is_read_from_a_copy(
+    name: str, shared: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import zstandard
+
+    copies = tmp_path / "copies"
+    copies.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(copies))
+    data = (shared / "data" / "bags" / "made" / name).read_bytes()
+    path = tmp_path / f"{Path(name).name}.zstd"
+    path.write_bytes(zstandard.ZstdCompressor().compress(data))
+    with open_recording(tmp_path) as recording:
+        assert sum(1 for _ in recording.messages()) == 1703
+        assert recording.problems == ()
+        assert list(recording.paths) == [path]
+    assert list(copies.iterdir()) == []
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) * 3 // 4])
+    with open_bag(path) as bag:
+        assert 0 < sum(1 for _ in bag.messages()) < 1703
+        assert bag.problems
+    path.write_bytes(zstandard.ZstdCompressor().compress(b"no recording"))
+    with pytest.raises(SourceError, match="it is a text file"):
+        open_bag(path)
+    path.write_bytes(b"\x28\xb5\x2f\xfd noise")
+    with pytest.raises(SourceError, match="cannot be decompressed"):
+        open_bag(path)
+    assert list(copies.iterdir()) == []

@@ -49,7 +49,7 @@ def open_database(file: FileBytes) -> Database:
         SourceError: a copy is needed and there is no room for it.
         OSError: the file cannot be read.
     """
-    path = file.path
+    path = file.content
     beside = [path.with_name(path.name + end) for end in ("-wal", "-journal")]
     pending = [other for other in beside if _size(other)]
     pages, there = _pages(file)

@@ -6,7 +6,9 @@ It is read, not mapped: mapped pages count as memory of the process.
 from __future__ import annotations
 
 import os
+import tempfile
 import threading
+from contextlib import suppress
 from pathlib import Path
 
 _LEAST_AHEAD = 4096
@@ -17,21 +19,37 @@ class FileBytes:
     """A file that is open for reading.
 
     Attributes:
-        path: where it is.
+        path: where it is, as the user wrote it.
+        content: where its bytes are: itself, or what was decompressed.
         size: how long it was when it was opened [bytes]; a recorder may go on writing.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(
+        self,
+        path: Path,
+        folder: tempfile.TemporaryDirectory[str] | None = None,
+    ) -> None:
         """Open a file.
+
+        Args:
+            path: where it is.
+            folder: holds one file with its bytes decompressed, and is removed with it.
 
         Raises:
             OSError: it cannot be opened.
         """
         self.path = path
-        self._stream = path.open("rb", buffering=0)
+        self._folder = folder
+        self.content = path if folder is None else next(Path(folder.name).iterdir())
+        self._stream = self.content.open("rb", buffering=0)
         self.size = os.fstat(self._stream.fileno()).st_size
         # Seeking and reading belong together; players of several sessions read.
         self._lock = threading.Lock()
+
+    @property
+    def is_unpacked(self) -> bool:
+        """Its bytes were decompressed."""
+        return self._folder is not None
 
     def read_at(self, at: int, count: int) -> bytes:
         """Return up to `count` bytes from a place; fewer at the end of the file.
@@ -57,6 +75,9 @@ class FileBytes:
         """Close the file; may be called again."""
         with self._lock:
             self._stream.close()
+            if self._folder is not None:
+                with suppress(OSError):
+                    self._folder.cleanup()
 
 
 class ReadAhead:

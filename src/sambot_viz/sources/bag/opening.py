@@ -17,6 +17,7 @@ from sambot_viz.sources.bag.folder import files_of
 from sambot_viz.sources.bag.mcap import McapBag
 from sambot_viz.sources.bag.recording import Recording
 from sambot_viz.sources.bag.refusals import not_a_bag, refused, unreadable
+from sambot_viz.sources.bag.whole_file import ZSTD, unpacked
 
 
 def open_bag(path: str | os.PathLike[str]) -> Bag:
@@ -97,6 +98,13 @@ def _open(file: FileBytes) -> Bag:
         begin = file.read_at(0, 4096)
     except (OSError, ValueError) as error:
         raise unreadable(file.path, error) from error
+    if begin.startswith(ZSTD) and not file.is_unpacked:
+        inner = FileBytes(file.path, unpacked(file))
+        try:
+            return _open(inner)
+        except BaseException:
+            inner.close()
+            raise
     bag = _of_its_format(file, begin)
     try:
         bag.index_more(OPENING)
