@@ -68,6 +68,77 @@ def test_task_61_two_poses_of_an_arm_while_another_watches(
     a.user.until(lambda: set(a.viz.joint_positions.values()) == {0.0})
 
 
+def test_task_61_the_way_to_a_pose_and_its_ghost(
+    make_desk: Callable[[str], Desk],
+) -> None:
+    a = make_desk("A")
+    other, motion = a.open(), a.session.motion
+    save_pose(a, "home")
+    enter(a.viewer, FIRST, "0.5")
+    a.user.until(lambda: a.viz.joint_positions[FIRST] == 0.5)
+    save_pose(a, "reach")
+    # The test takes the steps: halfway both pages show the arm on its way.
+    motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    take_pose(a, "home")
+    a.user.until(lambda: motion.moving)
+    motion.advance(0.15)
+    for viewer in (a.viewer, other):
+        viewer.user.until(lambda v=viewer: number(v, FIRST) == 0.25)
+    motion.advance(0.15)
+    for viewer in (a.viewer, other):
+        viewer.user.until(lambda v=viewer: number(v, FIRST) == 0.0)
+    # The ghost of a pose is in the page of the one who asks for it.
+    a.user.click("button", "Poses")
+    assert (ghosts(a.viewer), ghosts(other)) == (0, 0)
+    ghost = a.user.find("button", "Show reach as ghost")
+    a.user.click_on(ghost)
+    a.user.until(lambda: ghosts(a.viewer) == len(ARM_LINKS))
+    assert ghosts(other) == 0
+    assert number(a.viewer, FIRST) == 0.0
+    a.user.click("button", "Show reach as ghost")
+    a.user.until(lambda: ghosts(a.viewer) == 0)
+
+
+def ghosts(viewer: ViewerPage) -> int:
+    """How many shapes of a ghost the view has."""
+    return int(viewer.page.evaluate(_GHOSTS))
+
+
+_GHOSTS = """(() => {
+  let count = 0;
+  __viserMutable.scene.traverse(object => {
+    if (object.isMesh && object.material?.color?.getHex?.() === 0x55aaff) count += 1;
+  });
+  return count;
+})()"""
+
+
+def test_task_62_the_distances_of_all_that_is_selected(a: Desk) -> None:
+    for other in ("TF", "Grid"):
+        a.user.click_on(a.user.row("Displays", other).one("checkbox"))
+        a.user.until(
+            lambda o=other: not a.user.row("Displays", o).one("checkbox").is_on
+        )
+    look_along_y(a)
+    a.user.tab("Selection")
+    a.choose_tool("Select")
+    left, top, width, height = a.page.evaluate(
+        "(r => [r.x, r.y, r.width, r.height])"
+        "(__viserMutable.canvas.getBoundingClientRect())"
+    )
+    a.page.mouse.drag((left + 20, top + 20), (left + width - 20, top + height - 20))
+    a.user.click("button", "Copy Distances")
+    a.user.until(lambda: a.user.clipboard.count("\n") == len(ARM_LINKS))
+    _, *lines = (line.split() for line in a.user.clipboard.split("\n"))
+    names = [line[1] for line in lines]
+    assert set(names) == set(ARM_LINKS)
+    for line in lines:
+        for name, shown in zip(names, line[2:], strict=True):
+            at = a.viz.frames.lookup(line[1], name).translation
+            length = float((at @ at) ** 0.5)
+            assert shown == ("-" if name == line[1] else f"{length:.4g}")
+
+
 def look_along_y(desk: Desk) -> None:
     """Look at the middle of the arm from a side."""
     for name, value in (
