@@ -64,6 +64,18 @@ def test_the_problems_of_viewers_and_visitors_name_no_folder_of_the_server(
         assert (str(model.parent) in seen) == (session == "shared")
 
 
+def test_the_place_of_poses_is_whole_only_where_there_are_no_viewers(
+    model: Path, protocol: Protocol
+) -> None:
+    for options in (OPTIONS["presented"], {}):
+        with Visualizer(model, port=0, watch=False, **options) as viz:
+            client = protocol(viz.viser.get_port())
+            client.settle(viser_server(viz))
+            place = client.row("poses/place")["value"]
+            assert place.endswith("r.poses.yaml.")
+            assert (str(model.parent) in place) == (not options)
+
+
 def problems(client: ProtocolClient) -> list[Any]:
     """The rows of the Problems panel."""
     return [row for row in client.rows.values() if row["panel"] == "problems"]

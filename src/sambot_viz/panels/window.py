@@ -88,7 +88,9 @@ class Window:
                 JointsPanel(
                     robot, session.motion, history, arrow, session.data, remake
                 ),
-                PosesPanel(session.poses, robot, session.motion, history, remake),
+                PosesPanel(
+                    session.poses, robot, session.motion, history, session.roles, remake
+                ),
                 DrivePanel(session.drive, robot, session.follow_view),
             ]
         return panels

@@ -15,6 +15,7 @@ from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Answer, Data, Json
 from sambot_viz.session.limits import MOST_POSES, require_room
+from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
@@ -34,6 +35,7 @@ class PosesPanel(Panel):
         robot: its joints take them.
         motion: moves them there.
         history: records that one is removed.
+        roles: tells whether there are viewers, who see no folder of the server.
         remake: called when the poses have changed.
     """
 
@@ -45,9 +47,11 @@ class PosesPanel(Panel):
         robot: RobotState,
         motion: Motion,
         history: History,
+        roles: Roles,
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (robot.changed,)
+        self._roles = roles
         self._poses = poses
         self._robot = robot
         self._motion = motion
@@ -66,7 +70,9 @@ class PosesPanel(Panel):
 
     def _place(self) -> str:
         path = self._poses.path
-        return "in memory only" if path is None else f"in {path.absolute()}"
+        if path is None:
+            return "in memory only"
+        return f"in {path.name if self._roles.presented else path.absolute()}"
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there are joints to pose."""
