@@ -76,8 +76,12 @@ _LOWER = """(() => {
   __viserMutable.requestRender();
 })()"""
 _MOVE = """new Promise(done => {
-  const timer = setInterval(() => __viserMutable.requestRender(), 20);
-  setTimeout(() => { clearInterval(timer); done(__viserMutable.canvas.width); }, 900);
+  const widths = new Set();
+  const timer = setInterval(() => {
+    __viserMutable.requestRender();
+    widths.add(__viserMutable.canvas.width);
+  }, 20);
+  setTimeout(() => { clearInterval(timer); done([...widths]); }, 900);
 })"""
 
 
@@ -93,7 +97,9 @@ def test_the_picture_is_sharp_at_rest_and_motions_have_visers_choice(
         page.wait_for(f"Math.abs({_WIDTH} - 0.75 * {full}) < 2")
         page.wait_for(f"{_WIDTH} === {full}")
         page.evaluate("new Promise(done => setTimeout(done, 500))")
-        assert page.evaluate(_MOVE) == pytest.approx(0.75 * full, abs=2)
+        # From there viser may go on to more or fewer, as quick as the machine is.
+        widths = page.evaluate(_MOVE)
+        assert any(abs(width - 0.75 * full) < 2 for width in widths), widths
         page.wait_for(f"{_WIDTH} === {full}")
         # From then on only viser's own picture a second is drawn.
         page.evaluate("new Promise(done => setTimeout(done, 700))")
