@@ -16,7 +16,7 @@ from sambot_viz.session.data.player import Player
 
 @pytest.fixture
 def player(repository: Path) -> Iterator[Player]:
-    path = repository / "tests" / "data" / "bags" / "square.mcap"
+    path = repository / "assets" / "square.mcap"
     with Visualizer(path, port=0) as viz:
         data = session_of(viz).data
         assert data is not None

@@ -17,7 +17,7 @@ LEFT, WHEEL = "drivewhl_l_joint", "drivewhl_l_link"
 
 @pytest.fixture
 def viz(repository: Path) -> Iterator[Visualizer]:
-    path = repository / "tests" / "data" / "bags" / "square.mcap"
+    path = repository / "assets" / "square.mcap"
     with Visualizer(path, port=0) as viz:
         yield viz
 

@@ -25,7 +25,7 @@ FRAMES = ("base_footprint", "lidar_link", "drivewhl_l_link", "drivewhl_r_link")
 
 @pytest.fixture
 def square(repository: Path) -> Path:
-    return repository / "tests" / "data" / "bags" / "square.mcap"
+    return repository / "assets" / "square.mcap"
 
 
 @pytest.fixture
@@ -86,11 +86,7 @@ def recordings(shared: Path) -> dict[str, dict[str, Any]]:
     listed = yaml.load(index.read_text("utf-8"), yaml.CSafeLoader)
     # Its frames follow from the model and the joint states, which tf2 does not have.
     listed.pop("joints_only.mcap")
-    return {
-        name: about
-        for name, about in listed.items()
-        if about.get("shown") and name.endswith(".mcap")
-    }
+    return {name: about for name, about in listed.items() if about.get("shown")}
 
 
 def test_the_frames_at_all_given_times_are_those_of_tf2(shared: Path) -> None:

@@ -42,7 +42,8 @@ def parser() -> Parser:
         "--motion",
         default="sweep",
         choices=("sweep", "none"),
-        help="motion: sweep moves each joint to its limits and back, none nothing "
+        help="motion: sweep moves each joint to its limits and back, or plays a "
+        "recording from --at on (at most five minutes), none moves nothing "
         "(default: %(default)s)",
     )
     return made

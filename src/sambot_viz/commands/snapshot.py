@@ -44,6 +44,10 @@ def run(words: list[str]) -> int:
 
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions.all()[0]
+        if inputs.recorded is not None:
+            # The page would play it.
+            viz.player.pause()
+            viz.player.jump(viz.player.duration if options.at is None else options.at)
         write_problems(session.document.config.problems)
         _report_fixed_frame(session.scene)
         # A browser takes seconds to start: what is wrong has been reported by now.

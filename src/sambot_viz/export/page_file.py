@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from sambot_viz import page
 from sambot_viz.errors import SambotVizError, UsageError
-from sambot_viz.export.recorded_scene import recorded
+from sambot_viz.export.recorded_scene import PERIOD, recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.animation import sweep
 from sambot_viz.server.page_files import page_of_viser
@@ -30,15 +30,17 @@ from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
 
-Motion = Literal["sweep", "past", "none"]
-PERIOD = 1.0 / 30.0
-"""Time between two steps of a motion [s]."""
+Motion = Literal["sweep", "past", "none", "recording"]
 REST = 0.5
 """Time for which the end of a motion is shown [s]."""
 STEP = 90
 """Width decrement when searching for the narrowest view [pixels]."""
 LONGEST_NAME = 200
 """Longest name of a robot as the title of a page [characters]."""
+LONGEST_PAST = 60.0
+"""Of a recording that is played, the last minute is taken [s]."""
+LONGEST_RECORDING = 300.0
+"""A longer one makes a page that browsers open slowly [s]."""
 LARGEST = 100_000_000
 """A page of more bytes is not sent to a browser."""
 
@@ -97,7 +99,7 @@ def page_file(
         scene: what is in it.
         view: how it is looked at first.
         motion: what moves: all joints one after the other, what has moved in the last
-            minute, or nothing.
+            minute, nothing, or what a recording moves from its present time on.
         past: how that was.
         look: how it is drawn (see `Options.look`).
     """
@@ -107,7 +109,9 @@ def page_file(
     elif motion == "past" and past is not None:
         before, since = past
         scene, steps = scene.before(before), lambda joints: _with_rest(since)
-    first, tracks, duration = recorded(scene, view.camera, view.size[1], steps)
+    first, tracks, duration = recorded(
+        scene, view.camera, view.size[1], steps, _played(scene, motion)
+    )
     robot = "no robot" if scene.robot is None else scene.robot.name
     title = text(robot, LONGEST_NAME) or "robot"
     about = {
@@ -119,6 +123,16 @@ def page_file(
     return page.standing_alone(
         page_of_viser(), title, first, about, tracks.packed(), look
     )
+
+
+def _played(scene: SessionCopy, motion: Motion) -> tuple[int, int] | None:
+    """Return the log times between which a recording is played; None without one."""
+    if scene.recorded is None or motion not in ("past", "recording"):
+        return None
+    recording, now = scene.recorded.recording, scene.time_ns
+    if motion == "past":
+        return max(recording.start_ns or 0, now - round(LONGEST_PAST * 1e9)), now
+    return now, min(recording.end_ns or 0, now + round(LONGEST_RECORDING * 1e9))
 
 
 def _sweep(joints: JointState) -> Iterable[MotionSample]:

@@ -28,6 +28,8 @@ from sambot_viz.session.worker import Action, Worker
 from sambot_viz.views.camera import Camera
 from sambot_viz.viser_private import Recorder
 
+PERIOD = 1.0 / 30.0
+"""Time between two steps of a motion [s]."""
 LONGEST_READ = 30.0
 """A robot of a display's own file gets this long to be read [s]."""
 
@@ -37,6 +39,7 @@ def recorded(
     camera: Camera,
     height: int,
     motion: Callable[[JointState], Iterable[MotionSample]],
+    played: tuple[int, int] | None = None,
 ) -> tuple[bytes, Tracks, float]:
     """Draw what was shown, then move it.
 
@@ -45,6 +48,8 @@ def recorded(
         camera: where to look from.
         height: of the picture that the camera was meant for [pixels].
         motion: what is to move, given the joints where they are.
+        played: the log times of a recording between which it moves the robot [ns],
+            instead of the motion.
 
     Returns:
         The first picture as viser's page reads it, all that changes afterwards, and
@@ -54,10 +59,20 @@ def recorded(
     recorder.listen(tracks.take)
     prepare_scene(recorder.scene)
     session = _drawn(scene, recorder)
+    player = None if session.data is None else session.data.player
+    if played is not None and player is not None:
+        player.jump(played[0])
     ClientCamera(cast(Any, recorder)).point(camera)
     first = recorder.bytes()
     duration = 0.0
-    if session.robot.joints is not None:
+    if played is not None and player is not None:
+        while player.time_ns < played[1]:
+            left = (played[1] - player.time_ns) * 1e-9
+            tracks.time = duration = duration + min(PERIOD, left)
+            player.advance(min(PERIOD, left))
+    elif session.robot.joints is not None:
+        if session.data is not None:
+            session.data.follow(False)
         for step in motion(session.robot.joints):
             tracks.time = duration = step.time
             there = {f: T for f, T in step.frames.items() if f in session.frames.added}
@@ -70,7 +85,14 @@ def recorded(
 def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:
     models = None if scene.models is None else _Models(scene.models)
     worker, audience = _Nobody(cast(Any, None)), cast(Any, recorder)
-    session = Session(audience, worker, scene.config, scene.meshes, models)
+    session = Session(
+        audience,
+        worker,
+        scene.config,
+        scene.meshes,
+        models,
+        recorded=scene.recorded,
+    )
     session.prepare(scene)
     session.document.show()
     if scene.robot is not None:

@@ -75,7 +75,8 @@ def page_of(
     shown = session.copy()
     first = ViewState.at_first(session.document_view, session.robot.model is not None)
     if motion is None:
-        return page_file(shown, first, "sweep" if sweep else "none", look=look)
+        moves = "sweep" if shown.recorded is None else "recording"
+        return page_file(shown, first, moves if sweep else "none", look=look)
     joints = session.robot.joints
     if opened is None or joints is None:
         raise JointError("there is no robot yet that could move")

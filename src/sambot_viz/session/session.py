@@ -191,6 +191,7 @@ class Session:
         """Copy what is shown now."""
         with self.lock:
             joints, context = self.robot.joints, self.scene.context
+            data = self.data
             return SessionCopy(
                 config=self.document.config.copy(),
                 positions={} if joints is None else dict(joints.positions),
@@ -205,6 +206,9 @@ class Session:
                 trail=self.drive.trail,
                 models=context.models,
                 meshes=context.assets.cache,
+                recorded=None if data is None else data.recorded,
+                time_ns=0 if data is None else data.player.time_ns,
+                follows=bool(self.robot.followed.value),
             )
 
     def prepare(self, copy: SessionCopy) -> None:
@@ -223,6 +227,9 @@ class Session:
         """Put joints and frames where they are in a copy."""
         for child, frame in copy.frames.items():
             self.frames.add(frame.parent, child, frame.transform, static=frame.static)
+        if self.data is not None:
+            self.data.follow(copy.follows)
+            self.data.player.jump(copy.time_ns)
         if self.robot.joints is not None:
             known = self.robot.joints.free
             self.robot.move({n: q for n, q in copy.positions.items() if n in known}, {})

@@ -111,8 +111,8 @@ def chunks(data: bytes) -> list[int]:
 def test_the_walk_goes_on_behind_a_record_of_impossible_length(
     repository: Path, tmp_path: Path
 ) -> None:
-    square = (repository / "tests" / "data" / "bags" / "square.mcap").read_bytes()
-    with open_bag(repository / "tests" / "data" / "bags" / "square.mcap") as bag:
+    square = (repository / "assets" / "square.mcap").read_bytes()
+    with open_bag(repository / "assets" / "square.mcap") as bag:
         before = sum(1 for _ in bag.messages())
     chunk = chunks(square)[2]
     # The index at the end is away, too.
@@ -130,7 +130,7 @@ def test_the_walk_goes_on_behind_a_record_of_impossible_length(
 def test_a_chunk_that_claims_any_size_takes_no_memory(
     repository: Path, tmp_path: Path
 ) -> None:
-    data = bytearray((repository / "tests/data/bags/square.mcap").read_bytes())
+    data = bytearray((repository / "assets/square.mcap").read_bytes())
     for at in chunks(bytes(data)):
         # The length of its records once decompressed.
         data[at + 25 : at + 33] = (2**60).to_bytes(8, "little")
@@ -154,7 +154,7 @@ def test_a_folder_a_pipe_and_no_file_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_closed_recording_says_so(repository: Path) -> None:
-    bag = open_bag(repository / "tests" / "data" / "bags" / "square.mcap")
+    bag = open_bag(repository / "assets" / "square.mcap")
     bag.close()
     bag.close()
     with pytest.raises(SourceError, match="cannot be read"):

@@ -23,7 +23,7 @@ COUNTS = {
 
 @pytest.fixture
 def bag(repository: Path) -> Iterator[Bag]:
-    with open_bag(repository / "tests" / "data" / "bags" / "square.mcap") as bag:
+    with open_bag(repository / "assets" / "square.mcap") as bag:
         yield bag
 
 

@@ -21,6 +21,7 @@ class RobotData:
         robot: is moved.
 
     Attributes:
+        recorded: as given.
         name: of the recording.
         player: the time of the recording.
         transforms: what /tf and /tf_static have told.
@@ -36,6 +37,7 @@ class RobotData:
         worker: Worker,
         clock: Clock,
     ) -> None:
+        self.recorded = recorded
         self.name = recorded.name
         self.transforms = recorded.transforms(history)
         self._joint_states = recorded.joint_states()

@@ -1,0 +1,63 @@
+"""A page of a recording plays it, and copies of a session show its time."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of
+
+from sambot_viz import Visualizer
+from sambot_viz.export.page_file import ViewState, page_file
+
+
+@pytest.fixture
+def viz(repository: Path) -> Iterator[Visualizer]:
+    path = repository / "assets" / "square.mcap"
+    with Visualizer(path, port=0) as viz:
+        viz.player.pause()
+        yield viz
+
+
+def about(page: bytes) -> Any:
+    found = re.search(rb'id="sambot-about"[^>]*>(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    return json.loads(found[1])
+
+
+def exported(viz: Visualizer, motion: Any) -> Any:
+    session = session_of(viz)
+    view = ViewState.at_first(session.document_view, True)
+    return about(page_file(session.copy(), view, motion))
+
+
+def test_a_page_has_the_recording_from_the_present_time_on(viz: Visualizer) -> None:
+    viz.player.jump(15.0)
+    shown = exported(viz, "recording")
+    assert shown["duration"] == pytest.approx(viz.player.duration - 15.0, abs=1e-6)
+
+
+def test_the_last_minute_ends_at_the_present_time(viz: Visualizer) -> None:
+    viz.player.jump(2.5)
+    assert exported(viz, "past")["duration"] == pytest.approx(2.5, abs=1e-6)
+
+
+def test_a_copy_shows_the_same_time_and_who_moves_the_joints(viz: Visualizer) -> None:
+    viz.player.jump(3.0)
+    copy = session_of(viz).copy()
+    assert copy.time_ns - 1_750_000_000_001_000_000 == 3_000_000_000
+    assert copy.follows
+    data = session_of(viz).data
+    assert data is not None
+    data.follow(False)
+    assert not session_of(viz).copy().follows
+
+
+def test_a_sweep_moves_the_joints_of_a_recorded_robot(viz: Visualizer) -> None:
+    assert exported(viz, "sweep")["duration"] > 1.0
+    # What is shown is as it was.
+    assert session_of(viz).robot.followed.value == "square.mcap"
