@@ -98,7 +98,7 @@ class Db3Bag(BlockBag):
             number, name, kind, how, offered = row
             if isinstance(number, int) and isinstance(name, str):
                 offers = parse_qos(offered) if isinstance(offered, str) else None
-                schema = definitions.get(str(kind), Schema(str(kind), "", ""))
+                schema = _definition(str(kind), definitions)
                 latched = is_latched(name, schema.name, offers)
                 channel = TopicChannel(name, schema, str(how), offers, latched)
                 self._add_channel(number, channel)
@@ -203,6 +203,14 @@ class Db3Bag(BlockBag):
         super().close()
         with self._reading:
             self._database.close()
+
+
+def _definition(kind: str, definitions: dict[str, Schema]) -> Schema:
+    """Return the definition of a type; that of an event is its service's."""
+    if (known := definitions.get(kind)) is not None:
+        return known
+    service = definitions.get(kind.removesuffix("_Event"), Schema(kind))
+    return Schema(kind, service.encoding, service.text)
 
 
 def _column(name: str, columns: set[str]) -> str:
