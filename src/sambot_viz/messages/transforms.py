@@ -22,8 +22,8 @@ Edges = tuple[tuple[str, str], ...]
 Transforms = tuple[int, Edges, NDArray[np.float64]]
 """Stamp [ns], the frames, and their (N, 7) poses: x, y, z and quaternion x, y, z, w."""
 
-_MOST_KEPT = 512
-"""So many lists of frames are kept; each publisher has one or two."""
+_MOST_KEPT = 20_000
+"""So many transforms are kept in lists of frames; each publisher has one or two."""
 _MOST_TEMPLATES = 32
 _MOST_OF_A_LENGTH = 4
 _FEWEST_ROWS = 6
@@ -48,6 +48,7 @@ class TransformDecoder:
     def __init__(self, message_encoding: str) -> None:
         self._is_ros1 = message_encoding == "ros1"
         self._edges: dict[Edges, Edges] = {}
+        self._edges_kept = 0
         # Tuples that are replaced as a whole: several players may read at a time.
         self._templates: dict[tuple[int, int], tuple[_TransformTemplate, ...]] = {}
 
@@ -95,8 +96,12 @@ class TransformDecoder:
         ]
 
     def _one(self, edges: Edges) -> Edges:
-        if len(self._edges) > _MOST_KEPT:
+        if (known := self._edges.get(edges)) is not None:
+            return known
+        if self._edges_kept > _MOST_KEPT:
             self._edges.clear()
+            self._edges_kept = 0
+        self._edges_kept += len(edges) + 1
         return self._edges.setdefault(edges, edges)
 
 
