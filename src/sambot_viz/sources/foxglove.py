@@ -39,6 +39,7 @@ class FoxgloveConversation(Conversation):
         self._subscribed: dict[
             int, TopicChannel
         ] = {}  # channel by id of the subscription
+        self._begun: set[int] = set()
         self._ids = count(1)
         self._wanted: frozenset[str] = frozenset()
         # Descriptions that no topic has and a parameter may have.
@@ -134,7 +135,10 @@ class FoxgloveConversation(Conversation):
         if isinstance(parsed, wire.MessageFrame):
             channel = self._subscribed.get(parsed.subscription_id)
             if channel is not None:
-                self.ends.clock.note_message(parsed.log_ns)
+                # The first may be a latched one, which was logged long ago.
+                if parsed.subscription_id in self._begun:
+                    self.ends.clock.note_message(parsed.log_ns)
+                self._begun.add(parsed.subscription_id)
                 self.ends.put(
                     Recorded(
                         channel.topic, channel, parsed.log_ns, None, parsed.payload

@@ -16,6 +16,8 @@ from sambot_viz.sources.websocket.conversation import MOST_TOPICS
 
 POLL = 2.0
 """Between two looks at the topics [s]."""
+POLL_ABSENT = 15.0
+"""The same while rosapi does not run [s]: each look is an error in the server's log."""
 LONGEST_ANSWER = 8.0
 """A service that has not answered after so long will not [s]."""
 _MOST_CALLS = 50
@@ -152,7 +154,8 @@ class Rosapi:
         self._finish_poll()
 
     def _finish_poll(self) -> None:
-        self._is_polling, self._next_poll = False, self._now + POLL
+        self._is_polling = False
+        self._next_poll = self._now + (POLL if self.is_there else POLL_ABSENT)
         self._on_list()
 
     def _call(self, service: str, answer: _Answer, **arguments: object) -> None:

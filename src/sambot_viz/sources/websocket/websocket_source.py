@@ -188,6 +188,7 @@ class WebsocketSource:
             attempt += 1
             self._say(is_connected=False, sentence=sentence, retry_s=pause, lag_s=None)
             self._assets.ask_again()
+            self._assets.expire("there is no connection to the server")
             await asyncio.sleep(pause)
 
     async def _connect(self) -> None:
