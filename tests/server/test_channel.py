@@ -25,19 +25,11 @@ from websockets.typing import Origin, Subprotocol
 
 from sambot_viz import Visualizer, viser_private
 from sambot_viz.panels.row_store import ClientRows, RowStore
-from sambot_viz.server import channel as channel_module
-from sambot_viz.server import connection, inbound_filter, rate_limit
-from sambot_viz.server.channel import (
-    CLIENT_LEFT,
-    PAGE_LEFT,
-    PING,
-    PONG,
-    SUBPROTOCOL,
-    Channel,
-    Channels,
-)
+from sambot_viz.server import connection, inbound_filter, rate_limit, tickets
+from sambot_viz.server.channel import PING, PONG, SUBPROTOCOL, Channel
 from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.inbound_filter import NoSessions
+from sambot_viz.server.tickets import CLIENT_LEFT, PAGE_LEFT, Channels
 
 Protocol = Callable[..., ProtocolClient]
 VISER = f"viser-v{viser.__version__}"
@@ -165,7 +157,7 @@ def test_a_page_that_lost_its_connections_without_a_word_takes_them_over(
         monkeypatch.setattr(socket.protocol, "recv_ping", lambda _: None, raising=False)
         socket.socket.settimeout(None)
         monkeypatch.setattr(socket, "send_data", lambda: None)
-    monkeypatch.setattr(channel_module, "ANSWER_TIME", 0.1)
+    monkeypatch.setattr(tickets, "ANSWER_TIME", 0.1)
     again = pages.channel(viz, ticket)
     pages.viser(viz, ticket)
     assert rows(again)[1]["of"] == "browser"

@@ -12,7 +12,7 @@ from websockets.datastructures import Headers
 
 from sambot_viz import UsageError, Visualizer, viser_private
 from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.server.channel import REMOVED
+from sambot_viz.server.tickets import REMOVED
 from sambot_viz.session import Session
 
 Protocol = Callable[..., ProtocolClient]

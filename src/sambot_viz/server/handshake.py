@@ -23,9 +23,10 @@ from websockets.protocol import State
 
 from sambot_viz.options import Options
 from sambot_viz.server import access, page_files
-from sambot_viz.server.channel import SUBPROTOCOL, Channels
+from sambot_viz.server.channel import SUBPROTOCOL
 from sambot_viz.server.connection import ClientContext, Connection
 from sambot_viz.server.connection_limit import ConnectionLimiter
+from sambot_viz.server.tickets import Channels
 from sambot_viz.server.token_check import Knows, TokenCheck
 
 _PROTOCOL = f"viser-v{viser.__version__}"

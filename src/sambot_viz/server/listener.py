@@ -20,7 +20,6 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import handshake, outbox
-from sambot_viz.server.channel import Channels
 from sambot_viz.server.connection import Connection
 from sambot_viz.server.inbound_filter import (
     CLOSE_TIME,
@@ -28,6 +27,7 @@ from sambot_viz.server.inbound_filter import (
     ClientHandler,
     InboundFilter,
 )
+from sambot_viz.server.tickets import Channels
 from sambot_viz.server.token_check import Knows
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
