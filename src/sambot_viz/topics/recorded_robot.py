@@ -12,7 +12,7 @@ from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.joints import JointState
-from sambot_viz.messages import MessageTypes, TransformDecoder
+from sambot_viz.messages import Decoder, MessageTypes, TransformDecoder
 from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.joint_states import JointStateTopics
@@ -22,7 +22,7 @@ from sambot_viz.topics.transforms import Transforms, TransformTopics
 
 # It is opened by who has one.
 if TYPE_CHECKING:
-    from sambot_viz.sources.bag import Bag
+    from sambot_viz.sources.bag import Bag, RecordedTopic
 
 FIRST_SECONDS = 2.0
 """The frames that move are learnt from the begin of a recording [s]."""
@@ -59,7 +59,7 @@ class RecordedRobot:
             self.at_ns = recording.start_ns + round(at * 1e9)
         self._types = types
         known = {
-            name: types.decoder(topic.schema, topic.message_encoding).type_name
+            name: self.decoder(topic).type_name
             for name, topic in recording.topics.items()
         }
         self.topics: RobotTopics = robot_topics(known)
@@ -139,7 +139,7 @@ class RecordedRobot:
         """
         topics, recording = self.topics, self.recording
         made = TransformTopics(
-            history, topics.moving, topics.static, self._transform_decoder()
+            history, topics.moving, topics.static, self.transform_decoder()
         )
         start = recording.start_ns
         if start is not None and topics.moving:
@@ -164,15 +164,12 @@ class RecordedRobot:
             raise DecodeError(decoder.reason.text)
         return decoder.decode(message.payload)
 
-    def _pairs(self) -> list[tuple[str, str]]:
-        return list(self.transforms(FrameHistory()).pairs())
+    def decoder(self, topic: RecordedTopic) -> Decoder:
+        """Return the decoder of a topic, with the reason when there is none."""
+        return self._types.decoder(topic.schema, topic.message_encoding)
 
-    def _roots(self) -> Iterator[str]:
-        pairs = self._pairs()
-        children = {child for _, child in pairs}
-        return (parent for parent, _ in pairs if parent not in children)
-
-    def _transform_decoder(self) -> Callable[[Recorded], Transforms]:
+    def transform_decoder(self) -> Callable[[Recorded], Transforms]:
+        """Return what reads the transforms of a message; it raises DecodeError."""
         decoders: dict[str, TransformDecoder] = {}
 
         def decode(message: Recorded) -> Transforms:
@@ -183,6 +180,14 @@ class RecordedRobot:
             return decoder.decode(message.payload)
 
         return decode
+
+    def _pairs(self) -> list[tuple[str, str]]:
+        return list(self.transforms(FrameHistory()).pairs())
+
+    def _roots(self) -> Iterator[str]:
+        pairs = self._pairs()
+        children = {child for _, child in pairs}
+        return (parent for parent, _ in pairs if parent not in children)
 
     def _read_description(self) -> str | None:
         name = self.topics.description

@@ -1,0 +1,205 @@
+"""What is to be said about the topics of a recording, and about its time and frames."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+
+from sambot_viz.errors import Problem
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics import reasons
+from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.survey import Survey
+from sambot_viz.topics.transforms import TransformTopics
+
+SOON_NS = 1_000_000_000
+"""What begins so soon after a recording was there when it began [ns]."""
+
+
+@dataclass(frozen=True, slots=True)
+class TopicStatus:
+    """A row of the list of topics.
+
+    Attributes:
+        name: of the topic.
+        type_name: of its messages; empty when the file does not say it.
+        count: of its messages; None while that is not known.
+        rate: of its messages [Hz]; None when there are less than two.
+        readable: messages of this type and encoding can be decoded.
+        reason: why nothing of it is seen; None when there is nothing to say.
+    """
+
+    name: str
+    type_name: str
+    count: int | None
+    rate: float | None
+    readable: bool
+    reason: TopicReason | None
+
+
+class TopicReport:
+    """Says of each topic of a recording what it has, and why nothing of it is seen.
+
+    Args:
+        survey: of its messages; what it has not met yet is not said.
+    """
+
+    def __init__(self, survey: Survey) -> None:
+        self._survey = survey
+        self._recorded: RecordedRobot = survey.recorded
+        self._topics = survey.recorded.recording.topics
+
+    def statuses(self, at_ns: int | None = None) -> Iterator[TopicStatus]:
+        """Yield a row for each topic, in the order of the recording."""
+        return (self.status(name, at_ns) for name in self._topics)
+
+    def status(self, name: str, at_ns: int | None = None) -> TopicStatus:
+        """Return the row of a topic.
+
+        Args:
+            name: of the topic.
+            at_ns: the log time to look at [ns]; None for the begin of the recording.
+        """
+        topic = self._topics[name]
+        decoder = self._recorded.decoder(topic)
+        rate, reason = self.rate(name), self._reason(name, at_ns)
+        readable = decoder.reason is None
+        return TopicStatus(name, decoder.type_name, topic.count, rate, readable, reason)
+
+    def rate(self, name: str) -> float | None:
+        """Return how often messages of a topic come, between its first and last [Hz].
+
+        As long as its last message was not met, the end of the recording counts.
+        """
+        recording = self._recorded.recording
+        count, looked = self._topics[name].count, self._survey.of(name)
+        first, last = looked.first_ns, looked.last_ns
+        if count is None or count > looked.seen:
+            last = recording.end_ns or 0
+        if first is None or not count or count < 2 or last <= first:
+            return None
+        return (count - 1) / ((last - first) * 1e-9)
+
+    def _reason(self, name: str, at_ns: int | None) -> TopicReason | None:
+        """Return the first reason that holds.
+
+        What makes a topic unreadable at any time comes before when it begins.
+        """
+        topic, looked = self._topics[name], self._survey.of(name)
+        decoder = self._recorded.decoder(topic)
+        if topic.count == 0:
+            return reasons.no_message(name)
+        if decoder.reason is not None:
+            return TopicReason(decoder.reason.code, decoder.reason.text)
+        if looked.undecoded:
+            is_all = topic.count is not None and looked.decoded >= topic.count
+            cause = looked.cause or "they are no transforms"
+            return reasons.not_decodable(
+                looked.undecoded, looked.decoded, cause, is_all
+            )
+        late = self._not_here_yet(name, at_ns)
+        if late is not None:
+            return late
+        if decoder.note is not None:
+            return TopicReason(decoder.note.code, decoder.note.text)
+        return (
+            self._of_frame(name)
+            or (reasons.empty(looked.empty) if looked.empty else None)
+            or self._of_display(name, decoder.type_name)
+            or self._stale(name, at_ns)
+        )
+
+    def _not_here_yet(self, name: str, at_ns: int | None) -> TopicReason | None:
+        first, start = self._survey.of(name).first_ns, self._recorded.recording.start_ns
+        if first is None or start is None:
+            return None
+        if first <= (start + SOON_NS if at_ns is None else at_ns):
+            return None
+        latched = self._topics[name].is_latched
+        return reasons.not_here_yet((first - start) * 1e-9, latched)
+
+    def _of_frame(self, name: str) -> TopicReason | None:
+        """Say why the frame of the messages has no place, where they are placed."""
+        survey, looked = self._survey, self._survey.of(name)
+        if not looked.frame or name in self._recorded.topics.all:
+            return None
+        if looked.stamps is not None and survey.stamps is not None:
+            first, last = (time * 1e-9 for time in survey.stamps)
+            stamp = looked.stamps[0] * 1e-9
+            if reasons.are_two_clocks(stamp, (first, last)):
+                return reasons.two_clocks(name, stamp, (first, last))
+        refused = survey.lookup_fault(looked.frame)
+        if refused is None:
+            return None
+        fixed, lacks = survey.fixed_frame, survey.lacks_static
+        return reasons.no_transform(looked.frame, fixed, refused, lacks)
+
+    def _of_display(self, name: str, type_name: str) -> TopicReason | None:
+        if reasons.display_of(name, type_name) is not None:
+            return None
+        return reasons.no_display(type_name, self._survey.of(name).fields)
+
+    def _stale(self, name: str, at_ns: int | None) -> TopicReason | None:
+        if at_ns is None or self._topics[name].is_latched:
+            return None
+        recording = self._recorded.recording
+        period = 1 / (self.rate(name) or 1e-9)
+        longest = round(max(reasons.STALE, 3 * period) * 1e9)
+        looked = self._survey.of(name)
+        if at_ns - looked.last_ns <= longest:
+            return None
+        last: Recorded | None = recording.last(name, at_ns)
+        if last is None or at_ns - last.log_ns <= longest:
+            return None
+        return reasons.stale((at_ns - last.log_ns) * 1e-9)
+
+
+def problems_of_transforms(
+    transforms: TransformTopics, name: str
+) -> tuple[Problem, ...]:
+    """Say what is wrong with the transforms of a recording.
+
+    Args:
+        transforms: what they have told up to now.
+        name: of the recording.
+    """
+    found = [
+        _two_parents(child, parents, transforms.always)
+        for child, parents in transforms.parents.items()
+        if len(parents) > 1
+    ]
+    if transforms.turned_back_by:
+        back = transforms.turned_back_by * 1e-9
+        found.append(
+            Problem(
+                "warning",
+                "clock-back",
+                f"time went back by {back:.1f} s in {name} (was a simulation reset?): "
+                "transforms from before were dropped",
+                "record again after the reset, or jump behind it with the time bar",
+            )
+        )
+    return tuple(found)
+
+
+def _two_parents(
+    child: str, parents: Mapping[str, str], static: Collection[str]
+) -> Problem:
+    """Say who holds a frame at which parent; those that move it come first."""
+    order = sorted(parents, key=lambda parent: parents[parent] in static)
+    first, last = order[0], order[-1]
+    named = [f"{parent} ({parents[parent]})" for parent in order]
+    count = "two" if len(order) == 2 else f"{len(order)}"
+    if parents[first] not in static and parents[last] in static:
+        # The one that moves the robot names another frame than the root of its model.
+        hint = f"publish {first} -> {last}, the root of the model"
+    else:
+        hint = f"stop all but one of those that publish {child}"
+    return Problem(
+        "warning",
+        "two-parents",
+        f"{child} has {count} parents: {', '.join(named[:-1])} and {named[-1]}; in tf2 "
+        "a frame has one, and the others lose what is below it",
+        hint,
+    )

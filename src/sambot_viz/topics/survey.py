@@ -1,0 +1,269 @@
+"""A look at the first messages of all topics: enough to say what is wrong with them.
+
+A recording of any length costs the same: so many messages are looked at, and of each
+topic so many are decoded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, cast
+from xml.etree import ElementTree
+
+from sambot_viz.errors import DecodeError, FrameError
+from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.transform import Transform
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.reasons import emptiness
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.transforms import Transforms, TransformTopics
+
+MOST_MESSAGES = 20_000
+MOST_BYTES = 50_000_000
+"""So much is looked at from the begin of a recording."""
+MOST_DECODED = 30
+"""So many messages of a topic are decoded."""
+MOST_LATE = 200
+"""Of so many topics that begin later the first message is looked for."""
+
+
+@dataclass(slots=True)
+class Looked:
+    """What was seen of a topic.
+
+    Attributes:
+        seen: so many messages were met.
+        first_ns: log time of the first one [ns]; None when none was met.
+        last_ns: log time of the last one that was met [ns].
+        decoded: it was tried with so many.
+        undecoded: so many of them cannot be decoded.
+        cause: why the first of them cannot.
+        frame: of the headers; empty when they have none.
+        stamps: the least and the greatest of the headers [ns]; None without.
+        fields: the names in a message.
+        empty: what the messages have nothing of; empty when one of them has something.
+    """
+
+    seen: int = 0
+    first_ns: int | None = None
+    last_ns: int = 0
+    decoded: int = 0
+    undecoded: int = 0
+    cause: str = ""
+    frame: str = ""
+    stamps: tuple[int, int] | None = None
+    fields: tuple[str, ...] = ()
+    empty: str = ""
+    _has_content: bool = field(default=False)
+
+    def note(self, message: Any) -> None:
+        """Take a message that was decoded."""
+        if not self.fields:
+            self.fields = _fields_of(message)
+        header = getattr(message, "header", None)
+        if header is not None:
+            self._note_header(header)
+        if not self._has_content:
+            self.empty = emptiness(message)
+            self._has_content = not self.empty
+
+    def _note_header(self, header: Any) -> None:
+        frame, stamp = getattr(header, "frame_id", ""), getattr(header, "stamp", None)
+        self.frame = self.frame or plain_name(str(frame))
+        time = getattr(stamp, "sec", 0) * 1_000_000_000 + getattr(stamp, "nanosec", 0)
+        # Without a stamp the newest transform is meant.
+        if time:
+            least, most = self.stamps or (time, time)
+            self.stamps = min(least, time), max(most, time)
+
+
+class Survey:
+    """Looks at the first messages of a recording, a few at a time.
+
+    Args:
+        recorded: the recording, and which topics of it are transforms.
+
+    Attributes:
+        topics: what was seen, by name.
+        transforms: what /tf and /tf_static told.
+        stamps: the first and the last stamp of the moving transforms [ns]; None
+            without.
+        is_all: every message was met.
+        is_complete: nothing more is looked at.
+    """
+
+    def __init__(self, recorded: RecordedRobot) -> None:
+        self.recorded = recorded
+        self.topics: dict[str, Looked] = {}
+        self.stamps: tuple[int, int] | None = None
+        self.is_all = False
+        self.is_complete = False
+        history = FrameHistory()
+        own = recorded.topics
+        self.transforms = TransformTopics(
+            history, own.moving, own.static, self._transforms_of
+        )
+        self._decode_transforms = recorded.transform_decoder()
+        self._steps = self._run()
+        self._tree: tuple[FrameTree, str] | None = None
+
+    def step(self) -> bool:
+        """Look at one more message; False when there is nothing more to look at."""
+        return next(self._steps, None) is not None
+
+    def finish(self) -> None:
+        """Look at all that is to be looked at."""
+        while self.step():
+            pass
+
+    def of(self, topic: str) -> Looked:
+        """Return what was seen of a topic."""
+        return self.topics.get(topic) or Looked()
+
+    def lookup_fault(self, frame: str) -> LookupRefused | None:
+        """Return why a frame has no place; None when it has one, or nothing has."""
+        tree, fixed_frame = self._looked_up()
+        if not fixed_frame:
+            return None
+        try:
+            tree.lookup(fixed_frame, frame)
+        except LookupRefused as refused:
+            return refused
+        return None
+
+    @property
+    def fixed_frame(self) -> str:
+        """The frame at the top of the robot's tree; empty when there are no frames."""
+        return self._looked_up()[1]
+
+    @property
+    def lacks_static(self) -> bool:
+        """There are transforms, but none that hold at all times."""
+        topics = self.recorded.topics
+        return bool(topics.moving) and not topics.static
+
+    # Looking
+
+    def _run(self) -> Iterator[bool]:
+        recording = self.recorded.recording
+        latched = [m for m in recording.latched() if m.topic in self.transforms.always]
+        for message in latched:
+            self.transforms.take(message)
+        size = number = 0
+        for message in recording.messages():
+            self._look(message)
+            number, size = number + 1, size + len(message.payload)
+            yield True
+            if number >= MOST_MESSAGES or size >= MOST_BYTES:
+                break
+        else:
+            self.is_all = True
+        if not self.is_all:
+            yield from self._look_later()
+        self.is_complete = True
+
+    def _look_later(self) -> Iterator[bool]:
+        """Look at the first messages of topics that begin later."""
+        recording = self.recorded.recording
+        start = recording.start_ns or 0
+        waiting = [n for n, t in recording.topics.items() if t.count != 0]
+        late = [name for name in waiting if name not in self.topics]
+        for name in late[:MOST_LATE]:
+            message = recording.next(name, start - 1)
+            if message is not None:
+                self._look(message)
+            yield True
+        for name in self.recorded.topics.moving:
+            last = recording.last(name, recording.end_ns or 0)
+            if last is not None:
+                try:
+                    self._transforms_of(last)
+                except DecodeError:
+                    continue
+
+    def _look(self, message: Recorded) -> None:
+        looked = self.topics.setdefault(message.topic, Looked())
+        looked.seen += 1
+        looked.last_ns = message.log_ns
+        if looked.first_ns is None:
+            looked.first_ns = message.log_ns
+        if message.topic in self.recorded.topics.moving:
+            before = self.transforms.undecoded[message.topic]
+            self.transforms.take(message)
+            failed = self.transforms.undecoded[message.topic] - before
+            looked.decoded += 1
+            looked.undecoded += failed
+        elif looked.decoded < MOST_DECODED:
+            self._decode(message, looked)
+
+    def _decode(self, message: Recorded, looked: Looked) -> None:
+        looked.decoded += 1
+        try:
+            looked.note(self.recorded.decode(message))
+        except DecodeError as error:
+            looked.undecoded += 1
+            looked.cause = looked.cause or str(error)
+        except Exception as error:
+            # A file may define a standard type with other fields.
+            looked.cause = looked.cause or f"{type(error).__name__} in its fields"
+
+    def _transforms_of(self, message: Recorded) -> Transforms:
+        found = self._decode_transforms(message)
+        if message.topic not in self.transforms.always:
+            for stamp, _, _ in found:
+                first, last = self.stamps or (stamp, stamp)
+                self.stamps = min(first, stamp), max(last, stamp)
+        return found
+
+    # Frames
+
+    def _looked_up(self) -> tuple[FrameTree, str]:
+        if self._tree is None:
+            self._tree = self._frames()
+        return self._tree
+
+    def _frames(self) -> tuple[FrameTree, str]:
+        """Return all frames, and the one at the top of the robot's tree."""
+        tree = FrameTree(self.transforms.history)
+        root, joints = _robot_of(self.recorded.description)
+        pairs = list(self.transforms.pairs())
+        if set(joints).isdisjoint(pairs):
+            for parent, child in joints:
+                try:
+                    tree.set_static(parent, child, Transform.identity())
+                except FrameError:
+                    continue
+        above = {child: parent for parent, child in (*joints, *pairs)}
+        frame = root or next((parent for parent, _ in pairs), "")
+        # Messages may form a ring.
+        for _ in range(len(above)):
+            frame = above.get(frame, frame)
+        return tree, frame
+
+
+def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:
+    """Return the root of a URDF, and (parent, child) of the joints that hold links."""
+    try:
+        robot = ElementTree.fromstring(description or "<robot/>")
+    except ElementTree.ParseError:
+        return "", []
+    pairs: list[tuple[str, str]] = []
+    for joint in robot.iter("joint"):
+        parent, child = joint.find("parent"), joint.find("child")
+        if parent is None or child is None or joint.get("type") == "floating":
+            continue
+        pairs.append(
+            (plain_name(parent.get("link", "")), plain_name(child.get("link", "")))
+        )
+    children = {child for _, child in pairs}
+    links = (plain_name(link.get("name", "")) for link in robot.findall("link"))
+    return next((link for link in links if link not in children), ""), pairs
+
+
+def _fields_of(message: Any) -> tuple[str, ...]:
+    if isinstance(message, dict):
+        return tuple(str(name) for name in cast("dict[str, Any]", message))
+    names = cast("dict[str, Any]", getattr(message, "__dataclass_fields__", {}))
+    return tuple(name for name in names if not name.startswith("__"))
