@@ -101,6 +101,13 @@ def test_json_is_a_dict(types: MessageTypes) -> None:
             decoder.decode(payload)
 
 
+def test_comments_and_blank_lines_are_no_fields(types: MessageTypes) -> None:
+    text = "\r\n# two\r\n  # of them\n\nuint8 a # one\n\t\nstring S=x # of it\nuint8 b"
+    decoder = types.decoder(Schema("x/Two", "ros2msg", text), "cdr")
+    message = decoder.decode(b"\0\1\0\0\5\6")
+    assert (message.a, message.b) == (5, 6)
+
+
 def test_an_empty_definition_is_an_empty_message(types: MessageTypes) -> None:
     decoder = types.decoder(Schema("my_lab/msg/Ping", "ros2msg", ""), "cdr")
     assert decoder.reason is None
@@ -201,6 +208,11 @@ HOSTILE = {
         + "bool b\n",
     ),
     "long": ("x/A", "ros2msg", "uint8 a\n" * 10**6),
+    "many fields": (
+        "x/A",
+        "ros2msg",
+        "".join(f"bool b{n}\n" for n in range(6000)),
+    ),
     "an endless number": ("x/A", "ros2msg", f"uint8[{'9' * 10**4}] a\n"),
     "wide texts": ("x/A", "ros2msg", "wstring a\n"),
     "wide texts in IDL": (

@@ -25,6 +25,7 @@ Lookup = Callable[[str], "Types | None"]
 BASE, NAME, ARRAY, SEQUENCE = 1, 2, 3, 4
 """rosbags' kinds of fields."""
 _MOST_TYPES = 1000
+_MOST_FIELDS = 5000
 _MOST_PARTS = 1000
 """Parts of the fixed arrays of a type that become lines of code."""
 _MOST_EMPTY = 64
@@ -75,6 +76,8 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
             raise DecodeError(f"the definition has more than {_MOST_TYPES} types")
         needed[one] = known[one]
         pending += (part.what for part in _parts(known[one]) if part.kind == NAME)
+    if sum(map(len, needed.values())) > _MOST_FIELDS:
+        raise DecodeError(f"the definition has more than {_MOST_FIELDS} fields")
     for one, fields in needed.items():
         _check(one, fields)
     _Size(needed).of(name)
