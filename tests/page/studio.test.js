@@ -1,0 +1,145 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { beginShapes, putBack, roundOff } from "../../src/sambot_viz/page/view/studio_shapes.js";
+import { drawShadow, dropShadow } from "../../src/sambot_viz/page/view/studio_shadow.js";
+
+/** An attribute of a geometry, as three.js has them. */
+class Values {
+  constructor(array, size) {
+    Object.assign(this, { array, size, count: array.length / size });
+  }
+  getX = (i) => this.array[i * this.size];
+  getY = (i) => this.array[i * this.size + 1];
+  getZ = (i) => this.array[i * this.size + 2];
+}
+let made = 0;
+class Geometry {
+  type = "BufferGeometry";
+  attributes = {};
+  index = null;
+  scaled = [1, 1, 1];
+  id = (made += 1);
+  setAttribute(name, values) {
+    this.attributes[name] = values;
+  }
+  setIndex(index) {
+    this.index = index;
+  }
+  scale(...by) {
+    this.scaled = by;
+  }
+  clone = () => new Geometry();
+  dispose() {}
+}
+class CylinderGeometry extends Geometry {
+  type = "CylinderGeometry";
+  parameters = { radiusTop: 0.1, radiusBottom: 0.1, height: 0.4 };
+}
+
+/** A lit shape with corners at a place. */
+function shape(Kind, corners, at = [0, 0, 0]) {
+  const geometry = new Kind();
+  geometry.attributes.position = new Values(Float32Array.from(corners.flat()), 3);
+  geometry.index = new Values(Uint16Array.from([0, 1, 2]), 1);
+  const elements = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...at, 1];
+  const material = { flatShading: true, opacity: 1, needsUpdate: false };
+  return { geometry, material, matrixWorld: { elements } };
+}
+const signs = [-0.5, 0.5];
+const cube = signs.flatMap((x) => signs.flatMap((y) => signs.map((z) => [x, y, z])));
+const ball = Array.from({ length: 114 }, (_, i) => {
+  const [z, angle] = [1 - (2 * i + 1) / 114, 2.4 * i];
+  const r = Math.sqrt(1 - z * z);
+  return [r * Math.cos(angle), r * Math.sin(angle), z].map((v) => v / 2);
+});
+
+test("RViz's sphere and cylinder become round with normals, and what they were again", () => {
+  beginShapes();
+  for (const [object, size] of [
+    [shape(Geometry, ball), [1, 1, 1]],
+    [shape(CylinderGeometry, cube), [0.2, 0.4, 0.2]],
+  ]) {
+    const { geometry } = object;
+    roundOff(object);
+    assert.notEqual(object.geometry, geometry);
+    assert.equal(object.material.flatShading, false);
+    assert.deepEqual(object.geometry.scaled, size);
+    const { position, normal } = object.geometry.attributes;
+    assert.ok(position.count > geometry.attributes.position.count && normal.count > 0);
+    for (let i = 0; i < normal.count; i += 1) {
+      const length = Math.hypot(normal.getX(i), normal.getY(i), normal.getZ(i));
+      assert.ok(Math.abs(length - 1) < 1e-3);
+    }
+    assert.ok(object.geometry.index.array.every((corner) => corner < position.count));
+    putBack(object);
+    assert.equal(object.geometry, geometry);
+    assert.equal(object.material.flatShading, true);
+  }
+});
+
+test("a shape that is made once is used for all that are the same", () => {
+  beginShapes();
+  const one = shape(Geometry, ball);
+  const other = { ...one, material: { ...one.material } };
+  roundOff(one);
+  roundOff(other);
+  assert.equal(one.geometry, other.geometry);
+});
+
+/** A scene, and the object that the background is drawn on; what is painted is counted. */
+function stage() {
+  const painted = { count: 0 };
+  const context = {
+    clearRect: () => (painted.count += 1),
+    ...{ beginPath() {}, closePath() {}, moveTo() {}, lineTo() {}, fill() {} },
+  };
+  globalThis.document = { createElement: () => ({ getContext: () => context }) };
+  class Picture {}
+  class Material {
+    uniforms = { colorMap: { value: new Picture() } };
+  }
+  class Mesh {
+    constructor(geometry, material) {
+      Object.assign(this, { geometry, material, rotation: {}, parent: null, moves: 0 });
+      this.position = { set: (...at) => (this.at = at) };
+      this.scale = { set: (...size) => (this.size = size) };
+    }
+    updateMatrixWorld() {
+      this.moves += 1;
+    }
+    removeFromParent() {
+      this.parent = null;
+    }
+  }
+  const scene = {
+    add(mesh) {
+      mesh.parent = scene;
+      scene.shadow = mesh;
+    },
+  };
+  return { scene, background: new Mesh(new Geometry(), new Material()), painted };
+}
+
+test("the shadow lies below the robot and is painted only when a shape has moved", () => {
+  const { scene, background, painted } = stage();
+  const objects = [shape(Geometry, cube, [2, 1.5, 0]), shape(Geometry, cube, [2, 3, 0])];
+  drawShadow(scene, background, objects);
+  const { shadow } = scene;
+  assert.equal(painted.count, 1);
+  assert.equal(shadow.visible, true);
+  assert.deepEqual([shadow.at[0], shadow.at[2]], [2, 0]);
+  assert.ok(shadow.at[1] < 1 && shadow.at[1] > 0.99);
+  assert.ok(shadow.size[0] > 1 && shadow.size[0] < 2);
+  // Pictures of a robot at rest, from wherever they are.
+  for (let i = 0; i < 5; i += 1) drawShadow(scene, background, objects);
+  assert.equal(painted.count, 1);
+  assert.equal(shadow.moves, 1);
+  objects[1].matrixWorld.elements[12] = 2.5;
+  drawShadow(scene, background, objects);
+  assert.equal(painted.count, 2);
+  // Nothing has no shadow, and RViz's look none at all.
+  drawShadow(scene, background, []);
+  assert.equal(shadow.visible, false);
+  dropShadow();
+  assert.equal(shadow.parent, null);
+});
