@@ -20,6 +20,7 @@ Open = Callable[[str], Source]
 @pytest.fixture
 def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosbridgePeer]:
     monkeypatch.setattr(rosapi, "POLL", 0.1)
+    monkeypatch.setattr(rosapi, "POLL_ABSENT", 0.1)
     monkeypatch.setattr(rosapi, "LONGEST_ANSWER", 0.5)
     peer = RosbridgePeer()
     yield peer
@@ -141,6 +142,24 @@ def test_without_rosapi_a_topic_is_asked_for_by_name(
     assert source.status.is_connected
     types = {one["topic"]: one.get("type") for one in robot.asked("subscribe")}
     assert types["/unheard_of"] is None
+
+
+def test_without_rosapi_a_latched_topic_is_tried_until_its_message_comes(
+    robot: RosbridgePeer, opened: Open, inbox: Inbox
+) -> None:
+    robot.services.clear()
+    source = opened(robot.uri)
+    source.subscribe("/tf_static", inbox)
+    source.subscribe("/scan", inbox)
+    until(lambda: robot.subscribed() == ["/scan", "/tf_static"], WAIT)
+    robot.advertise("/tf_static", latched=True)
+    robot.there["/tf_static"].kept.append(cdr_string("wheels"))
+    inbox.wait_for("wheels")
+    count = len(robot.asked("subscribe"))
+    polls = len(robot.asked("call_service"))
+    until(lambda: len(robot.asked("call_service")) > polls + 3, WAIT)
+    assert len(robot.asked("subscribe")) == count, "it has come"
+    assert inbox.strings() == ["wheels"]
 
 
 def test_messages_of_ros_1_are_said_to_be_such(

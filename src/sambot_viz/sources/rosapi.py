@@ -16,7 +16,7 @@ from sambot_viz.sources.websocket.conversation import MOST_TOPICS
 
 POLL = 2.0
 """Between two looks at the topics [s]."""
-POLL_ABSENT = 15.0
+POLL_ABSENT = 5.0
 """The same while rosapi does not run [s]: each look is an error in the server's log."""
 LONGEST_ANSWER = 8.0
 """A service that has not answered after so long will not [s]."""

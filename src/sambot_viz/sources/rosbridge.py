@@ -2,7 +2,8 @@
 
 rosbridge fixes the durability of a subscription when it begins: one that begins before
 its publisher never gets the publisher's latched messages. So a topic is subscribed to
-when it appears, and again when its first publisher does.
+when it appears, and again when its first publisher does. Where rosapi cannot say that,
+those that are latched by custom are tried again until a message has come.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation,
 from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
 from sambot_viz.text import text
 
+_MAP = "/map"
 _LINE_LASTS = 30.0
 _NO_ROSAPI = (
     "its topics are not known, since rosapi does not run there: start both with "
@@ -170,7 +172,19 @@ class RosbridgeConversation(Conversation):
             if self._rosapi.is_there and types.get(topic) != subscription.type_name:
                 self._unsubscribe(topic)
         for topic in self._wanted:
+            if not self._rosapi.is_there:
+                self._try_again(topic)
             self._prepare(topic)
+
+    def _try_again(self, topic: str) -> None:
+        """End a subscription without rosapi that may have begun too early."""
+        subscription = self._subscriptions.get(topic)
+        if (
+            subscription is not None
+            and not subscription.channels
+            and (is_latched_name(topic) or topic == _MAP)
+        ):
+            self._unsubscribe(topic)
 
     def _prepare(self, topic: str) -> None:
         """Subscribe when the definition and the publishers have been asked for."""
