@@ -36,6 +36,7 @@ COMMANDS = (
     "export",
     "frames",
     "snapshot",
+    "topics",
 )
 """Modules of `commands/` with ``run(words) -> exit code``; "show" is the default."""
 

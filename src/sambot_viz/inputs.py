@@ -96,7 +96,7 @@ class Inputs:
         self._options = options
         model, config = options.model, options.config
         text = model if isinstance(model, str) and looks_like_text(model) else None
-        self.recorded = _open_recorded(options)
+        self.recorded = open_recorded(options)
         self._trusts_model = True
         if self.recorded is not None:
             notes = (*options.notes, *self.problems_of_recording())
@@ -339,7 +339,7 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> tuple[Robot, dict[str, float]]:
     return Robot.from_yourdfpy(model), positions
 
 
-def _open_recorded(options: Options) -> RecordedRobot | None:
+def open_recorded(options: Options) -> RecordedRobot | None:
     """Open the recordings of the options; None when there are none."""
     if not options.source:
         return None

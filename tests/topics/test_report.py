@@ -93,7 +93,7 @@ def test_whoever_moves_a_frame_of_the_model_is_told_what_to_publish(
 
 
 def test_topics_that_are_drawn_have_no_reason(repository: Path) -> None:
-    rows = statuses(repository / "tests" / "data" / "bags" / "square.mcap")
+    rows = statuses(repository / "assets" / "square.mcap")
     drawn = {name for name, row in rows.items() if row.reason is None}
     assert drawn == {"/robot_description", "/tf", "/tf_static", "/joint_states"}
     assert rows["/tf"].count == 1000
@@ -106,7 +106,7 @@ def test_topics_that_are_drawn_have_no_reason(repository: Path) -> None:
 
 
 def test_of_a_topic_only_the_first_messages_are_decoded(repository: Path) -> None:
-    with surveyed(repository / "tests" / "data" / "bags" / "square.mcap") as survey:
+    with surveyed(repository / "assets" / "square.mcap") as survey:
         assert survey.of("/scan").seen == 100
         assert survey.of("/scan").decoded == MOST_DECODED
 

@@ -30,6 +30,7 @@ commands:
                                write a picture of the 3D view
   sambot-viz export MODEL -o FILE.html
                                write the 3D view and a motion as one HTML file
+  sambot-viz topics RECORDING  list the topics, and why nothing of one is seen
   sambot-viz config FILE.rviz  report what of an RViz config is shown
   sambot-viz completion SHELL  print what completes all this with the Tab key
 

@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem
-from sambot_viz.sources.message import Recorded
 from sambot_viz.topics import reasons
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.recorded_robot import RecordedRobot
@@ -140,19 +139,23 @@ class TopicReport:
             return None
         return reasons.no_display(type_name, self._survey.of(name).fields)
 
+    def last_ns(self, name: str, at_ns: int) -> int | None:
+        """Return the log time of the last message of a topic up to a time [ns]."""
+        looked, count = self._survey.of(name), self._topics[name].count
+        if looked.seen == count and looked.last_ns <= at_ns:
+            return looked.last_ns or None
+        last = self._recorded.recording.last(name, at_ns)
+        return None if last is None else last.log_ns
+
     def _stale(self, name: str, at_ns: int | None) -> TopicReason | None:
         if at_ns is None or self._topics[name].is_latched:
             return None
-        recording = self._recorded.recording
         period = 1 / (self.rate(name) or 1e-9)
         longest = round(max(reasons.STALE, 3 * period) * 1e9)
-        looked = self._survey.of(name)
-        if at_ns - looked.last_ns <= longest:
+        last = self.last_ns(name, at_ns)
+        if last is None or at_ns - last <= longest:
             return None
-        last: Recorded | None = recording.last(name, at_ns)
-        if last is None or at_ns - last.log_ns <= longest:
-            return None
-        return reasons.stale((at_ns - last.log_ns) * 1e-9)
+        return reasons.stale((at_ns - last) * 1e-9)
 
 
 def problems_of_transforms(

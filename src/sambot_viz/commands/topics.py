@@ -1,0 +1,103 @@
+"""``sambot-viz topics``: what a recording has, and why nothing of a topic is seen."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.errors import UsageError
+from sambot_viz.inputs import open_recorded
+from sambot_viz.problems import write_problems
+from sambot_viz.text import text
+from sambot_viz.topics.report import TopicReport, TopicStatus, problems_of_transforms
+from sambot_viz.topics.survey import Survey
+
+_HEAD = ("TOPIC", "TYPE", "COUNT", "RATE", "REASON")
+_WIDEST = 60
+
+
+def run(words: list[str]) -> int:
+    """Print the topics of recordings; returns 1 when errors were found."""
+    given, options = parse(parser(), words)
+    recorded = open_recorded(options)
+    if recorded is None:
+        raise UsageError(
+            "name a recording: sambot-viz topics FILE.mcap (or .db3, .bag, or a folder)"
+            if options.model is None
+            else f"'{options.model}' is not a recording: give an mcap, db3 or bag file"
+        )
+    with recorded.recording:
+        survey = Survey(recorded)
+        survey.finish()
+        statuses = list(TopicReport(survey).statuses(recorded.at_ns))
+        found = [
+            *recorded.problems,
+            *problems_of_transforms(survey.transforms, recorded.name),
+        ]
+    if options.model is not None:
+        found = [p for p in found if p.code != "no-description"]
+    # That it has no messages says it all.
+    if any(problem.severity == "error" for problem in found):
+        found = [p for p in found if p.severity == "error"]
+    write_problems(found, most=None)
+    if given.format == "json":
+        print(json.dumps({"topics": [topic_json(row) for row in statuses]}, indent=2))
+    else:
+        print(topics_text(statuses))
+    return int(any(problem.severity == "error" for problem in found))
+
+
+def parser() -> Parser:
+    """Return the flags of the command."""
+    made = Parser(
+        prog="sambot-viz topics",
+        groups=("model", "source"),
+        description="List the topics of a recording: type, number and rate [Hz] of the "
+        "messages, and why nothing of a topic is seen. Some of the first messages are "
+        "decoded. Exit status: 0 listed, 1 errors found, 2 usage.",
+        epilog="MODEL is a recording: an mcap, db3 or ROS 1 bag file, or a folder that "
+        "ros2 bag record made.",
+    )
+    made.add_format()
+    return made
+
+
+def topic_json(row: TopicStatus) -> dict[str, Any]:
+    """Return the fields of ``topics --format json``."""
+    reason = row.reason
+    return {
+        "name": row.name,
+        "type": row.type_name,
+        "count": row.count,
+        "rate": None if row.rate is None else round(row.rate, 3),
+        "readable": row.readable,
+        "reason": None if reason is None else reason.text,
+        "code": None if reason is None else reason.code,
+    }
+
+
+def topics_text(rows: Iterable[TopicStatus]) -> str:
+    """Return a table, without a line break at the end."""
+    cells = [_HEAD, *(_cells(row) for row in rows)]
+    widths = [max(len(line[column]) for line in cells) for column in range(4)]
+    return "\n".join(_line(line, widths) for line in cells)
+
+
+def _cells(row: TopicStatus) -> tuple[str, str, str, str, str]:
+    reason = row.reason
+    return (
+        text(row.name, _WIDEST),
+        text(row.type_name, _WIDEST) or "-",
+        "?" if row.count is None else str(row.count),
+        "-" if row.rate is None else f"{row.rate:.1f}",
+        "" if reason is None else text(f"{reason.code}: {reason.text}"),
+    )
+
+
+def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
+    name, kind, count, rate, reason = cells
+    wide, typed, counted, rated = widths
+    line = f"{name:<{wide}}  {kind:<{typed}}  {count:>{counted}}  {rate:>{rated}}"
+    return f"{line}  {reason}".rstrip()

@@ -1,0 +1,90 @@
+"""``sambot-viz topics``: what a recording has, and why nothing of a topic is seen."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.cli import main
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def square(repository: Path) -> str:
+    return str(repository / "assets" / "square.mcap")
+
+
+@pytest.fixture
+def made(shared: Path) -> Path:
+    return shared / "data" / "bags" / "made"
+
+
+def test_the_table_has_a_line_for_each_topic(square: str, capsys: Capture) -> None:
+    assert main(["topics", square]) == 0
+    out, err = capsys.readouterr()
+    lines = {line.split()[0]: line.split()[1:] for line in out.splitlines()}
+    assert lines.pop("TOPIC") == ["TYPE", "COUNT", "RATE", "REASON"]
+    assert len(lines) == 6
+    assert lines["/tf"] == ["tf2_msgs/msg/TFMessage", "1000", "50.0"]
+    assert lines["/scan"][3:6] == ["no-display:", "nothing", "draws"]
+    assert err == ""
+
+
+def test_json_has_the_same_with_full_names(square: str, capsys: Capture) -> None:
+    assert main(["topics", "--format", "json", square]) == 0
+    topics = json.loads(capsys.readouterr().out)["topics"]
+    rows = {row["name"]: row for row in topics}
+    assert rows["/joint_states"] == {
+        "name": "/joint_states",
+        "type": "sensor_msgs/msg/JointState",
+        "count": 400,
+        "rate": pytest.approx(20, rel=0.01),
+        "readable": True,
+        "reason": None,
+        "code": None,
+    }
+    assert rows["/scan"]["code"] == "no-display"
+    assert "sensor_msgs/msg/LaserScan" in rows["/scan"]["reason"]
+
+
+def test_what_is_wrong_with_frames_and_file_is_on_standard_error(
+    made: Path, capsys: Capture
+) -> None:
+    for name, codes in (
+        ("two_parents.mcap", ["two-parents"]),
+        ("clock_back.mcap", ["clock-back"]),
+        ("log_back.mcap", ["log-back"]),
+        ("cut60.mcap", ["file-cut"]),
+        ("no_description.mcap", ["no-description"]),
+    ):
+        assert main(["topics", str(made / name)]) == 0
+        err = capsys.readouterr().err
+        assert all(f"[{code}]" in err for code in codes), (name, err)
+
+
+def test_at_looks_at_that_time(made: Path, capsys: Capture) -> None:
+    path = str(made / "description_late.mcap")
+    assert main(["topics", path, "--at", "1"]) == 0
+    assert "not-here-yet: begins at 3.0 s" in capsys.readouterr().out
+    assert main(["topics", path, "--at", "4"]) == 0
+    assert "not-here-yet" not in capsys.readouterr().out
+
+
+def test_a_file_that_is_no_recording_is_one_line(
+    repository: Path, made: Path, capsys: Capture
+) -> None:
+    assert main(["topics"]) == 2
+    assert "name a recording" in capsys.readouterr().err
+    assert main(["topics", str(repository / "assets" / "sam_bot.urdf.xacro")]) == 2
+    assert "is not a recording" in capsys.readouterr().err
+    for name in ("empty.mcap", "no_messages.mcap", "garbage.mcap"):
+        assert main(["topics", str(made / name)]) == 1
+        assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_thousands_of_topics_are_listed(made: Path, capsys: Capture) -> None:
+    assert main(["topics", str(made / "many_topics.mcap"), "--format", "json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["topics"]) == 4006
