@@ -20,7 +20,9 @@ from sambot_viz.topics.robot_topics import (
 
 SEVERITIES: Mapping[str, Severity] = {
     "no-such-topic": "warning",
+    "no-publisher": "warning",
     "no-message": "warning",
+    "qos": "warning",
     "encoding": "warning",
     "type-unknown": "warning",
     "not-decodable": "warning",
@@ -33,6 +35,8 @@ SEVERITIES: Mapping[str, Severity] = {
     "wrong-type": "warning",
     "off": "info",
     "stale": "warning",
+    "lagging": "warning",
+    "mesh-not-served": "warning",
 }
 """All reasons of topics."""
 
