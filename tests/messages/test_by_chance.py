@@ -110,4 +110,5 @@ def test_a_damaged_message_is_refused_or_read_in_no_time(
             if seed:  # the functions are made with the first message
                 longest = max(longest, time.process_time() - began)
     assert refused > 200
-    assert longest < 1.0
+    # A length that is trusted takes minutes; the rest is the making of functions.
+    assert longest < 5.0

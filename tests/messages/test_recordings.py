@@ -11,7 +11,7 @@ import yaml
 from bag_messages import messages_of
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.messages import Decoder, MessageTypes, Schema
+from sambot_viz.messages import Decoder, MessageTypes, Schema, TransformDecoder
 
 
 @pytest.fixture(scope="module")
@@ -121,7 +121,7 @@ def test_a_folder_of_definitions_makes_unknown_types_readable(
         (folder / "msg" / "Finger.msg").unlink()
 
 
-def test_no_message_of_the_conformance_suite_is_more_than_one_topic_lost(
+def test_every_channel_of_the_conformance_suite_gets_a_decoder(
     shared: Path, types: MessageTypes
 ) -> None:
     folder = shared / "data/bags/mcap-conformance"
@@ -134,3 +134,34 @@ def test_no_message_of_the_conformance_suite_is_more_than_one_topic_lost(
     for schema, encoding in schemas:
         assert isinstance(types.decoder(schema, encoding), Decoder)
     assert types.decoder(Schema(""), "").reason is not None
+
+
+@pytest.mark.parametrize("name", ["made/square.mcap", "made/square.bag", "real"])
+def test_both_decoders_read_the_same_transforms(
+    shared: Path, types: MessageTypes, name: str
+) -> None:
+    path = shared / "data/bags" / name
+    count, fast = 0, dict[str, TransformDecoder]()
+    for _, schema, encoding, payload in messages_of(
+        path / "example-bz2.bag" if name == "real" else path
+    ):
+        if not schema.name.lower().endswith("tfmessage"):
+            continue
+        message = types.decoder(schema, encoding).decode(payload)
+        decoder = fast.setdefault(encoding, TransformDecoder(encoding))
+        found = [
+            (stamp, edge, tuple(pose))
+            for stamp, edges, poses in decoder.decode(payload)
+            for edge, pose in zip(edges, poses.tolist(), strict=True)
+        ]
+        assert sorted(found) == sorted(map(row, message.transforms))
+        count += len(found)
+    assert count > 1000
+
+
+def row(one: Any) -> tuple[int, tuple[str, str], tuple[float, ...]]:
+    """A transform as the other decoder gives it."""
+    stamp = one.header.stamp.sec * 10**9 + one.header.stamp.nanosec
+    place, turn = one.transform.translation, one.transform.rotation
+    pose = (place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w)
+    return stamp, (one.header.frame_id, one.child_frame_id), pose
