@@ -126,6 +126,25 @@ def test_garbage_between_good_messages_is_counted_and_said(
     assert source.status.unreadable == 6
 
 
+def test_a_subscription_that_came_too_early_is_made_again(
+    play: Callable[[Play], str], opened: Open, inbox: Inbox
+) -> None:
+    def slow(client: ServerConnection) -> None:
+        client.send(SERVER_INFO)
+        client.send(CHANNEL)
+        client.recv()
+        status = {"op": "status", "level": 2, "message": "Unknown channel ID: 1"}
+        client.send(json.dumps(status))
+        again = json.loads(client.recv())
+        assert again["subscriptions"] == [{"id": 2, "channelId": 1}]
+        client.send(b"\1\2" + GOOD[2:])
+        client.recv()
+
+    source = opened(f"foxglove://{play(slow)}")
+    source.subscribe("/a", inbox)
+    inbox.wait_for("yes")
+
+
 def test_a_peer_that_vanishes_in_the_middle_of_a_message_is_said(
     play: Callable[[Play], str], opened: Open, inbox: Inbox
 ) -> None:

@@ -6,6 +6,7 @@ nothing is published, no parameter is set, no service is called.
 
 from __future__ import annotations
 
+import re
 import time
 from itertools import count
 
@@ -21,6 +22,7 @@ _ALLOW = (
     "if the file is there, add a pattern for it to the parameter "
     "`asset_uri_allowlist` of foxglove_bridge"
 )
+_UNKNOWN_CHANNEL = re.compile(r"[Uu]nknown channel\D{0,9}(\d{1,18})")
 _DESCRIPTION = "robot_description"
 _TICKS_FOR_TOPICS = 2
 _LINE_LASTS = 30.0
@@ -67,14 +69,12 @@ class FoxgloveConversation(Conversation):
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the channels of the wanted topics, and to no others."""
-        gone, new = self._wanted - wanted, wanted - self._wanted
+        gone = self._wanted - wanted
         self._wanted = wanted
         for topic in gone:
             for channel_id in self._by_topic.get(topic, ()):
                 self._unsubscribe(channel_id)
-        for topic in new:
-            for channel_id in self._by_topic.get(topic, ()):
-                self._subscribe(channel_id)
+        self._subscribe_missing()
         for topic in gone & self._from_parameters.keys():
             del self._from_parameters[topic]
             self._asked.discard(topic)
@@ -85,6 +85,7 @@ class FoxgloveConversation(Conversation):
         """Let lines of the server that have no id end after a while."""
         if now > self._line_end:
             self._line = ""
+        self._subscribe_missing()
         # The bridge advertises topics one after the other; it is given a moment.
         if self.is_ready and "parameters" in self.capabilities:
             self._ticks += 1
@@ -204,22 +205,29 @@ class FoxgloveConversation(Conversation):
         )
         self._by_topic.setdefault(topic, []).append(server_channel.id)
         self.topics_changed = True
-        if topic in self._wanted:
-            self._subscribe(server_channel.id)
 
     def _remove(self, channel_id: int) -> None:
         channel = self._channels.get(channel_id)
         if channel is None:
             return
         # The server has ended the subscription together with the channel.
-        if (subscription := self._subscriptions.pop(channel_id, None)) is not None:
-            del self._subscribed[subscription]
+        self._forget_subscription(channel_id)
         del self._channels[channel_id]
         ids = self._by_topic[channel.topic]
         ids.remove(channel_id)
         if not ids:
             del self._by_topic[channel.topic]
         self.topics_changed = True
+
+    def _subscribe_missing(self) -> None:
+        """Subscribe to wanted channels, a moment after they were advertised.
+
+        The server advertises a channel before it takes subscriptions to it.
+        """
+        for topic in self._wanted & self._by_topic.keys():
+            for channel_id in self._by_topic[topic]:
+                if channel_id not in self._subscriptions:
+                    self._subscribe(channel_id)
 
     def _subscribe(self, channel_id: int) -> None:
         subscription = next(self._ids)
@@ -228,10 +236,15 @@ class FoxgloveConversation(Conversation):
         self.ends.send(wire.subscribe(subscription, channel_id))
 
     def _unsubscribe(self, channel_id: int) -> None:
+        subscription = self._forget_subscription(channel_id)
+        if subscription is not None:
+            self.ends.send(wire.unsubscribe(subscription))
+
+    def _forget_subscription(self, channel_id: int) -> int | None:
         subscription = self._subscriptions.pop(channel_id, None)
         if subscription is not None:
             del self._subscribed[subscription]
-            self.ends.send(wire.unsubscribe(subscription))
+        return subscription
 
     def _graph(self, update: wire.GraphUpdate) -> None:
         for topic in update.published_topics:
@@ -272,8 +285,13 @@ class FoxgloveConversation(Conversation):
         self.ends.put(Recorded(topic, channel, now, None, payload))
 
     def _status(self, status: wire.ServerStatus) -> None:
-        if status.level < 1:
-            return
+        if refused := _UNKNOWN_CHANNEL.search(status.message):
+            # The next tick subscribes again.
+            self._forget_subscription(int(refused[1]))
+        elif status.level >= 1:
+            self._note(status)
+
+    def _note(self, status: wire.ServerStatus) -> None:
         if status.id is None:
             self._line = status.message
             self._line_end = time.monotonic() + _LINE_LASTS
