@@ -119,7 +119,7 @@ ROOMS: Mapping[str, Row] = {
     "page": Row(),
     "panels": Row(
         "_version displays drive frames joints options page problems "
-        "robot rviz session tools views viser_private",
+        "robot rviz session tools topics views viser_private",
         "msgspec numpy viser",
     ),
     "server": Row(

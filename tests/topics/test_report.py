@@ -16,8 +16,9 @@ from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.topics import reasons
-from sambot_viz.topics.report import TopicReport, TopicStatus, problems_of_transforms
+from sambot_viz.topics.report import TopicReport, TopicStatus
 from sambot_viz.topics.survey import MOST_DECODED, Survey
+from sambot_viz.topics.transforms import problems_of_transforms
 
 
 @contextmanager
@@ -40,7 +41,8 @@ def problems(path: Path) -> tuple[Problem, ...]:
     with surveyed(path) as survey:
         name = survey.recorded.name
         own = survey.recorded.problems
-        return (*own, *problems_of_transforms(survey.transforms, name))
+        told = problems_of_transforms(survey.transforms, name)
+        return tuple(dict.fromkeys((*own, *told)))
 
 
 def expected(shared: Path) -> list[tuple[Path, dict[str, Any]]]:

@@ -11,8 +11,9 @@ from sambot_viz.errors import UsageError
 from sambot_viz.inputs import open_recorded
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
-from sambot_viz.topics.report import TopicReport, TopicStatus, problems_of_transforms
+from sambot_viz.topics.report import TopicReport, TopicStatus
 from sambot_viz.topics.survey import Survey
+from sambot_viz.topics.transforms import problems_of_transforms
 
 _HEAD = ("TOPIC", "TYPE", "COUNT", "RATE", "REASON")
 _WIDEST = 60

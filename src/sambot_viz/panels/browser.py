@@ -17,6 +17,7 @@ from sambot_viz.panels.row import Answer, Data, Json, Level, LongText, Row
 from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
+from sambot_viz.panels.topics import TopicsPanel
 from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
@@ -73,7 +74,14 @@ class BrowserPanels:
         scene, roles, frames = session.scene, session.roles, session.frames
         keep, clients = displays.keep_unfolded, session.clients
         views = ViewsPanel(client, document, scene, clients, roles, history, self.say)
+        data = session.data
+        topics: list[Panel] = (
+            []
+            if data is None
+            else [TopicsPanel(data.topics, data.player, scene, remake)]
+        )
         return [
+            *topics,
             OwnRolePanel(roles, client.client_id, self.say),
             ToolsPanel(client, scene, clients, robot),
             UndoPanel(client.client_id, history, document, displays, roles),

@@ -52,6 +52,7 @@ class Problems:
         scene: displays report problems of what they draw from.
         robot: what is shown while a save has a mistake.
         notes: stay beside what is wrong with the model.
+        of_data: what is wrong with the messages that were played.
 
     Attributes:
         shown: what a page shows of them.
@@ -69,6 +70,7 @@ class Problems:
         robot: RobotState,
         change: Change,
         notes: Sequence[Problem] = (),
+        of_data: Signal[tuple[Problem, ...]] | None = None,
     ) -> None:
         self._notes = tuple(notes)
         self.shown = Signal(change, ShownProblems())
@@ -83,7 +85,8 @@ class Problems:
         self._logged: set[Problem] = set()
         self.saves = Signal(change, None)
         self._model = Signal(change, None)
-        sources = [document.replaced, scene.statuses, robot.changed]
+        self._of_data = () if of_data is None else (of_data,)
+        sources = [document.replaced, scene.statuses, robot.changed, *self._of_data]
         connect([*sources, self.saves, self._model], self._show)
 
     def set_model(self, problems: Sequence[Problem]) -> None:
@@ -136,7 +139,8 @@ class Problems:
         model = _also(saved.get("model", ()), (*self.of_model, *shapes))
         config = _also(saved.get("config", ()), self._document.config.problems)
         others = (*saved.get("fault", ()), *saved.get("watch", ()))
-        return in_order((*model, *config, *others))
+        played = [problem for told in self._of_data for problem in told.value]
+        return in_order((*_also(model, played), *config, *others))
 
     def _note(self) -> str:
         notes: list[str] = []

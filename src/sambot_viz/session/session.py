@@ -123,7 +123,8 @@ class Session:
         self.motion = Motion(robot, self.drive, change, worker, clock)
         self._trail = DriveTrail(self.drive, robot, scene, change, worker)
 
-        self.problems = Problems(document, scene, robot, change, options.notes)
+        played = None if self.data is None else self.data.problems
+        self.problems = Problems(document, scene, robot, change, options.notes, played)
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit
         self.checks = Checks(robot, document, scene, self.problems, change)

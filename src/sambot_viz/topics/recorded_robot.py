@@ -18,7 +18,11 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.robot_topics import RobotTopics, robot_topics
 from sambot_viz.topics.subscriber import jump
-from sambot_viz.topics.transforms import Transforms, TransformTopics
+from sambot_viz.topics.transforms import (
+    Transforms,
+    TransformTopics,
+    problems_of_transforms,
+)
 
 # It is opened by who has one.
 if TYPE_CHECKING:
@@ -58,6 +62,7 @@ class RecordedRobot:
         if at is not None and recording.start_ns is not None:
             self.at_ns = recording.start_ns + round(at * 1e9)
         self._types = types
+        self._frame_problems: tuple[Problem, ...] | None = None
         known = {
             name: self.decoder(topic).type_name
             for name, topic in recording.topics.items()
@@ -68,7 +73,7 @@ class RecordedRobot:
     @property
     def problems(self) -> tuple[Problem, ...]:
         """What is wrong with the recording, and what it says of no robot."""
-        found = self.recording.problems
+        found = (*self.recording.problems, *self._of_frames())
         if self.description is not None:
             return found
         told = ", ".join(sorted(self.recording.topics)[:5]) or "nothing"
@@ -183,6 +188,13 @@ class RecordedRobot:
 
     def _pairs(self) -> list[tuple[str, str]]:
         return list(self.transforms(FrameHistory()).pairs())
+
+    def _of_frames(self) -> tuple[Problem, ...]:
+        """Say what is wrong with the frames at the begin; messages may say more."""
+        if self._frame_problems is None:
+            told = self.transforms(FrameHistory())
+            self._frame_problems = problems_of_transforms(told, self.name)
+        return self._frame_problems
 
     def _roots(self) -> Iterator[str]:
         pairs = self._pairs()

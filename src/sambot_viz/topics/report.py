@@ -1,16 +1,14 @@
-"""What is to be said about the topics of a recording, and about its time and frames."""
+"""What is to be said about the topics of a recording."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from sambot_viz.errors import Problem
 from sambot_viz.topics import reasons
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.survey import Survey
-from sambot_viz.topics.transforms import TransformTopics
 
 SOON_NS = 1_000_000_000
 """What begins so soon after a recording was there when it began [ns]."""
@@ -53,16 +51,21 @@ class TopicReport:
         """Yield a row for each topic, in the order of the recording."""
         return (self.status(name, at_ns) for name in self._topics)
 
-    def status(self, name: str, at_ns: int | None = None) -> TopicStatus:
+    def status(
+        self, name: str, at_ns: int | None = None, *, ages: bool = True
+    ) -> TopicStatus:
         """Return the row of a topic.
 
         Args:
             name: of the topic.
             at_ns: the log time to look at [ns]; None for the begin of the recording.
+            ages: whether the last message before is looked for, to say "stale".
         """
         topic = self._topics[name]
         decoder = self._recorded.decoder(topic)
         rate, reason = self.rate(name), self._reason(name, at_ns)
+        if reason is None and ages:
+            reason = self._stale(name, at_ns)
         readable = decoder.reason is None
         return TopicStatus(name, decoder.type_name, topic.count, rate, readable, reason)
 
@@ -106,14 +109,13 @@ class TopicReport:
             self._of_frame(name)
             or (reasons.empty(looked.empty) if looked.empty else None)
             or self._of_display(name, decoder.type_name)
-            or self._stale(name, at_ns)
         )
 
     def _not_here_yet(self, name: str, at_ns: int | None) -> TopicReason | None:
         first, start = self._survey.of(name).first_ns, self._recorded.recording.start_ns
         if first is None or start is None:
             return None
-        if first <= (start + SOON_NS if at_ns is None else at_ns):
+        if first <= max(start + SOON_NS, at_ns or 0):
             return None
         latched = self._topics[name].is_latched
         return reasons.not_here_yet((first - start) * 1e-9, latched)
@@ -156,53 +158,3 @@ class TopicReport:
         if last is None or at_ns - last <= longest:
             return None
         return reasons.stale((at_ns - last) * 1e-9)
-
-
-def problems_of_transforms(
-    transforms: TransformTopics, name: str
-) -> tuple[Problem, ...]:
-    """Say what is wrong with the transforms of a recording.
-
-    Args:
-        transforms: what they have told up to now.
-        name: of the recording.
-    """
-    found = [
-        _two_parents(child, parents, transforms.always)
-        for child, parents in transforms.parents.items()
-        if len(parents) > 1
-    ]
-    if transforms.turned_back_by:
-        back = transforms.turned_back_by * 1e-9
-        found.append(
-            Problem(
-                "warning",
-                "clock-back",
-                f"time went back by {back:.1f} s in {name} (was a simulation reset?): "
-                "transforms from before were dropped",
-                "record again after the reset, or jump behind it with the time bar",
-            )
-        )
-    return tuple(found)
-
-
-def _two_parents(
-    child: str, parents: Mapping[str, str], static: Collection[str]
-) -> Problem:
-    """Say who holds a frame at which parent; those that move it come first."""
-    order = sorted(parents, key=lambda parent: parents[parent] in static)
-    first, last = order[0], order[-1]
-    named = [f"{parent} ({parents[parent]})" for parent in order]
-    count = "two" if len(order) == 2 else f"{len(order)}"
-    if parents[first] not in static and parents[last] in static:
-        # The one that moves the robot names another frame than the root of its model.
-        hint = f"publish {first} -> {last}, the root of the model"
-    else:
-        hint = f"stop all but one of those that publish {child}"
-    return Problem(
-        "warning",
-        "two-parents",
-        f"{child} has {count} parents: {', '.join(named[:-1])} and {named[-1]}; in tf2 "
-        "a frame has one, and the others lose what is below it",
-        hint,
-    )

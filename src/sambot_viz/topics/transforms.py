@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import (
+    Callable,
+    Collection,
+    Iterable,
+    Iterator,
+    Mapping,
+    Sequence,
+)
 from dataclasses import dataclass
 
-from sambot_viz.errors import DecodeError
+from sambot_viz.errors import DecodeError, Problem
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import DURATION, FrameHistory
 from sambot_viz.frames.samples import FramePair, Poses
@@ -176,3 +183,53 @@ class TransformTopics:
         self.parents.setdefault(plain_name(child), {}).setdefault(
             plain_name(parent), topic
         )
+
+
+def problems_of_transforms(
+    transforms: TransformTopics, name: str
+) -> tuple[Problem, ...]:
+    """Say what is wrong with the transforms of a recording.
+
+    Args:
+        transforms: what they have told up to now.
+        name: of the recording.
+    """
+    found = [
+        _two_parents(child, parents, transforms.always)
+        for child, parents in transforms.parents.items()
+        if len(parents) > 1
+    ]
+    if transforms.turned_back_by:
+        back = transforms.turned_back_by * 1e-9
+        found.append(
+            Problem(
+                "warning",
+                "clock-back",
+                f"time went back by {back:.1f} s in {name} (was a simulation reset?): "
+                "transforms from before were dropped",
+                "record again after the reset, or jump behind it with the time bar",
+            )
+        )
+    return tuple(found)
+
+
+def _two_parents(
+    child: str, parents: Mapping[str, str], static: Collection[str]
+) -> Problem:
+    """Say who holds a frame at which parent; those that move it come first."""
+    order = sorted(parents, key=lambda parent: parents[parent] in static)
+    first, last = order[0], order[-1]
+    named = [f"{parent} ({parents[parent]})" for parent in order]
+    count = "two" if len(order) == 2 else f"{len(order)}"
+    if parents[first] not in static and parents[last] in static:
+        # The one that moves the robot names another frame than the root of its model.
+        hint = f"publish {first} -> {last}, the root of the model"
+    else:
+        hint = f"stop all but one of those that publish {child}"
+    return Problem(
+        "warning",
+        "two-parents",
+        f"{child} has {count} parents: {', '.join(named[:-1])} and {named[-1]}; in tf2 "
+        "a frame has one, and the others lose what is below it",
+        hint,
+    )

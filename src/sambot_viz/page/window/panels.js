@@ -7,6 +7,7 @@ import { DrivePanel } from "../panels/drive.js";
 import { FramesPanel } from "../panels/frames.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
+import { TopicsPanel } from "../panels/topics.js";
 import { ViewsPanel } from "../panels/views.js";
 import { Cell, fold, wantedRow } from "../state.js";
 import { reveal, Tree } from "../tree/tree.js";
@@ -24,6 +25,7 @@ export const tab = new Cell("joints", "tab");
 export const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   frames: { title: "Frames", content: FramesPanel },
+  topics: { title: "Topics", content: TopicsPanel },
   selection: {
     title: "Selection",
     content: () => html`<${Tree} panel="selection" label="Selection" />`,

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from sambot_viz.errors import Problem
 from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.session.data.player import Player
+from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.robot.robot_state import RobotState
-from sambot_viz.session.signals import Change
+from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Clock, Worker
 from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.transforms import problems_of_transforms
 
 
 class RobotData:
@@ -25,6 +28,8 @@ class RobotData:
         name: of the recording.
         player: the time of the recording.
         transforms: what /tf and /tf_static have told.
+        topics: what is said of the topics.
+        problems: what the transforms that were played had wrong.
     """
 
     def __init__(
@@ -43,6 +48,9 @@ class RobotData:
         self._joint_states = recorded.joint_states()
         self._frames = frames
         self._robot = robot
+        self.topics = RecordedTopics(recorded, change, worker)
+        self.problems = Signal[tuple[Problem, ...]](change, ())
+        self._turned_back_by = 0
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
         topics = recorded.topics
@@ -66,6 +74,9 @@ class RobotData:
             self.player.resume()
 
     def _draw(self, jumped: bool) -> None:
+        if self.transforms.turned_back_by != self._turned_back_by:
+            self._turned_back_by = self.transforms.turned_back_by
+            self.problems.set(problems_of_transforms(self.transforms, self.name))
         self._robot.note_followed(self._joint_states.changed())
         self._frames.waiting = True
         if jumped:

@@ -1,0 +1,174 @@
+"""The Topics panel of one browser: what each topic has, and why it shows nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from sambot_viz.errors import Severity
+from sambot_viz.panels.command import FLAG, TEXT, command
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.row import Data, Json, Level, Row
+from sambot_viz.session.data.player import Player
+from sambot_viz.session.data.recorded_topics import RecordedTopics
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Signal
+from sambot_viz.topics import reasons
+from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.report import TopicStatus
+
+MOST_SHOWN = 200
+"""So many topics have rows; the search finds the others."""
+AGES = 50
+"""Of so many topics the age is looked up at a time."""
+_LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
+
+
+class TopicsPanel(Panel):
+    """The topics of a recording that a search finds, and what is wrong with them.
+
+    Nothing is looked at before somebody opens the panel, and no age while it is not on
+    the screen.
+
+    Args:
+        topics: what is shown.
+        player: its time is that of the ages.
+        scene: has the displays that draw topics.
+        remake: called when other topics are shown.
+    """
+
+    name = "topics"
+    period = 1.0
+
+    def __init__(
+        self,
+        topics: RecordedTopics,
+        player: Player,
+        scene: Scene,
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self.remade_by = (topics.looked, player.playback, scene.statuses)
+        self._topics = topics
+        self._player = player
+        self._scene = scene
+        self._remake = remake
+        self._shown = False
+        self._words = ""
+        self._names: list[str] = []
+        self._next = 0
+        self._rows: Sequence[Row] = (
+            Row("topics/wait", "", "note", value="Looking at the messages …"),
+        )
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The time, while the panel is on the screen."""
+        return (self._player.stepped,) if self._shown else ()
+
+    def rows(self) -> Sequence[Row]:
+        """Return a row for each topic, and below it what is to be said."""
+        if self._shown and self._topics.is_complete:
+            self._rows = list(self._made())
+        return self._rows
+
+    def data(self) -> Sequence[Data]:
+        """Return whether the panel is known to be on the screen."""
+        return [Data("topics/shown", self._shown)]
+
+    def values(self) -> dict[str, Json]:
+        """Return what some topics show beside their names; the others have their turn.
+
+        The ages come from the index, nothing is decoded.
+        """
+        if not self._shown or not self._names:
+            return {}
+        first, self._next = self._next, (self._next + AGES) % len(self._names)
+        names = (self._names * 2)[first : first + min(AGES, len(self._names))]
+        return {_row_id(name): self._beside(name, aged=True) for name in names}
+
+    def _made(self) -> Iterator[Row]:
+        words = self._words.lower().split()
+        found = [
+            name
+            for name in self._topics.names
+            if all(word in name.lower() for word in words)
+        ]
+        self._names, self._next = found[:MOST_SHOWN], 0
+        for place, name in enumerate(self._names):
+            yield from self._rows_of(name, aged=place < AGES)
+        if len(found) > MOST_SHOWN:
+            more = f"{len(found) - MOST_SHOWN:,} more: use the search"
+            yield Row("topics/more", "", "note", value=more)
+        elif not found:
+            none = "No name has this in it" if words else "The recording has no topic"
+            yield Row("topics/none", "", "note", value=none)
+
+    def _rows_of(self, name: str, *, aged: bool) -> Iterator[Row]:
+        row_id = _row_id(name)
+        at_ns = self._player.time_ns
+        status = self._topics.report.status(name, at_ns, ages=False)
+        display = reasons.display_of(name, status.type_name)
+        reason = status.reason or self._of_displays(display)
+        level = None if reason is None else _LEVELS[reason.severity]
+        yield Row(
+            row_id,
+            "",
+            "readonly",
+            name,
+            value=self._beside(name, aged=aged),
+            level=level or "ok",
+            expanded=level == "warn",
+            extra={"display": display} if display else None,
+        )
+        if reason is not None:
+            text = f"{reason.text[:1].upper()}{reason.text[1:]}."
+            yield Row(f"{row_id}/reason", row_id, "note", value=text, level=level)
+        yield from _facts(row_id, status)
+
+    def _of_displays(self, kind: str | None) -> TopicReason | None:
+        """Say that what draws a topic is not there, or off."""
+        drawn = [d.config for d in self._scene.displays if d.config.kind == kind]
+        if kind is None or any(config.enabled for config in drawn):
+            return None
+        if drawn:
+            return reasons.off(drawn[0].name)
+        short = kind.rpartition("/")[2]
+        return TopicReason("no-display", f"no display {short} is there: add one")
+
+    def _beside(self, name: str, *, aged: bool) -> str:
+        """Return the rate of a topic, and how old its last message is."""
+        report, now = self._topics.report, self._player.time_ns
+        rate = report.rate(name)
+        parts = [] if rate is None else [f"{rate:.3g} Hz"]
+        last = report.last_ns(name, now) if aged else None
+        if last is not None:
+            parts.append(f"{max(0, now - last) * 1e-9:.1f} s ago")
+        return ", ".join(parts)
+
+    # What the page asks for
+
+    @command("topics/show", FLAG, client_local=True)
+    def _show(self, shown: bool) -> None:
+        """Follow the time, or do not: the panel is on the screen, or is not."""
+        if self._shown != shown:
+            self._shown = shown
+            self._topics.begin()
+            self._remake(self)
+
+    @command("topics/find", TEXT, client_local=True)
+    def _find(self, words: str) -> None:
+        """Show the topics with all these words in their names."""
+        self._words = words
+        self._remake(self)
+
+
+def _row_id(name: str) -> str:
+    return f"topic:{name}"
+
+
+def _facts(row_id: str, status: TopicStatus) -> Iterator[Row]:
+    """Yield the type of the messages, and how many there are."""
+    kind = status.type_name or "not in the file"
+    yield Row(f"{row_id}/type", row_id, "readonly", "Type", value=kind)
+    count = "not known yet" if status.count is None else f"{status.count:,}"
+    yield Row(f"{row_id}/count", row_id, "readonly", "Messages", value=count)
