@@ -89,9 +89,26 @@ def test_the_age_is_on_the_clock_of_the_player(opened: Opened) -> None:
         opened.data.player.jump(opened.data.player.start_ns + 10_050_000_000)
         at_10 = opened.panel.values()["topic:/robot_description"]
     assert at_10.startswith("10.0 s ago") or at_10.startswith("10.1 s ago")
-    assert list(opened.panel.moved_by) == [opened.data.player.stepped]
+    assert opened.data.player.stepped in opened.panel.moved_by
     opened.run("topics/show", False)
     assert opened.panel.values() == {}
+
+
+def test_a_topic_that_has_begun_is_there_without_a_hand(shared: Path) -> None:
+    path = shared / "data" / "bags" / "made" / "description_late.mcap"
+    with Visualizer(path, port=0) as viz:
+        opened = Opened(session_of(viz))
+        opened.look()
+        text = opened.values()["topic:/robot_description/reason"]
+        assert text.startswith("Begins at 3.0 s")
+        before = opened.remade
+        with opened.session.lock:
+            opened.panel.values()
+            assert opened.remade == before
+            opened.data.player.advance(3.5)
+            opened.panel.values()
+        assert opened.remade == before + 1
+        assert "topic:/robot_description/reason" not in opened.values()
 
 
 def test_a_display_that_is_off_or_missing_is_the_reason(opened: Opened) -> None:

@@ -101,6 +101,7 @@ def test_topics_that_are_drawn_have_no_reason(repository: Path) -> None:
     assert rows["/tf"].count == 1000
     assert rows["/tf"].rate == pytest.approx(50, rel=0.01)
     assert rows["/robot_description"].rate is None
+    assert rows["/tf_static"].rate is None
     scan = rows["/scan"].reason
     assert scan is not None
     assert scan.code == "no-display"

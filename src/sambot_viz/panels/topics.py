@@ -56,6 +56,9 @@ class TopicsPanel(Panel):
         self._words = ""
         self._names: list[str] = []
         self._next = 0
+        # What stands beside the names, until it is their turn again.
+        self._beside: dict[str, str] = {}
+        self._begins: list[int] = []
         self._rows: Sequence[Row] = (
             Row("topics/wait", "", "note", value="Looking at the messages …"),
         )
@@ -63,7 +66,8 @@ class TopicsPanel(Panel):
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
         """The time, while the panel is on the screen."""
-        return (self._player.stepped,) if self._shown else ()
+        player = self._player
+        return (player.stepped, player.playback) if self._shown else ()
 
     def rows(self) -> Sequence[Row]:
         """Return a row for each topic, and below it what is to be said."""
@@ -84,7 +88,11 @@ class TopicsPanel(Panel):
             return {}
         first, self._next = self._next, (self._next + AGES) % len(self._names)
         names = (self._names * 2)[first : first + min(AGES, len(self._names))]
-        return {_row_id(name): self._beside(name, aged=True) for name in names}
+        self._beside.update((name, self._rate_and_age(name)) for name in names)
+        if any(begin <= self._player.time_ns for begin in self._begins):
+            # What was not there yet has come.
+            self._remake(self)
+        return {_row_id(name): self._beside[name] for name in names}
 
     def _made(self) -> Iterator[Row]:
         words = self._words.lower().split()
@@ -93,9 +101,13 @@ class TopicsPanel(Panel):
             for name in self._topics.names
             if all(word in name.lower() for word in words)
         ]
-        self._names, self._next = found[:MOST_SHOWN], 0
-        for place, name in enumerate(self._names):
-            yield from self._rows_of(name, aged=place < AGES)
+        if self._names != found[:MOST_SHOWN]:
+            self._names, self._next = found[:MOST_SHOWN], 0
+            first = self._names[:AGES]
+            self._beside = {name: self._rate_and_age(name) for name in first}
+        self._begins = []
+        for name in self._names:
+            yield from self._rows_of(name)
         if len(found) > MOST_SHOWN:
             more = f"{len(found) - MOST_SHOWN:,} more: use the search"
             yield Row("topics/more", "", "note", value=more)
@@ -103,19 +115,22 @@ class TopicsPanel(Panel):
             none = "No name has this in it" if words else "The recording has no topic"
             yield Row("topics/none", "", "note", value=none)
 
-    def _rows_of(self, name: str, *, aged: bool) -> Iterator[Row]:
+    def _rows_of(self, name: str) -> Iterator[Row]:
         row_id = _row_id(name)
         at_ns = self._player.time_ns
         status = self._topics.report.status(name, at_ns, ages=False)
         display = reasons.display_of(name, status.type_name)
         reason = status.reason or self._of_displays(display)
+        begin = self._topics.report.first_ns(name)
+        if reason is not None and reason.code == "not-here-yet" and begin is not None:
+            self._begins.append(begin)
         level = None if reason is None else _LEVELS[reason.severity]
         yield Row(
             row_id,
             "",
             "readonly",
             name,
-            value=self._beside(name, aged=aged),
+            value=self._beside.get(name, ""),
             level=level or "ok",
             expanded=level == "warn",
             extra={"display": display} if display else None,
@@ -135,12 +150,10 @@ class TopicsPanel(Panel):
         short = kind.rpartition("/")[2]
         return TopicReason("no-display", f"no display {short} is there: add one")
 
-    def _beside(self, name: str, *, aged: bool) -> str:
-        """Return the rate of a topic, and how old its last message is."""
+    def _rate_and_age(self, name: str) -> str:
         report, now = self._topics.report, self._player.time_ns
-        rate = report.rate(name)
+        rate, last = report.rate(name), report.last_ns(name, now)
         parts = [] if rate is None else [f"{rate:.3g} Hz"]
-        last = report.last_ns(name, now) if aged else None
         if last is not None:
             parts.append(f"{max(0, now - last) * 1e-9:.1f} s ago")
         return ", ".join(parts)

@@ -47,6 +47,10 @@ class TopicReport:
         self._recorded: RecordedRobot = survey.recorded
         self._topics = survey.recorded.recording.topics
 
+    def refresh(self) -> None:
+        """Know the topics that were found since a recording was opened."""
+        self._topics = self._recorded.recording.topics
+
     def statuses(self, at_ns: int | None = None) -> Iterator[TopicStatus]:
         """Yield a row for each topic, in the order of the recording."""
         return (self.status(name, at_ns) for name in self._topics)
@@ -69,16 +73,23 @@ class TopicReport:
         readable = decoder.reason is None
         return TopicStatus(name, decoder.type_name, topic.count, rate, readable, reason)
 
+    def first_ns(self, name: str) -> int | None:
+        """Return the log time of the first message of a topic, once it was met [ns]."""
+        return self._survey.of(name).first_ns
+
     def rate(self, name: str) -> float | None:
         """Return how often messages of a topic come, between its first and last [Hz].
 
-        As long as its last message was not met, the end of the recording counts.
+        Latched messages come when somebody asks for them: they have none. As long as
+        its last message was not met, the end of the recording counts.
         """
         recording = self._recorded.recording
         count, looked = self._topics[name].count, self._survey.of(name)
         first, last = looked.first_ns, looked.last_ns
         if count is None or count > looked.seen:
             last = recording.end_ns or 0
+        if self._topics[name].is_latched:
+            return None
         if first is None or not count or count < 2 or last <= first:
             return None
         return (count - 1) / ((last - first) * 1e-9)
@@ -112,7 +123,7 @@ class TopicReport:
         )
 
     def _not_here_yet(self, name: str, at_ns: int | None) -> TopicReason | None:
-        first, start = self._survey.of(name).first_ns, self._recorded.recording.start_ns
+        first, start = self.first_ns(name), self._recorded.recording.start_ns
         if first is None or start is None:
             return None
         if first <= max(start + SOON_NS, at_ns or 0):

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Sequence
+
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
 from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.survey import Survey
 
-SLICE = 100
-"""So many messages are looked at before others get their turn."""
+SLICE = 0.01
+"""Messages are looked at for so long before others get their turn [s]."""
 PAUSE = 0.01
 """The time that others get [s]."""
 
@@ -34,11 +37,16 @@ class RecordedTopics:
         self.report = TopicReport(self._survey)
         self._worker = worker
         self._begun = False
+        self._names: list[str] = []
 
     @property
-    def names(self) -> list[str]:
+    def names(self) -> Sequence[str]:
         """The names of the topics; those of a growing recording become more."""
-        return sorted(self.recording.topics)
+        topics = self.recording.topics
+        if len(self._names) != len(topics):
+            self.report.refresh()
+            self._names = sorted(topics)
+        return self._names
 
     @property
     def is_complete(self) -> bool:
@@ -53,7 +61,8 @@ class RecordedTopics:
 
     def _step(self) -> None:
         try:
-            for _ in range(SLICE):
+            end = time.perf_counter() + SLICE
+            while time.perf_counter() < end:
                 if not self._survey.step():
                     self.looked.touch()
                     return
