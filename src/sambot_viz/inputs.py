@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.document import Document
+    from sambot_viz.topics.live_robot import LiveRobot
     from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
@@ -83,7 +84,8 @@ class Inputs:
             model; the bundled one is used then.
         broken_config: why the config is not shown yet; only with `may_be_broken`.
         poses: the file for named poses, or None to keep them in memory.
-        recorded: the robot of the recording that moves it; None without a source.
+        recorded: the robot of the recording that moves it; None without one.
+        live: the robot of a live source; None without one.
 
     Raises:
         UsageError: a file does not exist, or the model is an object of a wrong type.
@@ -96,7 +98,8 @@ class Inputs:
         self._options = options
         model, config = options.model, options.config
         text = model if isinstance(model, str) and looks_like_text(model) else None
-        self.recorded = open_recorded(options)
+        self.live = _make_live(options)
+        self.recorded = None if self.live is not None else open_recorded(options)
         self._trusts_model = True
         if self.recorded is not None:
             notes = (*options.notes, *self.problems_of_recording())
@@ -117,11 +120,11 @@ class Inputs:
         if text is not None:
             self.model, self._may_be_broken = None, False
             self._open_model(text)
-        elif model is None and self.recorded is not None:
+        elif model is None and (source := self.recorded or self.live) is not None:
             self.model, self._may_be_broken = None, False
             # Whoever recorded it is not who reads it.
             self._trusts_model = False
-            self._open_model(self.recorded.model, self.recorded.label)
+            self._open_model(source.model, source.label)
         elif model is None or isinstance(model, Path | str):
             self.model = found.model
             # A pipe of the shell can be read only once.
@@ -219,7 +222,9 @@ class Inputs:
         return bool(wait([self._robot], timeout).done)
 
     def close(self) -> None:
-        """Close the recordings; a second call does nothing."""
+        """Close recordings and connections; a second call does nothing."""
+        if self.live is not None:
+            self.live.source.close()
         if self.recorded is not None:
             self.recorded.recording.close()
 
@@ -260,6 +265,17 @@ class Inputs:
             package_path=self._options.package_path,
             trusted=trusted and self._options.trusted,
         )
+
+    def load_described(self, model: OpenedModel, packages: Path) -> Robot:
+        """Load a model that a live robot has described, with packages of its own.
+
+        Raises:
+            RobotError: the model cannot be shown.
+        """
+        from sambot_viz.robot.model import load_robot
+
+        folders = (packages, *self._options.package_path)
+        return load_robot(model, package_path=folders, trusted=False)
 
     def document(self) -> RvizConfig:
         """Return the config as a document; to be called once.
@@ -337,6 +353,21 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> tuple[Robot, dict[str, float]]:
     names, values = untyped.actuated_joint_names, untyped.cfg.tolist()
     positions = {name: q for name, q in zip(names, values, strict=True) if q}
     return Robot.from_yourdfpy(model), positions
+
+
+def _make_live(options: Options) -> LiveRobot | None:
+    """Make the live source of the options, not connected yet; None without one."""
+    live = [uri for uri in options.source if not uri.startswith("bag:")]
+    if not live:
+        return None
+    if len(options.source) > 1:
+        raise UsageError("a live source is the only one: give one --source")
+    from sambot_viz.messages import MessageTypes
+    from sambot_viz.sources.registry import open_source
+    from sambot_viz.topics.live_robot import LiveRobot
+
+    types = MessageTypes([Path(folder) for folder in options.msg_path])
+    return LiveRobot(open_source(live[0]), types)
 
 
 def open_recorded(options: Options) -> RecordedRobot | None:

@@ -41,10 +41,16 @@ if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
 
-_NO_SOURCE = "this is no source; it is bag:PATH for a recording"
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
+
+
+def _check_live(uri: str) -> None:
+    from sambot_viz.sources.registry import open_source
+
+    # It is opened by who uses it.
+    open_source(uri).close()
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,8 +106,9 @@ class Options:
     )
     source: Sequence[str] | str = option(
         (),
-        "a recording that moves the robot: bag:PATH of an mcap, db3 or bag file, or of "
-        f"a folder with them{AGAIN}",
+        "what moves the robot: bag:PATH of a recording (an mcap, db3 or bag file, or a "
+        f"folder with them{AGAIN}), foxglove://HOST:8765 or rosbridge://HOST:9090 of a "
+        "live robot",
         "--source",
         group="source",
         metavar="URI",
@@ -326,7 +333,7 @@ class Options:
             object.__setattr__(self, "model", None)
         for uri in source:
             if not uri.startswith("bag:"):
-                raise UsageError(f"--source {uri}: {_NO_SOURCE}")
+                _check_live(uri)
         if self.at is not None and not (source and math.isfinite(self.at)):
             raise UsageError(
                 f"--at {self.at:g} needs a recording: give its file, or --source "

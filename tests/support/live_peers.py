@@ -6,8 +6,10 @@ knows what it was asked for, and can be stopped and started again at the same po
 
 from __future__ import annotations
 
+import random
 import socket
 from abc import ABC, abstractmethod
+from contextlib import suppress
 from typing import Any
 
 import foxglove
@@ -28,10 +30,16 @@ def cdr_string(data: str) -> bytes:
 
 
 def free_port() -> int:
-    """A port of the loopback at which nothing listens now."""
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
+    """A port of the loopback at which nothing listens now.
+
+    Not of those that the system gives to clients: one that tries to connect while the
+    peer is stopped could be given the peer's own port, and hold it.
+    """
+    while True:
+        port = random.randrange(20_000, 30_000)
+        with socket.socket() as one, suppress(OSError):
+            one.bind(("127.0.0.1", port))
+            return port
 
 
 class Inbox:

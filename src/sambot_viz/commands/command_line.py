@@ -151,6 +151,24 @@ def parse(
     return given, options
 
 
+def parse_recorded(
+    parser: Parser, words: Sequence[str], **fixed: Any
+) -> tuple[argparse.Namespace, Options]:
+    """Read a command line of a command that takes recordings, but no live robot.
+
+    Raises:
+        UsageError: as `parse`, and a live source.
+    """
+    given, options = parse(parser, words, **fixed)
+    live = [uri for uri in options.source if not uri.startswith("bag:")]
+    if live:
+        raise UsageError(
+            f"--source {live[0]}: {parser.prog} reads recordings only; record the "
+            "robot with ros2 bag record, or show it with sambot-viz --source"
+        )
+    return given, options
+
+
 def model_path(options: Options) -> Path | None:
     """Return the MODEL of a command line; None for the bundled robot."""
     return Path(str(options.model)) if options.model is not None else None

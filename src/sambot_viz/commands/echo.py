@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 
-from sambot_viz.commands.command_line import Parser, parse, posed_frames
+from sambot_viz.commands.command_line import Parser, parse_recorded, posed_frames
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.robot_frames import Explanation, explain
 from sambot_viz.frames.transform import Transform
@@ -23,7 +23,7 @@ class _AnyOrder(Parser):
 
 def run(words: list[str]) -> int:
     """Print the pose of TARGET in SOURCE; 0 when there is one."""
-    given, options = parse(parser(), words)
+    given, options = parse_recorded(parser(), words)
     with Inputs(options) as inputs:
         robot = inputs.robot()
         found = [p for p in inputs.problems() if p.severity != "info"]

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from sambot_viz.commands.command_line import Parser, output_path, parse, start_state
+from sambot_viz.commands.command_line import (
+    Parser,
+    output_path,
+    parse_recorded,
+    start_state,
+)
 from sambot_viz.errors import UsageError
 from sambot_viz.inputs import Inputs
 from sambot_viz.problems import write_problems
@@ -10,7 +15,7 @@ from sambot_viz.problems import write_problems
 
 def run(words: list[str]) -> int:
     """Write a page of a model; 0 when the file is written."""
-    given, options = parse(parser(), words, panels=False, watch=False)
+    given, options = parse_recorded(parser(), words, panels=False, watch=False)
     output = output_path(given.output, "a page", ".html", ".htm")
     inputs = Inputs(options)
     write_problems(inputs.problems(), model=options.model)

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.commands.command_line import Parser, parse, posed_frames
+from sambot_viz.commands.command_line import Parser, parse_recorded, posed_frames
 from sambot_viz.errors import UsageError
 from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
@@ -26,7 +26,7 @@ FORMATS: dict[str, Draw] = {
 
 def run(words: list[str]) -> int:
     """Draw the frames of a model; returns 0."""
-    given, options = parse(parser(), words)
+    given, options = parse_recorded(parser(), words)
     output = Path(given.output) if given.output else None
     draw = tree_dot if output is None else _format(output)
     with Inputs(options) as inputs:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from sambot_viz.commands.command_line import (
     Parser,
     output_path,
-    parse,
+    parse_recorded,
     start_state,
     warn,
 )
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 def run(words: list[str]) -> int:
     """Write a picture of a model; 0 when the file is written."""
-    given, options = parse(parser(), words, panels=False)
+    given, options = parse_recorded(parser(), words, panels=False)
     width, height = _size(given.size)
     output = output_path(given.output, "PNG files", ".png")
     inputs = Inputs(options)

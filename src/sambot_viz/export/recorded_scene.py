@@ -91,7 +91,7 @@ def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:
         scene.config,
         scene.meshes,
         models,
-        recorded=scene.recorded,
+        moved_by=scene.recorded,
     )
     session.prepare(scene)
     session.document.show()

@@ -75,11 +75,9 @@ class BrowserPanels:
         keep, clients = displays.keep_unfolded, session.clients
         views = ViewsPanel(client, document, scene, clients, roles, history, self.say)
         data = session.data
-        topics: list[Panel] = (
-            []
-            if data is None
-            else [TopicsPanel(data.topics, data.player, scene, remake)]
-        )
+        topics: list[Panel] = []
+        if data is not None and data.topics is not None and data.player is not None:
+            topics.append(TopicsPanel(data.topics, data.player, scene, remake))
         return [
             *topics,
             OwnRolePanel(roles, client.client_id, self.say),

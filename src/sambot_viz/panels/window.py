@@ -22,8 +22,10 @@ from sambot_viz.panels.row import Answer, Row
 from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
+from sambot_viz.panels.source import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.data.robot_data import LiveData
 from sambot_viz.session.scene.joint_arrow import JointArrow
 
 _NUMBERS = ("int", "float", "slider")
@@ -80,8 +82,11 @@ class Window:
             ProblemsPanel(session.problems, remake, folders),
             DisplayCommands(session.display_edits, self._displays, remake),
         ]
-        if session.data is not None:
-            panels.append(PlayerPanel(session.data.player, session.data.name))
+        data = session.data
+        if data is not None and data.player is not None:
+            panels.append(PlayerPanel(data.player, data.name))
+        if isinstance(data, LiveData):
+            panels.append(SourcePanel(data))
         if joints:
             arrow = JointArrow(scene, session.worker)
             panels += [

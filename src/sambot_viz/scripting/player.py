@@ -82,6 +82,7 @@ class PlayerControl:
 
 
 def _player(session: Session) -> Player:
-    if session.data is None:
+    player = None if session.data is None else session.data.player
+    if player is None:
         raise UsageError("no recording is played: give one as the model or the source")
-    return session.data.player
+    return player

@@ -21,6 +21,7 @@ from sambot_viz.server.client_sessions import ClientSessions
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.sessions import MakeConfig, Sessions
+from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
 _log = logging.getLogger(__name__)
@@ -41,7 +42,8 @@ class Server:
         files: opens and follows .rviz files for the shared session; None leaves Open
             and Save out.
         ask_page: makes a page of what is seen; None leaves that out.
-        recorded: the robot of a recording, which every session plays for itself.
+        moved_by: the robot of a recording, which every session plays for itself, or of
+            a live source.
 
     Attributes:
         sessions: what the browsers see.
@@ -61,7 +63,7 @@ class Server:
         poses: Presets | None = None,
         files: Files | None = None,
         ask_page: AskPage | None = None,
-        recorded: RecordedRobot | None = None,
+        moved_by: RecordedRobot | LiveRobot | None = None,
     ) -> None:
         self.options = options
         self._open = threading.Semaphore()
@@ -69,7 +71,7 @@ class Server:
         self._listener = listening or listen(options)
         self._viser = self._listener.viser
         sessions = self.sessions = Sessions(
-            self._viser, options, make_config, models, poses, recorded
+            self._viser, options, make_config, models, poses, moved_by
         )
         clients = self.clients = ClientSessions(
             self._viser, sessions, files, ask_page, self._listener.tell_joined

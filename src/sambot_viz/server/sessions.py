@@ -23,6 +23,7 @@ from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
 from sambot_viz.session.worker import Worker
+from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
 _log = logging.getLogger(__name__)
@@ -39,7 +40,8 @@ class Sessions:
         make_config: a fresh .rviz document; called once per session.
         models: reads other models, for a RobotModel from a file.
         poses: the named poses; a private session has a copy that writes no file.
-        recorded: the robot of a recording, which every session plays for itself.
+        moved_by: the robot of a recording, which every session plays for itself, or of
+            a live source.
 
     Attributes:
         places: where each of them lives.
@@ -59,9 +61,9 @@ class Sessions:
         make_config: MakeConfig,
         models: ModelThread | None,
         poses: Presets | None,
-        recorded: RecordedRobot | None = None,
+        moved_by: RecordedRobot | LiveRobot | None = None,
     ) -> None:
-        self._recorded = recorded
+        self._moved_by = moved_by
         self._server = server
         self.options = options
         self._make_config = make_config
@@ -228,7 +230,7 @@ class Sessions:
             self._mesh_thread,
             self.options,
             poses,
-            self._recorded,
+            self._moved_by,
         )
         connect([session.scene.statuses], self._tell_files)
         if copy is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from sambot_viz.errors import RobotError
+from sambot_viz.errors import Problem, RobotError
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.inputs import Inputs
 from sambot_viz.panels.pictures import AskPage
@@ -12,11 +12,14 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
+from sambot_viz.server.live_model import LiveModel
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.config_file import take_root
+from sambot_viz.topics.live_robot import LiveRobot
 
+_STAND_IN_LINK = "base_link"
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
 
@@ -64,8 +67,9 @@ class ShownInputs:
             inputs.presets(),
             self.configs,
             ask_page,
-            inputs.recorded,
+            inputs.recorded or inputs.live,
         )
+        self._live_model: LiveModel | None = None
 
     def start(self) -> None:
         """Show the robot, and follow the files if the options say so.
@@ -81,8 +85,10 @@ class ShownInputs:
             if refusal is None:
                 self._show(inputs.robot())
             clients.show_panels()
-            if inputs.options.watch:
+            if inputs.options.watch and inputs.live is None:
                 self._follow(refusal)
+            if inputs.live is not None:
+                self._follow_live(inputs.live)
         except BaseException:
             self.server.stop()
             raise
@@ -91,8 +97,10 @@ class ShownInputs:
         """Stop the server and free the port; a second call does nothing."""
         if self._reloader is not None:
             self._reloader.close()
-        self.server.stop()
         self._inputs.close()
+        if self._live_model is not None:
+            self._live_model.close()
+        self.server.stop()
 
     def _show(self, robot: Robot) -> None:
         """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
@@ -104,6 +112,34 @@ class ShownInputs:
                     self._fit_fixed_frame(session.document.config, robot)
         sessions.show_robot(robot)
 
+    def _follow_live(self, live: LiveRobot) -> None:
+        """Connect to a live robot, and show it as it describes itself."""
+        if self._inputs.model is None:
+            self._live_model = LiveModel(
+                live, self._inputs.load_described, self._show_live, self._refuse_live
+            )
+        live.source.open()
+
+    def _show_live(self, robot: Robot, top: str, missing: tuple[Problem, ...]) -> None:
+        sessions, root = self.server.sessions, plain_name(robot.root)
+        sessions.set_reload_problems("model", missing)
+        if self._stand_in is self.configs.current:
+            for session in sessions.all():
+                with session.change(session.document.options, session.document.views):
+                    self._fit_view(session.document.config, top, root)
+            self._fit_view(self.configs.current, top, root)
+        sessions.show_robot(robot)
+
+    def _refuse_live(self, error: RobotError) -> None:
+        self.server.sessions.set_reload_problems("model", error.problems)
+
+    def _fit_view(self, document: RvizConfig, top: str, root: str) -> None:
+        """Let what moves be seen to move, and not leave the picture."""
+        if document.global_options.get("Fixed Frame") in (_STAND_IN_LINK, root):
+            document.global_options.set("Fixed Frame", top)
+            if top != root:
+                document.view.set("Target Frame", root)
+
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
         if document.global_options.get("Fixed Frame") == self._stand_in_frame:
@@ -111,7 +147,7 @@ class ShownInputs:
             recorded = self._inputs.recorded
             if recorded is not None:
                 # What moves is seen to move.
-                top = recorded.top_frame(robot)
+                top = recorded.top_frame(robot.root)
                 document.global_options.set("Fixed Frame", top)
                 if top != plain_name(robot.root):
                     # It would leave the picture.

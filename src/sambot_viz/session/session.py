@@ -26,7 +26,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.data.robot_data import RobotData
+from sambot_viz.session.data.robot_data import LiveData, RecordedData, RobotData
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
@@ -44,6 +44,7 @@ from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Clock, WallClock, Worker
+from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
@@ -60,8 +61,8 @@ class Session:
         reader: reads mesh files in the background; None reads them while drawing.
         options: the start pose, the static transforms and the wheels.
         poses: the named poses; None keeps new ones in memory.
-        recorded: the robot of a recording, which moves this one; None leaves it to
-            the sliders.
+        moved_by: the robot of a recording or of a live source, which moves this one;
+            None leaves it to the sliders.
         clock: the time of what moves; the computer's by default.
 
     Attributes:
@@ -85,7 +86,7 @@ class Session:
         reader: Reader | None = None,
         options: Options | None = None,
         poses: Presets | None = None,
-        recorded: RecordedRobot | None = None,
+        moved_by: RecordedRobot | LiveRobot | None = None,
         clock: Clock | None = None,
     ) -> None:
         self.audience, self.worker, self.lock = audience, worker, worker.lock
@@ -98,7 +99,7 @@ class Session:
         self.roles = Roles(change, options.presenter is not None and not private)
         history = self.history = History(change)
 
-        frames = None if recorded is None else FrameHistory()
+        frames = None if moved_by is None else FrameHistory()
         tree = FrameTree(frames)
         scene = self.scene = Scene(audience, tree, change, meshes, models, reader)
         picker = self.picker = Picker(scene, worker)
@@ -114,9 +115,11 @@ class Session:
         )
         self.robot = robot
         self.data: RobotData | None = None
-        if recorded is not None and frames is not None:
-            self.data = RobotData(
-                recorded, frames, data_frames, robot, change, worker, clock
+        if isinstance(moved_by, LiveRobot) and frames is not None:
+            self.data = LiveData(moved_by, frames, data_frames, robot, change, worker)
+        elif isinstance(moved_by, RecordedRobot) and frames is not None:
+            self.data = RecordedData(
+                moved_by, frames, data_frames, robot, change, worker, clock
             )
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
@@ -154,7 +157,7 @@ class Session:
         with self.lock:
             self.roles.join(handle.client_id, presenter, login)
             if self.data is not None:
-                self.data.player.begin()
+                self.data.begin()
             return self.clients.join(handle)
 
     def leave(self, client_id: int) -> None:
@@ -186,13 +189,14 @@ class Session:
             )
             self.scene.draw_frames()
             if self.data is not None:
-                self.data.player.resume()
+                self.data.resume()
 
     def copy(self) -> SessionCopy:
         """Copy what is shown now."""
         with self.lock:
             joints, context = self.robot.joints, self.scene.context
             data = self.data
+            player = None if data is None else data.player
             return SessionCopy(
                 config=self.document.config.copy(),
                 positions={} if joints is None else dict(joints.positions),
@@ -207,8 +211,8 @@ class Session:
                 trail=self.drive.trail,
                 models=context.models,
                 meshes=context.assets.cache,
-                recorded=None if data is None else data.recorded,
-                time_ns=0 if data is None else data.player.time_ns,
+                moved_by=None if data is None else data.recorded or data.live,
+                time_ns=0 if player is None else player.time_ns,
                 follows=bool(self.robot.followed.value),
             )
 
@@ -230,7 +234,8 @@ class Session:
             self.frames.add(frame.parent, child, frame.transform, static=frame.static)
         if self.data is not None:
             self.data.follow(copy.follows)
-            self.data.player.jump(copy.time_ns)
+            if self.data.player is not None:
+                self.data.player.jump(copy.time_ns)
         if self.robot.joints is not None:
             known = self.robot.joints.free
             self.robot.move({n: q for n, q in copy.positions.items() if n in known}, {})
@@ -250,11 +255,11 @@ class Session:
         self.picker.close()
         self.robot.close()
         if self.data is not None:
-            self.data.player.close()
+            self.data.close()
         self.worker.close()
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)
         self.motion.period = self.document.period
         if self.data is not None:
-            self.data.player.period = self.document.period
+            self.data.period = self.document.period

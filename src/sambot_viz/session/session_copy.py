@@ -14,6 +14,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.robot.user_frames import UserFrame
+from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
@@ -35,7 +36,7 @@ class SessionCopy:
         trail: where the robot was driven, x, y [m] in odom.
         models: reads further models.
         meshes: mesh files that are read already.
-        recorded: the recording that moves the robot; None without one.
+        moved_by: the recording or the live robot that moves it; None without one.
         time_ns: the log time that is shown of it [ns].
         follows: whether its messages move the joints.
     """
@@ -53,9 +54,14 @@ class SessionCopy:
     trail: tuple[tuple[float, float], ...]
     models: ModelReader | None
     meshes: MeshCache
-    recorded: RecordedRobot | None = None
+    moved_by: RecordedRobot | LiveRobot | None = None
     time_ns: int = 0
     follows: bool = True
+
+    @property
+    def recorded(self) -> RecordedRobot | None:
+        """The recording that moves the robot; None without one."""
+        return self.moved_by if isinstance(self.moved_by, RecordedRobot) else None
 
     def before(self, sample: MotionSample) -> SessionCopy:
         """Return the same, with joints and frames where they were."""

@@ -21,6 +21,7 @@ class JointStateTopics:
 
     Attributes:
         topics: as given.
+        last: joint → the last position that was taken [rad or m].
         undecoded: topic → how many messages could not be decoded.
         uneven: topic → how many messages have more names than positions.
     """
@@ -35,6 +36,7 @@ class JointStateTopics:
         self.undecoded: Counter[str] = Counter()
         self.uneven: Counter[str] = Counter()
         self._decode = decode
+        self.last: dict[str, float] = {}
         self._changed: dict[str, float] = {}
 
     def take(self, message: Recorded) -> None:
@@ -50,7 +52,7 @@ class JointStateTopics:
             self.uneven[message.topic] += 1
         for name, position in zip(names, positions, strict=False):
             if math.isfinite(position):
-                self._changed[name] = float(position)
+                self._changed[name] = self.last[name] = float(position)
 
     def take_older(self, message: Recorded) -> None:
         """Do nothing: what is older than `depth_ns` counts for nothing."""

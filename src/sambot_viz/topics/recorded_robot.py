@@ -9,14 +9,14 @@ from xml.sax.saxutils import quoteattr
 from sambot_viz.errors import DecodeError, Problem
 from sambot_viz.frames import FrameHistory, FrameTree
 from sambot_viz.frames.data_frames import DataFrames
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.joints import JointState
-from sambot_viz.messages import Decoder, MessageTypes, TransformDecoder
+from sambot_viz.messages import Decoder, MessageTypes
 from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.joint_states import JointStateTopics
-from sambot_viz.topics.robot_topics import RobotTopics, robot_topics
+from sambot_viz.topics.robot_topics import RobotTopics, robot_topics, top_frame
 from sambot_viz.topics.subscriber import jump
 from sambot_viz.topics.transforms import (
     Transforms,
@@ -44,6 +44,7 @@ class RecordedRobot:
     Attributes:
         recording: as given.
         name: as given.
+        decoding: decodes its messages.
         at_ns: the log time to begin with [ns]; None as `at`.
         topics: those that are the robot's.
         description: the URDF, the last one that was sent; None when there is none.
@@ -61,7 +62,7 @@ class RecordedRobot:
         self.at_ns: int | None = None
         if at is not None and recording.start_ns is not None:
             self.at_ns = recording.start_ns + round(at * 1e9)
-        self._types = types
+        self.decoding = Decoding(types)
         self._frame_problems: tuple[Problem, ...] | None = None
         known = {
             name: self.decoder(topic).type_name
@@ -100,16 +101,9 @@ class RecordedRobot:
         topic = self.topics.description
         return self.name if topic is None else f"{self.name}:{topic}"
 
-    def top_frame(self, robot: Robot) -> str:
-        """Return the frame at the top of the tree of a robot, such as odom."""
-        above = {child: parent for parent, child in self._pairs()}
-        frame = plain_name(robot.root)
-        # Messages may form a ring.
-        for _ in range(len(above)):
-            if frame not in above:
-                break
-            frame = above[frame]
-        return frame
+    def top_frame(self, root: str) -> str:
+        """Return the frame at the top of the tree of a root link, such as odom."""
+        return top_frame(root, self._pairs())
 
     def frames(self, robot: Robot, joints: JointState) -> FrameTree:
         """Return where all frames are at the time to look at, or else at the end.
@@ -155,7 +149,8 @@ class RecordedRobot:
 
     def joint_states(self) -> JointStateTopics:
         """Return what takes the positions of joints."""
-        return JointStateTopics(self.topics.joint_states, self.decode)
+        decoding = Decoding(self.decoding.types)
+        return JointStateTopics(self.topics.joint_states, decoding.decode)
 
     def decode(self, message: Recorded) -> Any:
         """Return a message as an object with its fields.
@@ -163,28 +158,15 @@ class RecordedRobot:
         Raises:
             DecodeError: its bytes are not what its type says.
         """
-        channel = message.channel
-        decoder = self._types.decoder(channel.schema, channel.message_encoding)
-        if decoder.reason is not None:
-            raise DecodeError(decoder.reason.text)
-        return decoder.decode(message.payload)
+        return self.decoding.decode(message)
 
     def decoder(self, topic: RecordedTopic) -> Decoder:
         """Return the decoder of a topic, with the reason when there is none."""
-        return self._types.decoder(topic.schema, topic.message_encoding)
+        return self.decoding.types.decoder(topic.schema, topic.message_encoding)
 
     def transform_decoder(self) -> Callable[[Recorded], Transforms]:
         """Return what reads the transforms of a message; it raises DecodeError."""
-        decoders: dict[str, TransformDecoder] = {}
-
-        def decode(message: Recorded) -> Transforms:
-            encoding = message.channel.message_encoding
-            decoder = decoders.get(encoding)
-            if decoder is None:
-                decoder = decoders[encoding] = TransformDecoder(encoding)
-            return decoder.decode(message.payload)
-
-        return decode
+        return Decoding(self.decoding.types).transforms
 
     def _pairs(self) -> list[tuple[str, str]]:
         return list(self.transforms(FrameHistory()).pairs())

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from sambot_viz.frames.hierarchy import plain_name
+
 DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
 TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
 JOINT_STATE_TYPES = frozenset({"sensor_msgs/msg/JointState"})
@@ -64,6 +66,23 @@ def robot_topics(
         _of(types, JOINT_STATE_TYPES, space, "joint_states"),
         tuple(found[1:]),
     )
+
+
+def top_frame(root: str, pairs: Iterable[tuple[str, str]]) -> str:
+    """Return the frame at the top of the tree of a root link, such as odom.
+
+    Args:
+        root: of a robot.
+        pairs: (parent, child) of all transforms that are known.
+    """
+    above = {child: parent for parent, child in pairs}
+    frame = plain_name(root)
+    # Messages may form a ring.
+    for _ in range(len(above)):
+        if frame not in above:
+            break
+        frame = above[frame]
+    return frame
 
 
 def _of(

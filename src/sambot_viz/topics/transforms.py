@@ -81,6 +81,10 @@ class TransformTopics:
         self._changed_groups: dict[int, _Publication] = {}
         self._changed: dict[str, None] = {}
 
+    def set_topics(self, moving: Collection[str], static: Collection[str]) -> None:
+        """Take the messages of these topics from now on."""
+        self.topics, self.always = (*moving, *static), frozenset(static)
+
     def take(self, message: Recorded) -> None:
         """Take the transforms of a message, as tf2's listener does."""
         is_static = message.topic in self.always

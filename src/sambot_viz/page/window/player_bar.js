@@ -32,8 +32,21 @@ export const step = (back) => act("player/step", [back]);
 
 export function PlayerBar() {
   const time = useRow("player/time");
+  const source = useData("source/status");
+  if (source) return html`<${Source} ...${source} />`;
   if (!time) return null;
   return html`<section class="player-bar" aria-label="Player"><${Controls} time=${time} />
+  </section>`;
+}
+
+/** How the connection to a live robot is.
+ * @param {{name: string, connected: boolean, sentence: string}} props */
+function Source({ name, connected, sentence }) {
+  return html`<section class="player-bar" aria-label="Source">
+    <span class=${`source l-${connected ? "ok" : "warn"}`}><${Icon} name=${connected ? "ok" : "warn"} />
+      ${connected ? "Live" : "Waiting"}</span>
+    <span class="uri" title=${name}>${name}</span>
+    <span class="sentence" role="status" title=${sentence}>${sentence}</span>
   </section>`;
 }
 

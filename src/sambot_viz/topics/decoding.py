@@ -1,0 +1,48 @@
+"""Decode the messages of a source, each by the definition of its channel."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sambot_viz.errors import DecodeError
+from sambot_viz.messages import MessageTypes, TransformDecoder
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.transforms import Transforms
+
+
+class Decoding:
+    """Decodes messages of any topic, and transforms in a faster way.
+
+    Not thread-safe: each session has its own.
+
+    Args:
+        types: of all sources.
+    """
+
+    def __init__(self, types: MessageTypes) -> None:
+        self.types = types
+        self._transforms: dict[str, TransformDecoder] = {}
+
+    def decode(self, message: Recorded) -> Any:
+        """Return a message as an object with its fields.
+
+        Raises:
+            DecodeError: its bytes are not what its type says, or nobody reads them.
+        """
+        channel = message.channel
+        decoder = self.types.decoder(channel.schema, channel.message_encoding)
+        if decoder.reason is not None:
+            raise DecodeError(decoder.reason.text)
+        return decoder.decode(message.payload)
+
+    def transforms(self, message: Recorded) -> Transforms:
+        """Return the transforms of a message of /tf.
+
+        Raises:
+            DecodeError: as `decode`.
+        """
+        encoding = message.channel.message_encoding
+        decoder = self._transforms.get(encoding)
+        if decoder is None:
+            decoder = self._transforms[encoding] = TransformDecoder(encoding)
+        return decoder.decode(message.payload)
