@@ -161,7 +161,7 @@ ROOMS: Mapping[str, Row] = {
         "concurrent threading",
     ),
     "flags": Row("frames joints"),
-    "options": Row("flags frames joints robot rviz", "yourdfpy"),
+    "options": Row("flags frames joints robot rviz sources", "yourdfpy"),
     "problems": Row(),
     "text": Row(),
     "visualizer": Row(

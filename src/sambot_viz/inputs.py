@@ -381,7 +381,11 @@ def open_recorded(options: Options) -> RecordedRobot | None:
     paths = [Path(uri.removeprefix("bag:")) for uri in options.source]
     types = MessageTypes([Path(folder) for folder in options.msg_path])
     name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
-    return RecordedRobot(open_recording(paths), types, name, options.at)
+    recording = open_recording(paths)
+    # What is large and without an index is looked through now: a second or two a GB.
+    while not recording.index_more():
+        pass
+    return RecordedRobot(recording, types, name, options.at)
 
 
 def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.command_line import Parser, parse_recorded
 from sambot_viz.errors import UsageError
 from sambot_viz.inputs import open_recorded
 from sambot_viz.problems import write_problems
@@ -21,7 +21,7 @@ _WIDEST = 60
 
 def run(words: list[str]) -> int:
     """Print the topics of recordings; returns 1 when errors were found."""
-    given, options = parse(parser(), words)
+    given, options = parse_recorded(parser(), words)
     recorded = open_recorded(options)
     if recorded is None:
         raise UsageError(
