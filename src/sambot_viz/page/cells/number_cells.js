@@ -15,7 +15,7 @@ import {
   stepped,
   writtenNumber,
 } from "./numbers.js";
-import { degrees, useData } from "../state.js";
+import { degrees, useData, useRow } from "../state.js";
 import { formula, outside, shownUnit, withinTurn } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -286,7 +286,9 @@ function Handle({ row, tab, held }) {
 function TurnButton({ row, tab }) {
   const turning = (useData("joints/turning") || []).includes(row.id);
   const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
-  return html`<button class="flat turn needs-control" aria-pressed=${String(turning)} aria-label=${label}
+  // What messages move is theirs.
+  const free = !useRow("joints/follow")?.value;
+  return html`<button class="flat turn needs-control" disabled=${!free} aria-pressed=${String(turning)} aria-label=${label}
     title=${label} tabindex=${tab}
     onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} />
       </button>`;

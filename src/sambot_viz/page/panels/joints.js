@@ -49,6 +49,7 @@ export function JointsPanel() {
   const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
   const width = useWidth(panel);
   useGlowEnd();
+  const free = !useRow("joints/follow")?.value;
   if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
   const many = ids.filter((id) => isSlider(rowOf(id))).length > SEARCH_FROM;
   const wheels = Boolean(rows.get("joints/rate"));
@@ -58,9 +59,9 @@ export function JointsPanel() {
   const look = `joints${wheels ? " wheels" : ""}${grouped ? " grouped" : ""}${stacked ? " stacked" : ""}`;
   return html`<div class=${look} ref=${panel} style=${`--names: ${names}px`}>
     <div class="buttons" role="toolbar" aria-label="All joints">
-      <button class="needs-control" onClick=${() => act("joints/center")}
+      <button class="needs-control" disabled=${!free} onClick=${() => act("joints/center")}
         title="Move all joints to their start positions">Center</button>
-      <button class="needs-control" onClick=${() => act("joints/randomize")}
+      <button class="needs-control" disabled=${!free} onClick=${() => act("joints/randomize")}
         title="Move all joints to random positions within their limits">Randomize</button>
       <${Copy} />
       <${Poses} />

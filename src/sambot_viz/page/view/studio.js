@@ -144,13 +144,14 @@ export function dress(studio, object, visible) {
  * @param {any} camera
  * @param {any} background the object that viser draws the background on
  * @param {any} names the boxes behind all names
- * @returns {number} how many meshes are not as they will be
+ * @returns {number} how many meshes, and the shadow, are not as they will be
  */
 export function finishStudio(studio, scene, camera, background, names) {
   if (!studio && !was) return 0;
   was = studio;
   if (names) moveNames(names, camera, studio);
-  if (studio && background) drawShadow(scene, background, seen);
+  let late = 0;
+  if (studio && background) late = Number(drawShadow(scene, background, seen));
   else dropShadow();
-  return waitingShapes();
+  return waitingShapes() + late;
 }

@@ -26,6 +26,9 @@ void main() {
   gl_FragColor = vec4(0.0, 0.0, 0.0, 0.85 * texture2D(uShadow, vPlace).a);
 }`;
 
+/** While something moves, the shadow takes at most this part of the time: where it is slow, it
+ * follows in steps. */
+const SHARE = 0.12;
 /** @typedef {{x: number, z: number}} Point on the ground; y is up */
 /** The outermost corners of a geometry. @type {WeakMap<object, Float32Array>} */
 const outer = new WeakMap();
@@ -108,6 +111,8 @@ function state(objects) {
 
 /** @type {{mesh: any, canvas: HTMLCanvasElement, texture: any, state: number} | null} */
 let shadow = null;
+/** It is not drawn again before this time [ms]. */
+let due = 0;
 
 /** @param {any} background the object that viser draws the background on */
 function make(background) {
@@ -143,14 +148,17 @@ function make(background) {
  * @param {any} scene
  * @param {any} background see `make`
  * @param {any[]} objects the lit shapes that are seen
+ * @returns {boolean} whether it is still that of an earlier moment
  */
 export function drawShadow(scene, background, objects) {
   shadow ??= make(background);
-  if (!shadow) return;
+  if (!shadow) return false;
   if (shadow.mesh.parent !== scene) scene.add(shadow.mesh);
   shadow.mesh.visible = objects.length > 0;
   const now = state(objects);
-  if (!objects.length || now === shadow.state) return;
+  if (!objects.length || now === shadow.state) return false;
+  const begin = performance.now();
+  if (begin < due) return true;
   shadow.state = now;
   const outlines = objects.map(outline);
   const all = outlines.flatMap(({ points }) => points);
@@ -166,6 +174,9 @@ export function drawShadow(scene, background, objects) {
   shadow.mesh.position.set(middle.x, ground - 0.001 * wide, middle.z);
   shadow.mesh.scale.set(side, side, 1);
   shadow.mesh.updateMatrixWorld();
+  const end = performance.now();
+  due = end + (end - begin) / SHARE;
+  return false;
 }
 
 /**

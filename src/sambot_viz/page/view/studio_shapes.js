@@ -2,9 +2,9 @@
 /* Studio: round shapes in place of those with 16 flat sides, and smooth meshes. The server sends
  * RViz's shapes to all; here the geometry of an object is replaced while its page shows Studio. */
 
-const SIDES = 64;
+const SIDES = 32;
 /** Axes and arrows are thin. */
-const FEW_SIDES = 24;
+const FEW_SIDES = 16;
 /** Faces that meet at less than this are one smooth surface [cosine of 35°]. */
 const CREASE = 0.82;
 /** Meshes with more triangles stay as they are. */
