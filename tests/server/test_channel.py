@@ -96,6 +96,13 @@ def until_changed(channel: ClientConnection, row: str) -> Any:
             return changed[row]
 
 
+def answers(channel: ClientConnection) -> None:
+    """Wait for the answer to a ping; rows that are made late may come before it."""
+    channel.send(PING)
+    while channel.recv(timeout=10.0) != PONG:
+        pass
+
+
 def closed_with(channel: ClientConnection) -> int | None:
     with pytest.raises(ConnectionClosed) as closed:
         while True:
@@ -121,9 +128,7 @@ def test_both_connections_of_a_page_are_one_client_in_any_order(
         assert all(part["all"] for part in whole)
     # Who is there is known to both.
     for channel in (early, late):
-        channel.send(PING)
-        while channel.recv(timeout=10.0) != PONG:
-            pass
+        answers(channel)
     early.send(f'["{JOINT}",0.5]')
     patches = [decode(early.recv(timeout=10.0)) for _ in range(2)]
     # Undo is offered where the joint was moved, and nowhere else.
@@ -143,8 +148,7 @@ def test_a_ticket_that_is_in_use_is_refused(
     with pytest.raises(InvalidStatus) as refused:
         pages.open(viz, ticket, protocol)
     assert status_of(refused) == 409
-    own.send(PING)
-    assert own.recv(timeout=10.0) == PONG
+    answers(own)
 
 
 def test_a_page_that_lost_its_connections_without_a_word_takes_them_over(
@@ -402,8 +406,7 @@ def test_nonsense_is_dropped_and_the_channel_stays(
     pages.viser(viz, ticket)
     rows(channel := pages.channel(viz, ticket))
     channel.send(data)
-    channel.send(PING)
-    assert channel.recv(timeout=10.0) == PONG
+    answers(channel)
 
 
 def test_a_message_that_is_too_long_ends_the_channel(
