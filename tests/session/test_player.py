@@ -8,8 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from inside import session_of
+from protocol_client import ProtocolClient
 
 from sambot_viz import JointError, UsageError, Visualizer
+from sambot_viz.frames.robot_frames import explain
 from sambot_viz.session.data.player import Player
 
 LEFT, WHEEL = "drivewhl_l_joint", "drivewhl_l_link"
@@ -73,6 +75,24 @@ def test_it_stops_at_the_end_or_begins_again(viz: Visualizer, player: Player) ->
     player.advance(100.0)
     assert viz.player.playing
     assert viz.player.time == 0.0
+
+
+def test_frames_without_a_place_at_a_time_are_known_and_nothing_fails(
+    viz: Visualizer, player: Player, protocol: Callable[..., ProtocolClient]
+) -> None:
+    """As in tf2; the Frames panel of a page explains why there is no answer."""
+    protocol(viz.viser.get_port()).settle(viz.viser)
+    player.pause()
+    viz.player.jump(19.5)
+    viz.player.jump(0.0)
+    assert WHEEL in viz.frames
+    assert not viz.frames.can_lookup("odom", WHEEL)
+    session = session_of(viz)
+    found = explain(session.frames.tree, "odom", WHEEL, session.robot.model)
+    assert "no transform joins the two" in found.reason
+    assert session.problems.shown.value.listed == ()
+    viz.player.jump(4.0)
+    assert viz.frames.can_lookup("odom", WHEEL)
 
 
 def test_steps_go_from_message_to_message_of_a_topic(

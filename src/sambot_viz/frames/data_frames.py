@@ -73,7 +73,12 @@ class DataFrames:
         return changed
 
     def set_again(self) -> None:
-        """Set all of them in a tree that was cleared."""
+        """Set all of them in a tree that was cleared.
+
+        Frames that have no place at present are known all the same, as in tf2.
+        """
+        for frame in self._history.frames if self._history is not None else ():
+            self._tree.declare(frame)
         self._set(tuple(self._known))
 
     def places_links(self, robot: Robot) -> bool:
@@ -110,5 +115,6 @@ class DataFrames:
                     tree.set(sample.parent, child, transform, sample.stamp * 1e-9)
             except FrameError as error:
                 self.refused[child] = str(error)
+                tree.declare(child)
                 continue
             self._known[child] = None
