@@ -88,3 +88,15 @@ def test_a_file_that_is_no_recording_is_one_line(
 def test_thousands_of_topics_are_listed(made: Path, capsys: Capture) -> None:
     assert main(["topics", str(made / "many_topics.mcap"), "--format", "json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["topics"]) == 4006
+
+
+@pytest.mark.parametrize("command", ["check", "expand"])
+def test_a_command_for_models_refuses_a_recording(
+    command: str, square: str, capsys: Capture
+) -> None:
+    """It must not take the bundled robot in its place."""
+    assert main([command, square]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert square in err
+    assert "sambot-viz topics" in err

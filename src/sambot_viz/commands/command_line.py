@@ -133,7 +133,9 @@ def parse(
         m for m in (given.model, given.model_option, launch_model) if m is not None
     ]
     takes_source = any(option.name == "source" for option in parser.options)
-    recorded = [m for m in models if takes_source and is_recording(m)]
+    # A model beside a recording; `Options` sees by itself that a model alone is one.
+    both = takes_source and len(models) > 1
+    recorded = [m for m in models if both and is_recording(m)]
     models = [m for m in models if m not in recorded]
     if len(models) > 1:
         raise UsageError(f"two models given: '{models[0]}' and '{models[1]}'; name one")
@@ -145,6 +147,11 @@ def parse(
         uris = [f"bag:{path}" for path in recorded]
         values["source"] = (*uris, *values.get("source", ()))
     options = Options(model=model, xacro_args=arguments, **values, **fixed)
+    if options.source and not takes_source:
+        raise UsageError(
+            f"'{model}' is a recording, and {parser.prog} reads models; see what is in "
+            "it with sambot-viz topics"
+        )
     for transform in options.transforms:
         for warning in transform.warnings:
             warn(f"--static-transform: {warning}")
