@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data
 from sambot_viz.session.data.robot_data import LiveData
+from sambot_viz.topics.live_reasons import lagging
 
 
 class SourcePanel(Panel):
@@ -27,11 +28,10 @@ class SourcePanel(Panel):
         robot = self._live.live
         if robot is None:
             return []
-        status = robot.source.status
-        lost = status.dropped + self._live.lost
-        sentence = robot.sentence
-        if lost:
-            sentence += f"; {lost} messages were dropped: this computer is too slow"
+        status, sentence = robot.source.status, robot.sentence
+        behind = lagging(status.dropped + self._live.lost, "this computer")
+        if behind is not None:
+            sentence += f"; {behind.text}"
         return [
             Data(
                 "source/status",
