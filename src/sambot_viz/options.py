@@ -47,10 +47,9 @@ Look = Literal["rviz", "studio"]
 
 
 def _check_live(uri: str) -> None:
-    from sambot_viz.sources.registry import open_source
+    from sambot_viz.sources.registry import live_address
 
-    # It is opened by who uses it.
-    open_source(uri).close()
+    live_address(uri)
 
 
 @dataclass(frozen=True, slots=True)

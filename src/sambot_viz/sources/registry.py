@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sambot_viz.errors import UsageError
 from sambot_viz.sources.source import Source
-from sambot_viz.sources.websocket.address import parse_address
+from sambot_viz.sources.websocket.address import Address, parse_address
 from sambot_viz.text import text
 
 KNOWN = "bag:PATH, foxglove://HOST:8765, rosbridge://HOST:9090"
@@ -18,8 +18,8 @@ def is_live(uri: str) -> bool:
     return _scheme(uri) in _LIVE
 
 
-def open_source(uri: str) -> Source:
-    """Return the source at an address; it connects when it is opened.
+def live_address(uri: str) -> Address:
+    """Return what the address of a live source says.
 
     Args:
         uri: such as foxglove://robot:8765/path, foxglove+wss://lab or
@@ -33,7 +33,16 @@ def open_source(uri: str) -> Source:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
     if scheme not in _LIVE:
         raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
-    address = parse_address(uri)
+    return parse_address(uri)
+
+
+def open_source(uri: str) -> Source:
+    """Return the source at an address; it connects when it is opened.
+
+    Raises:
+        UsageError: as `live_address`.
+    """
+    address = live_address(uri)
     # websockets takes 0.1 s to import, and most commands need none.
     from sambot_viz.sources.foxglove import FoxgloveConversation
     from sambot_viz.sources.foxglove_wire import SUBPROTOCOLS
