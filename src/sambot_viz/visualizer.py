@@ -8,7 +8,6 @@ import inspect
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
-from types import TracebackType
 from typing import Any, Concatenate, ParamSpec
 
 import viser
@@ -210,12 +209,7 @@ class Visualizer(RobotControl):
     def __enter__(self) -> Visualizer:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         self.stop()
 
 
