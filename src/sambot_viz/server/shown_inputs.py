@@ -18,8 +18,8 @@ from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.config_file import take_root
 from sambot_viz.topics.live_robot import LiveRobot
+from sambot_viz.topics.robot_topics import STAND_IN_LINK
 
-_STAND_IN_LINK = "base_link"
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
 
@@ -134,11 +134,9 @@ class ShownInputs:
         self.server.sessions.set_reload_problems("model", error.problems)
 
     def _fit_view(self, document: RvizConfig, top: str, root: str) -> None:
-        """Let what moves be seen to move, and not leave the picture."""
-        if document.global_options.get("Fixed Frame") in (_STAND_IN_LINK, root):
-            document.global_options.set("Fixed Frame", top)
-            if top != root:
-                document.view.set("Target Frame", root)
+        """Fit a config to a live robot, unless a user has chosen a frame."""
+        if document.global_options.get("Fixed Frame") in (STAND_IN_LINK, root):
+            _show_motion(document, top, root)
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
@@ -146,12 +144,8 @@ class ShownInputs:
             take_root(document, robot)
             recorded = self._inputs.recorded
             if recorded is not None:
-                # What moves is seen to move.
-                top = recorded.top_frame(robot.root)
-                document.global_options.set("Fixed Frame", top)
-                if top != plain_name(robot.root):
-                    # It would leave the picture.
-                    document.view.set("Target Frame", plain_name(robot.root))
+                root = plain_name(robot.root)
+                _show_motion(document, recorded.top_frame(root), root)
 
     def _follow(self, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""
@@ -166,6 +160,13 @@ class ShownInputs:
             reloader.refuse_config(inputs.broken_config)
         reloader.start()
         self._reloader = reloader
+
+
+def _show_motion(document: RvizConfig, top: str, root: str) -> None:
+    """Let a robot that moves in a frame be seen to move, and not leave the picture."""
+    document.global_options.set("Fixed Frame", top)
+    if top != root:
+        document.view.set("Target Frame", root)
 
 
 def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:

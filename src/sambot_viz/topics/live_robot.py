@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from typing import Any
-from xml.sax.saxutils import quoteattr
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames import FrameHistory
@@ -13,7 +12,12 @@ from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Source
 from sambot_viz.topics.decoding import Decoding
-from sambot_viz.topics.robot_topics import RobotTopics, robot_topics, top_frame
+from sambot_viz.topics.robot_topics import (
+    RobotTopics,
+    robot_topics,
+    stand_in_model,
+    top_frame,
+)
 from sambot_viz.topics.transforms import TransformTopics
 
 ENOUGH = 300
@@ -48,7 +52,6 @@ class LiveRobot:
         self.on_description: Callable[[str], object] = lambda text: None
         self.on_topics: list[Callable[[], object]] = []
         self.on_status: list[Callable[[], object]] = []
-        self._types = types
         self._description: str | None = None
         self._seen = 0
         self._frames = TransformTopics(FrameHistory(), (), (), self.decoding.transforms)
@@ -58,7 +61,7 @@ class LiveRobot:
     @property
     def model(self) -> str:
         """The XML text of a robot of one link: the description is still to come."""
-        return f'<robot name="no robot"><link name={quoteattr("base_link")}/></robot>'
+        return stand_in_model()
 
     @property
     def label(self) -> str:
@@ -93,8 +96,9 @@ class LiveRobot:
         return top_frame(root, self._frames.pairs())
 
     def _look(self) -> None:
+        types = self.decoding.types
         known = {
-            name: self._types.decoder(topic.schema, topic.message_encoding).type_name
+            name: types.decoder(topic.schema, topic.message_encoding).type_name
             for name, topic in self.source.topics().items()
             if topic.reason is None
         }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
-from xml.sax.saxutils import quoteattr
 
 from sambot_viz.errors import DecodeError, Problem
 from sambot_viz.frames import FrameHistory, FrameTree
@@ -16,7 +15,13 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.joint_states import JointStateTopics
-from sambot_viz.topics.robot_topics import RobotTopics, robot_topics, top_frame
+from sambot_viz.topics.robot_topics import (
+    STAND_IN_LINK,
+    RobotTopics,
+    robot_topics,
+    stand_in_model,
+    top_frame,
+)
 from sambot_viz.topics.subscriber import jump
 from sambot_viz.topics.transforms import (
     Transforms,
@@ -63,18 +68,21 @@ class RecordedRobot:
         if at is not None and recording.start_ns is not None:
             self.at_ns = recording.start_ns + round(at * 1e9)
         self.decoding = Decoding(types)
-        self._frame_problems: tuple[Problem, ...] | None = None
         known = {
             name: self.decoder(topic).type_name
             for name, topic in recording.topics.items()
         }
         self.topics: RobotTopics = robot_topics(known)
         self.description = self._read_description()
+        # What the begin tells of frames; every session starts from it.
+        self._told = self._make_transforms(FrameHistory())
+        self._told.expect(self._first_transforms())
 
     @property
     def problems(self) -> tuple[Problem, ...]:
         """What is wrong with the recording, and what it says of no robot."""
-        found = (*self.recording.problems, *self._of_frames())
+        of_frames = problems_of_transforms(self._told, self.name)
+        found = (*self.recording.problems, *of_frames)
         if self.description is not None:
             return found
         told = ", ".join(sorted(self.recording.topics)[:5]) or "nothing"
@@ -92,8 +100,10 @@ class RecordedRobot:
         """The XML text of the robot; of a single link where the recording has none."""
         if self.description is not None:
             return self.description
-        root = next(iter(self._roots()), "base_link")
-        return f'<robot name="no robot"><link name={quoteattr(root)}/></robot>'
+        pairs = list(self._told.pairs())
+        children = {child for _, child in pairs}
+        roots = (parent for parent, _ in pairs if parent not in children)
+        return stand_in_model(next(roots, STAND_IN_LINK))
 
     @property
     def label(self) -> str:
@@ -103,7 +113,7 @@ class RecordedRobot:
 
     def top_frame(self, root: str) -> str:
         """Return the frame at the top of the tree of a root link, such as odom."""
-        return top_frame(root, self._pairs())
+        return top_frame(root, self._told.pairs())
 
     def frames(self, robot: Robot, joints: JointState) -> FrameTree:
         """Return where all frames are at the time to look at, or else at the end.
@@ -131,20 +141,13 @@ class RecordedRobot:
         return tree
 
     def transforms(self, history: FrameHistory) -> TransformTopics:
-        """Return what takes the transforms into a history; its static ones are there.
+        """Return what takes the transforms into a history, and expects the first ones.
 
         Args:
             history: an empty one.
         """
-        topics, recording = self.topics, self.recording
-        made = TransformTopics(
-            history, topics.moving, topics.static, self.transform_decoder()
-        )
-        start = recording.start_ns
-        if start is not None and topics.moving:
-            end = start + round(FIRST_SECONDS * 1e9)
-            made.expect(recording.messages(start, end, topics.moving))
-        made.expect(m for m in recording.latched() if m.topic in made.always)
+        made = self._make_transforms(history)
+        made.expect_as(self._told)
         return made
 
     def joint_states(self) -> JointStateTopics:
@@ -168,20 +171,17 @@ class RecordedRobot:
         """Return what reads the transforms of a message; it raises DecodeError."""
         return Decoding(self.decoding.types).transforms
 
-    def _pairs(self) -> list[tuple[str, str]]:
-        return list(self.transforms(FrameHistory()).pairs())
+    def _make_transforms(self, history: FrameHistory) -> TransformTopics:
+        topics, decode = self.topics, self.transform_decoder()
+        return TransformTopics(history, topics.moving, topics.static, decode)
 
-    def _of_frames(self) -> tuple[Problem, ...]:
-        """Say what is wrong with the frames at the begin; messages may say more."""
-        if self._frame_problems is None:
-            told = self.transforms(FrameHistory())
-            self._frame_problems = problems_of_transforms(told, self.name)
-        return self._frame_problems
-
-    def _roots(self) -> Iterator[str]:
-        pairs = self._pairs()
-        children = {child for _, child in pairs}
-        return (parent for parent, _ in pairs if parent not in children)
+    def _first_transforms(self) -> Iterator[Recorded]:
+        recording, moving = self.recording, self.topics.moving
+        start = recording.start_ns
+        if start is not None and moving:
+            end = start + round(FIRST_SECONDS * 1e9)
+            yield from recording.messages(start, end, moving)
+        yield from (m for m in recording.latched() if m.topic in self._told.always)
 
     def _read_description(self) -> str | None:
         name = self.topics.description

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from xml.sax.saxutils import quoteattr
 
 from sambot_viz.frames.hierarchy import plain_name
 
+STAND_IN_LINK = "base_link"
+"""The link of a stand-in of which no frame is known."""
 DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
 TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
 JOINT_STATE_TYPES = frozenset({"sensor_msgs/msg/JointState"})
@@ -66,6 +69,11 @@ def robot_topics(
         _of(types, JOINT_STATE_TYPES, space, "joint_states"),
         tuple(found[1:]),
     )
+
+
+def stand_in_model(link: str = STAND_IN_LINK) -> str:
+    """Return the XML text of a robot of one link, for messages without a robot."""
+    return f'<robot name="no robot"><link name={quoteattr(link)}/></robot>'
 
 
 def top_frame(root: str, pairs: Iterable[tuple[str, str]]) -> str:

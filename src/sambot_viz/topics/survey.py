@@ -9,15 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, cast
-from xml.etree import ElementTree
 
 from sambot_viz.errors import DecodeError, FrameError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.element import Element, parse_xml
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.reasons import emptiness
 from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.transforms import Transforms, TransformTopics
 
 MOST_MESSAGES = 20_000
@@ -235,31 +237,30 @@ class Survey:
                     tree.set_static(parent, child, Transform.identity())
                 except FrameError:
                     continue
-        above = {child: parent for parent, child in (*joints, *pairs)}
-        frame = root or next((parent for parent, _ in pairs), "")
-        # Messages may form a ring.
-        for _ in range(len(above)):
-            frame = above.get(frame, frame)
-        return tree, frame
+        first = root or next((parent for parent, _ in pairs), "")
+        return tree, top_frame(first, (*joints, *pairs))
 
 
 def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:
     """Return the root of a URDF, and (parent, child) of the joints that hold links."""
     try:
-        robot = ElementTree.fromstring(description or "<robot/>")
-    except ElementTree.ParseError:
+        robot = parse_xml(description or "<robot/>", "")
+    except XmlFault:
         return "", []
     pairs: list[tuple[str, str]] = []
-    for joint in robot.iter("joint"):
+    for joint in (one for one in robot.iter() if one.tag == "joint"):
         parent, child = joint.find("parent"), joint.find("child")
-        if parent is None or child is None or joint.get("type") == "floating":
+        is_floating = joint.attributes.get("type") == "floating"
+        if parent is None or child is None or is_floating:
             continue
-        pairs.append(
-            (plain_name(parent.get("link", "")), plain_name(child.get("link", "")))
-        )
+        pairs.append((_link(parent, "link"), _link(child, "link")))
     children = {child for _, child in pairs}
-    links = (plain_name(link.get("name", "")) for link in robot.findall("link"))
+    links = (_link(one, "name") for one in robot.children if one.tag == "link")
     return next((link for link in links if link not in children), ""), pairs
+
+
+def _link(element: Element, attribute: str) -> str:
+    return plain_name(element.attributes.get(attribute, ""))
 
 
 def _fields_of(message: Any) -> tuple[str, ...]:

@@ -121,6 +121,12 @@ class TransformTopics:
                 if message.topic not in self.always:
                     self._moving.update((plain_name(c), None) for _, c in edges)
 
+    def expect_as(self, other: TransformTopics) -> None:
+        """Know what another has learnt to expect."""
+        for child, parents in other.parents.items():
+            self.parents.setdefault(child, {}).update(parents)
+        self._moving.update(other._moving)
+
     def pairs(self) -> Iterator[tuple[str, str]]:
         """Yield (parent, child) of all transforms that were told of."""
         for child, parents in self.parents.items():

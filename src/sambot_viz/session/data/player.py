@@ -56,6 +56,8 @@ class Player:
         playback: what it does; told when that changes, not at every step.
         stepped: told at every step while it plays.
         period: the time between two steps [s].
+        start_ns: the log time of the first message [ns].
+        end_ns: the log time of the last message [ns].
         time_ns: the log time up to which messages were taken [ns].
     """
 
@@ -70,6 +72,9 @@ class Player:
         at_ns: int | None = None,
     ) -> None:
         self.recording = recording
+        # Asked at every step; a recording looks through all its parts for them.
+        self.start_ns = recording.start_ns or 0
+        self.end_ns = recording.end_ns or 0
         self.time_ns = self.start_ns if at_ns is None else at_ns
         self.playback = Signal(change, Playback(time_ns=self.time_ns))
         self.stepped = Signal(change, None)
@@ -86,20 +91,6 @@ class Player:
         self._closed = False
         # Whoever asks for a time wants to see that.
         self._begun = at_ns is not None
-
-    @property
-    def start_ns(self) -> int:
-        """The log time of the first message [ns]."""
-        return self.recording.start_ns or 0
-
-    @property
-    def end_ns(self) -> int:
-        """The log time of the last message [ns]."""
-        return self.recording.end_ns or 0
-
-    def now(self) -> float:
-        """Return the time of the picture since 1970, or as the recorder had it [s]."""
-        return self.time_ns * 1e-9
 
     def play(self) -> None:
         """Let the time go on; at the end, begin again."""
