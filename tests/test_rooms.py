@@ -139,8 +139,8 @@ ROOMS: Mapping[str, Row] = {
         "displays export frames joints robot rviz server session views", "numpy viser"
     ),
     "commands": Row(
-        "_version bundled checks export flags frames inputs joints options "
-        "problems robot rviz server session topics visualizer",
+        "_version bundled checks export flags frames inputs joints moved_by "
+        "options problems robot rviz server session topics visualizer",
         "PIL segno",
         "signal webbrowser",
     ),
@@ -155,12 +155,12 @@ ROOMS: Mapping[str, Row] = {
     "files": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
-        "bundled displays joints messages options robot rviz sources tools topics "
-        "views",
+        "bundled displays joints moved_by options robot rviz tools views",
         "yourdfpy",
         "concurrent threading",
     ),
     "flags": Row("frames joints"),
+    "moved_by": Row("messages options sources topics"),
     "options": Row("flags frames joints robot rviz sources", "yourdfpy"),
     "problems": Row(),
     "text": Row(),

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, Problem, RobotError, UsageError
+from sambot_viz.moved_by import open_live, open_recorded
 from sambot_viz.options import Options, PathLike
 from sambot_viz.robot.model_source import OpenedModel, looks_like_text, open_model
 
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.document import Document
-    from sambot_viz.topics.live_robot import LiveRobot
-    from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
 @cache
@@ -97,7 +96,7 @@ class Inputs:
         self._options = options
         model, config = options.model, options.config
         text = model if isinstance(model, str) and looks_like_text(model) else None
-        self.live = _make_live(options)
+        self.live = open_live(options)
         self.recorded = None if self.live is not None else open_recorded(options)
         self._trusts_model = True
         if self.recorded is not None:
@@ -347,39 +346,6 @@ def _robot_of(model: Robot | yourdfpy.URDF) -> tuple[Robot, dict[str, float]]:
     names, values = untyped.actuated_joint_names, untyped.cfg.tolist()
     positions = {name: q for name, q in zip(names, values, strict=True) if q}
     return Robot.from_yourdfpy(model), positions
-
-
-def _make_live(options: Options) -> LiveRobot | None:
-    """Make the live source of the options, not connected yet; None without one."""
-    live = [uri for uri in options.source if not uri.startswith("bag:")]
-    if not live:
-        return None
-    if len(options.source) > 1:
-        raise UsageError("a live source is the only one: give one --source")
-    from sambot_viz.messages import MessageTypes
-    from sambot_viz.sources.registry import open_source
-    from sambot_viz.topics.live_robot import LiveRobot
-
-    types = MessageTypes([Path(folder) for folder in options.msg_path])
-    return LiveRobot(open_source(live[0]), types)
-
-
-def open_recorded(options: Options) -> RecordedRobot | None:
-    """Open the recordings of the options; None when there are none."""
-    if not options.source:
-        return None
-    from sambot_viz.messages import MessageTypes
-    from sambot_viz.sources.bag import open_recording
-    from sambot_viz.topics.recorded_robot import RecordedRobot
-
-    paths = [Path(uri.removeprefix("bag:")) for uri in options.source]
-    types = MessageTypes([Path(folder) for folder in options.msg_path])
-    name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
-    recording = open_recording(paths)
-    # What is large and without an index is looked through now: a second or two a GB.
-    while not recording.index_more():
-        pass
-    return RecordedRobot(recording, types, name, options.at)
 
 
 def _in_thread(load: Callable[[], Robot], loading: Future[Robot]) -> None:

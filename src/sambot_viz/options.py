@@ -330,15 +330,14 @@ class Options:
         if isinstance(model, Path | str) and is_recording(model):
             source = (f"bag:{model}", *source)
             object.__setattr__(self, "model", None)
-        for uri in source:
-            if not uri.startswith("bag:"):
-                _check_live(uri)
         if self.at is not None and not (source and math.isfinite(self.at)):
             raise UsageError(
                 f"--at {self.at:g} needs a recording: give its file, or --source "
                 "bag:FILE"
             )
         object.__setattr__(self, "source", source)
+        for uri in self.live_sources:
+            _check_live(uri)
 
     def _check_presenter(self) -> None:
         if self.presenter is None:
@@ -357,6 +356,11 @@ class Options:
         for name, value in values.items():
             object.__setattr__(changed, name, value)
         return changed
+
+    @property
+    def live_sources(self) -> tuple[str, ...]:
+        """The addresses of live robots among the sources."""
+        return tuple(uri for uri in self.source if not uri.startswith("bag:"))
 
     @property
     def start_pose(self) -> StartPose:

@@ -167,11 +167,10 @@ def parse_recorded(
         UsageError: as `parse`, and a live source.
     """
     given, options = parse(parser, words, **fixed)
-    live = [uri for uri in options.source if not uri.startswith("bag:")]
-    if live:
+    if options.live_sources:
         raise UsageError(
-            f"--source {live[0]}: {parser.prog} reads recordings only; record the "
-            "robot with ros2 bag record, or show it with sambot-viz --source"
+            f"--source {options.live_sources[0]}: {parser.prog} reads recordings only; "
+            "record the robot with ros2 bag record, or show it with sambot-viz --source"
         )
     return given, options
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from sambot_viz.commands.command_line import Parser, parse_recorded
 from sambot_viz.errors import UsageError
-from sambot_viz.inputs import open_recorded
+from sambot_viz.moved_by import open_recorded
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
 from sambot_viz.topics.report import TopicReport, TopicStatus
