@@ -73,6 +73,27 @@ def test_what_rosbags_writes_is_read(humble: Any, noetic: Any) -> None:
             assert same(message, decoder.decode(payload)), name
 
 
+def test_a_type_without_fields_is_read_with_and_without_its_dummy_byte(
+    humble: Any,
+) -> None:
+    types, found = MessageTypes(distro="humble"), 0
+    dummy = "structure_needs_at_least_one_member"
+    for name, (_, members) in humble.fielddefs.items():
+        is_empty = [field for field, _ in members] == [dummy]
+        text, _ = humble.generate_msgdef(name, ros_version=2)
+        for schema in (Schema(name), Schema(name, "ros2msg", text)):
+            decoder = types.decoder(schema, "cdr")
+            for head in (b"\0\1\0\0", b"\0\0\0\0"):
+                if is_empty:
+                    for more in (b"", b"\0", b"\0\0\0\0"):
+                        decoder.decode(head + more)
+                    found += 1
+                else:
+                    with pytest.raises(DecodeError):
+                        decoder.decode(head)
+    assert found
+
+
 @pytest.mark.parametrize("encoding", ["cdr", "ros1"])
 def test_a_damaged_message_is_refused_or_read_in_no_time(
     humble: Any, noetic: Any, encoding: str

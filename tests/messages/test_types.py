@@ -214,12 +214,6 @@ HOSTILE = {
         "".join(f"bool b{n}\n" for n in range(6000)),
     ),
     "an endless number": ("x/A", "ros2msg", f"uint8[{'9' * 10**4}] a\n"),
-    "wide texts": ("x/A", "ros2msg", "wstring a\n"),
-    "wide texts in IDL": (
-        "x/msg/A",
-        "ros2idl",
-        "module x { module msg { struct A { wstring a; }; }; };",
-    ),
     "no text": ("x/A", "ros2msg", b"\xff\xfe\0\0"),
     "many brackets": ("x/msg/A", "ros2idl", "module x {" * 10**4),
 }
@@ -234,6 +228,70 @@ def test_a_definition_can_do_no_harm(types: MessageTypes, name: str) -> None:
         assert len(decoder.reason.text) < 500
         with pytest.raises(DecodeError):
             decoder.decode(bytes(100))
+
+
+def idl(field: str) -> str:
+    return f"module x {{ module msg {{ struct A {{ {field} a; }}; }}; }};"
+
+
+@pytest.mark.parametrize(
+    ("word", "language", "text"),
+    [
+        *(
+            (word, "ros2msg", f"{written} a\n")
+            for word in ("wstring", "wchar", "float128")
+            for written in (word, f"{word}[]", f"{word}[<=2]", f"{word}[2]")
+        ),
+        ("wstring", "ros2msg", "wstring<=3[<=2] a\n"),
+        ("wstring", "ros2msg", f"B b\n{LINE}MSG: x/B\nwstring<=3 a\n"),
+        ("wstring", "ros2idl", idl("wstring")),
+        ("wchar", "ros2idl", idl("wchar")),
+        ("float128", "ros2idl", idl("long double")),
+        ("float128", "ros2idl", idl("sequence<long double>")),
+    ],
+)
+def test_a_field_that_is_not_read_is_named_and_no_folder_is_asked_for(
+    types: MessageTypes, word: str, language: str, text: str
+) -> None:
+    decoder = types.decoder(Schema("x/msg/A", language, text), "cdr")
+    assert decoder.reason is not None and decoder.reason.code == "encoding"
+    assert f"has a {word}, which is not read yet" in decoder.reason.text
+    assert "--msg-path" not in decoder.reason.text
+    with pytest.raises(DecodeError):
+        decoder.decode(bytes(100))
+
+
+def test_a_definition_in_another_language_is_named(
+    types: MessageTypes, tmp_path: Path
+) -> None:
+    schema = Schema("my_lab/msg/Level", "omgidl", "struct Level { double value; };")
+    reason = types.decoder(schema, "cdr").reason
+    assert reason is not None and reason.code == "encoding"
+    assert "its definition is omgidl, which is not read yet" in reason.text
+    # The remedy that it names.
+    assert "--msg-path" in reason.text
+    folder = tmp_path / "my_lab" / "msg"
+    folder.mkdir(parents=True)
+    (folder / "Level.msg").write_text("float64 value\n", "utf-8")
+    decoder = MessageTypes([tmp_path]).decoder(schema, "cdr")
+    assert decoder.decode(struct.pack("<4sd", b"\0\1\0\0", 2.5)).value == 2.5
+    # ROS's own types need no text.
+    known = types.decoder(Schema("geometry_msgs::msg::dds_::Point_", "omgidl"), "cdr")
+    assert known.decode(b"\0\1\0\0" + struct.pack("<3d", 1, 2, 3)).z == 3
+
+
+@pytest.mark.parametrize("name", ["tf2_msgs/TFMessage", "tf/tfMessage"])
+@pytest.mark.parametrize("language", ["", "ros1msg"])
+def test_transforms_of_ros_1_are_known_without_a_definition(
+    types: MessageTypes, name: str, language: str
+) -> None:
+    text = "geometry_msgs/TransformStamped[] transforms\n" if language else ""
+    decoder = types.decoder(Schema(name, language, text), "ros1")
+    assert decoder.reason is None
+    head = struct.pack("<IIIII4sI5s", 1, 7, 5, 9, 4, b"odom", 5, b"wheel")
+    (found,) = decoder.decode(head + struct.pack("<7d", 1, 2, 3, 0, 0, 0, 1)).transforms
+    assert (found.header.seq, found.header.frame_id) == (7, "odom")
+    assert (found.child_frame_id, found.transform.translation.z) == ("wheel", 3)
 
 
 @pytest.mark.parametrize("field", ["Empty", "string", "float64", "uint8"])

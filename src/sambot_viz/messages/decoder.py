@@ -119,6 +119,9 @@ class _Layout:
                 raise DecodeError(f"it begins with {head.hex() or 'nothing'}, not CDR")
             function = own.deserialize_cdr_le if head[1] else own.deserialize_cdr_be
             payload = payload[4:]
+            if not payload and self.definition.is_empty:
+                # A writer that leaves out the byte that means nothing.
+                payload = memoryview(b"\0")
         message, end = function(payload, 0, own.cls, store)
         if end > len(payload):
             raise DecodeError("it is cut off")

@@ -32,8 +32,13 @@ _MOST_EMPTY = 64
 """Values that no byte of a message stands for."""
 _DEEPEST = 50
 _UNREADABLE = {"wstring", "wchar", "float128", "fixed"}
+_DUMMY = "structure_needs_at_least_one_member"
 _TYPE = re.compile(r"[A-Za-z]\w*(?:/[A-Za-z]\w*)+", re.ASCII)
 _WORD = re.compile(r"[A-Za-z]\w*", re.ASCII)
+
+
+class UnreadFieldError(DecodeError):
+    """A definition has a field that is not read here, so that no other text helps."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,11 @@ class TypeDefinition:
     name: str
     types: Types
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether it has no field but the dummy that rosidl adds."""
+        return all(field == _DUMMY for field, _ in self.types[self.name])
+
 
 def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
     """Return a definition with all that a type needs.
@@ -58,6 +68,7 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
         find: finds what is not.
 
     Raises:
+        UnreadFieldError: a field is of a kind that is not read.
         DecodeError: a type is missing or contains itself, or the definition is one
             that nobody writes.
     """
@@ -75,7 +86,14 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
         if len(needed) == _MOST_TYPES:
             raise DecodeError(f"the definition has more than {_MOST_TYPES} types")
         needed[one] = known[one]
-        pending += (part.what for part in _parts(known[one]) if part.kind == NAME)
+        for part in _parts(known[one]):
+            # rosbags' parser of .msg takes a word that it does not know for a type of
+            # the same package.
+            word = part.what.rpartition("/")[2]
+            if word in _UNREADABLE and part.what not in known:
+                raise UnreadFieldError(f"{one} has a {word}, which is not read yet")
+            if part.kind == NAME:
+                pending.append(part.what)
     if sum(map(len, needed.values())) > _MOST_FIELDS:
         raise DecodeError(f"the definition has more than {_MOST_FIELDS} fields")
     for one, fields in needed.items():
@@ -112,14 +130,11 @@ def _parts(fields: Fielddefs) -> Iterator[_Part]:
 
 
 def _check(name: str, fields: Fielddefs) -> None:
-    """Refuse what must not become code, and what rosbags makes no code for."""
+    """Refuse what must not become code."""
     if not _TYPE.fullmatch(name):
         raise DecodeError("the definition has a type without a proper name")
     if not all(_WORD.fullmatch(field) for field, _ in fields):
         raise DecodeError(f"the definition of {name} has a field without a proper name")
-    for part in _parts(fields):
-        if part.kind == BASE and part.what in _UNREADABLE:
-            raise DecodeError(f"{name} has a {part.what}, which is not read yet")
 
 
 class _Size:

@@ -32,6 +32,7 @@ _DDS = re.compile(r"(\w+)::(\w+)::(?:dds_::)?(\w+?)_?", re.ASCII)
 _PARTING = re.compile(r"^---[ \t]*$", re.MULTILINE)
 _IDL = re.compile(r"^={80}\nIDL: .*\n", re.MULTILINE)
 _COMMENTS = re.compile(r"^[ \t]*(?:#.*)?\n", re.MULTILINE)
+_BOUND = re.compile(r"\bwstring<=\d+")
 _SECTIONS = re.compile(r"^={80}$", re.MULTILINE)
 
 _Read = Callable[[str, str], Types]
@@ -80,6 +81,8 @@ def parsed_types(name: str, language: str, text: str | bytes) -> Types:
     if language != "ros2idl":
         # Most of a text; rosbags takes 20 µs for each line.
         text = _COMMENTS.sub("", text)
+        # rosbags' parser stops at it; the bound changes nothing in a message.
+        text = _BOUND.sub("wstring", text)
     if len(text) > _LONGEST_WITHOUT_COMMENTS:
         raise DecodeError(f"its definition has {len(text):,} characters")
     try:

@@ -22,6 +22,9 @@ _DISTROS = (
     *("ros2_galactic", "ros2_foxy", "ros2_eloquent", "ros2_dashing"),
 )
 _ROS1 = ("ros1_noetic",)
+_TRANSFORMS = "tf2_msgs/msg/TFMessage"
+_ROS1_TRANSFORMS = (_TRANSFORMS, "tf/msg/tfMessage")
+"""Types of ROS 1 that rosbags does not have: a list of transforms, as in ROS 2."""
 _PLACES = (
     "{package}/msg/{name}.msg",
     "share/{package}/msg/{name}.msg",
@@ -108,7 +111,11 @@ def standard_types(distro: str) -> Types:
     from rosbags.typesys import Stores, get_typestore
 
     fielddefs = get_typestore(Stores(distro)).fielddefs
-    return {name: fields for name, (_, fields) in fielddefs.items()}
+    types = {name: fields for name, (_, fields) in fielddefs.items()}
+    if distro in _ROS1:
+        transforms = standard_types("ros2_humble")[_TRANSFORMS]
+        types |= dict.fromkeys(_ROS1_TRANSFORMS, transforms)
+    return types
 
 
 def _text(path: Path) -> str | None:

@@ -14,7 +14,7 @@ from sambot_viz.messages.decoder import (
     JsonDecoder,
     definition_wrong,
 )
-from sambot_viz.messages.definition import closed
+from sambot_viz.messages.definition import UnreadFieldError, closed
 from sambot_viz.messages.definition_text import LANGUAGES, canonical_name, parse
 from sambot_viz.messages.known_types import KnownTypes
 from sambot_viz.messages.reason import Reason
@@ -62,11 +62,17 @@ class MessageTypes:
             return JsonDecoder(name, encoding)
         try:
             return self._by_fields(name, schema, encoding)
+        except UnreadFieldError as error:
+            return Decoder(name, encoding, Reason("encoding", str(error)))
         except Exception as error:
             # One type must never cost the others, and rosbags' errors are its own.
             cause = str(error) if isinstance(error, DecodeError) else repr(error)
+            code = "type-unknown"
+            if schema.encoding and schema.encoding not in LANGUAGES:
+                code = "encoding"
+                cause = f"its definition is {schema.encoding}, which is not read yet"
             remedy = "give the folder of its package with --msg-path"
-            return Decoder(name, encoding, Reason("type-unknown", f"{cause}: {remedy}"))
+            return Decoder(name, encoding, Reason(code, f"{cause}: {remedy}"))
 
     def _by_fields(self, name: str, schema: Schema, encoding: str) -> Decoder:
         def find(one: str):
