@@ -35,6 +35,11 @@ def text(value: object, limit: int = 400) -> str:
     return clean if len(clean) <= limit else clean[: limit - 1] + "…"
 
 
+def capitalized(words: str) -> str:
+    """Return a text with a capital letter at its begin, as the page has them."""
+    return words[:1].upper() + words[1:]
+
+
 def html_text(value: object, limit: int = 2000) -> str:
     """Escape HTML's special characters too, for `gui.add_html`."""
     return html.escape(text(value, limit), quote=True)

@@ -189,3 +189,12 @@ def test_what_a_client_says() -> None:
         '{"op":"getParameters","parameterNames":["/n.p"],"id":"q"}'
     )
     assert wire.subscribe_connection_graph() == '{"op":"subscribeConnectionGraph"}'
+
+
+def test_the_qos_of_publishers_is_in_the_metadata_if_anywhere() -> None:
+    entry = '{"id":1,"topic":"/a","metadata":%s}'
+    offered = '{"offered_qos_profiles":"- reliability: best_effort"}'
+    found = advertised(entry % offered).qos
+    assert found is not None and found.reliability == "best_effort"
+    for other in ("null", "{}", "[1]", '"a"', '{"offered_qos_profiles":7}'):
+        assert advertised(entry % other).qos is None

@@ -7,14 +7,18 @@ import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 from live_peers import WAIT, Inbox, free_port
+from mcap.reader import make_reader
 from patience import until
 from rosbridge_peer import RosbridgePeer, cbor
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import Server, ServerConnection, serve
 
+from sambot_viz.sources.bag import open_recording
+from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.source import Source
 
 Open = Callable[[str], Source]
@@ -169,6 +173,63 @@ def test_a_peer_that_vanishes_in_the_middle_of_a_message_is_said(
     source.subscribe("/a", inbox)
     inbox.wait_for("yes")
     assert any("is gone, in the middle" in sentence for sentence in told)
+
+
+def test_a_recording_of_a_peer_that_lies_and_vanishes_stays_readable(
+    play: Callable[[Play], str], opened: Open, inbox: Inbox, tmp_path: Path
+) -> None:
+    connections: list[ServerConnection] = []
+
+    def liar(client: ServerConnection) -> None:
+        connections.append(client)
+        client.send(SERVER_INFO)
+        client.send(CHANNEL)
+        client.recv()
+        client.send(GOOD)
+        while len(connections) > 1:
+            client.recv()
+        # Channels by the thousand, whose names, encodings and texts are none.
+        odd = [
+            {
+                "id": n,
+                "topic": f"/\u202e{n}",
+                "encoding": "cdr",
+                "schemaName": "\n" * n,
+            }
+            for n in range(2, 2000)
+        ]
+        client.send(json.dumps({"op": "advertise", "channels": odd}))
+        asked: set[int] = set()
+        while len(asked) < 1998:
+            said = json.loads(client.recv())
+            asked |= {one["id"] for one in said.get("subscriptions", ())}
+        # A time at the end of all times, lengths that lie, and nothing at all.
+        for number in sorted(asked)[:200]:
+            head = b"\1" + number.to_bytes(4, "little")
+            client.send(head + b"\xff" * 8 + b"\0\1\0\0\xff\xff\xff\xff")
+            client.send(head + bytes(8))
+            client.send(head)
+        # Until all that was sent is read.
+        client.ping().wait(WAIT)
+        client.socket.sendall(b"\x82\x7f" + (2**20).to_bytes(8, "big") + b"\1\1\0")
+        client.socket.shutdown(socket.SHUT_RDWR)
+
+    path = tmp_path / "liar.mcap"
+    source = opened(f"foxglove://{play(liar)}")
+    recorder = SourceRecorder(source, None, lambda: None)
+    recorder.start(path)
+    # After the recorder, which so has each message before.
+    source.subscribe("/a", inbox)
+    until(lambda: inbox.strings().count("yes") == 2, WAIT, not_yet=())
+    recorder.close()
+    assert recorder.status is not None and recorder.status.trouble == ""
+    with open_recording(path) as recording:
+        ours = sorted((one.log_ns, bytes(one.payload)) for one in recording.messages())
+    with path.open("rb") as stream:
+        messages = make_reader(stream, validate_crcs=True).iter_messages()
+        theirs = sorted((one.log_time, one.data) for *_, one in messages)
+    assert ours == theirs and len(ours) == recorder.status.messages > 200
+    assert [payload for _, payload in ours].count(GOOD[13:]) == 2
 
 
 def test_a_message_beyond_the_limit_is_refused_before_it_comes(

@@ -128,15 +128,22 @@ class FoxglovePeer(LivePeer, ServerListener):
             self.server = None
             self._subscribed.clear()
 
-    def advertise(self, topic: str, latched: bool = False) -> None:
+    def advertise(
+        self,
+        topic: str,
+        latched: bool = False,
+        schema: str = STRING,
+        qos: str | None = None,
+    ) -> None:
         if latched:
             self._latched[topic] = []
         self._channels[topic] = foxglove.Channel(
             topic,
             schema=foxglove.Schema(
-                name=STRING, encoding="ros2msg", data=b"string data\n"
+                name=schema, encoding="ros2msg", data=b"string data\n"
             ),
             message_encoding="cdr",
+            metadata=None if qos is None else {"offered_qos_profiles": qos},
             context=self.context,
         )
 
@@ -144,6 +151,10 @@ class FoxglovePeer(LivePeer, ServerListener):
         payload = cdr_string(data)
         if topic in self._latched:
             self._latched[topic].append(payload)
+        self._channels[topic].log(payload)
+
+    def log(self, topic: str, payload: bytes) -> None:
+        """Publish bytes."""
         self._channels[topic].log(payload)
 
     def remove(self, topic: str) -> None:

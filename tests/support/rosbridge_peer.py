@@ -10,6 +10,7 @@ import json
 import struct
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -106,7 +107,9 @@ class RosbridgePeer(LivePeer):
         with self._lock:
             clients = list(self._clients)
         for client in clients:
-            client.close()
+            # Both sides may end it at once.
+            with suppress(ConnectionClosed):
+                client.close()
 
     def advertise(self, topic: str, latched: bool = False) -> None:
         with self._lock:

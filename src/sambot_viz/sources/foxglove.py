@@ -117,6 +117,7 @@ class FoxgloveConversation(Conversation):
                 name,
                 channel.schema,
                 channel.message_encoding,
+                qos=channel.qos,
                 is_latched=channel.is_latched,
                 publishers=self._publishers.get(name, ()) if has_graph else None,
             )
@@ -201,6 +202,7 @@ class FoxgloveConversation(Conversation):
             topic,
             server_channel.definition(),
             server_channel.encoding,
+            qos=server_channel.qos,
             is_latched=is_latched_name(topic),
         )
         self._by_topic.setdefault(topic, []).append(server_channel.id)

@@ -14,11 +14,12 @@ import struct
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar, cast
 
 import msgspec
 
 from sambot_viz.messages import Schema
+from sambot_viz.sources.qos import Qos, parse_qos
 
 SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 """Newer servers take only the first, older ones only the second."""
@@ -110,6 +111,16 @@ class ServerChannel(msgspec.Struct, rename="camel"):
     schema_name: str = ""
     schema_encoding: str | None = None
     schema: str | None = None
+    metadata: Any = None
+
+    @property
+    def qos(self) -> Qos | None:
+        """The QoS that publishers offer, where the server says it as recorders do."""
+        told: object = self.metadata
+        if not isinstance(told, dict):
+            return None
+        profiles = cast("dict[str, object]", told).get("offered_qos_profiles", "")
+        return parse_qos(str(profiles))
 
     def definition(self) -> Schema:
         """Return the schema; its encoding follows from the message's if missing."""

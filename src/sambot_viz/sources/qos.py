@@ -67,3 +67,19 @@ def parse_qos(text: str) -> Qos | None:
         int(depth) if depth.isascii() and depth.isdigit() and len(depth) < 10 else 0,
         any(kept),
     )
+
+
+def profile_text(qos: Qos) -> str:
+    """Write QoS as rosbag2 does since Iron, as the profile of one publisher."""
+    forever = "\n    sec: 9223372036\n    nsec: 854775807"
+    return (
+        f"- history: {qos.history or 'unknown'}\n"
+        f"  depth: {qos.depth}\n"
+        f"  reliability: {qos.reliability or 'unknown'}\n"
+        f"  durability: {qos.durability or 'unknown'}\n"
+        f"  deadline:{forever}\n"
+        f"  lifespan:{forever}\n"
+        "  liveliness: automatic\n"
+        f"  liveliness_lease_duration:{forever}\n"
+        "  avoid_ros_namespace_conventions: false"
+    )

@@ -101,17 +101,29 @@ class Source(Protocol):
         """Return the topics by name; those of the last connection if there is none."""
         ...
 
-    def subscribe(self, topic: str, callback: OnMessage) -> None:
+    def subscribe(
+        self, topic: str, callback: OnMessage, on_kept: OnMessage | None = None
+    ) -> None:
         """Call back with each message of a topic, which need not exist yet.
 
         The same pair a second time changes nothing. When others have it already, the
         messages that a late subscriber of ROS would get come first: all of latched
         topics, the last one of others.
+
+        Args:
+            topic: its name.
+            callback: gets the messages.
+            on_kept: gets those that came before; by default the callback does.
         """
         ...
 
     def unsubscribe(self, topic: str, callback: OnMessage) -> None:
         """No longer call back; a call that has begun goes on."""
+        ...
+
+    @property
+    def has_clock(self) -> bool:
+        """Whether the peer has told its time, as that of a simulation."""
         ...
 
     def clock_ns(self) -> int:

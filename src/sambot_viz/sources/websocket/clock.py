@@ -42,6 +42,11 @@ class SourceClock:
         self._server_ns = self._offset = self._last_offset = self._newest = None
         self._window_end = 0
 
+    @property
+    def is_told(self) -> bool:
+        """Whether the peer tells its time."""
+        return self._server_ns is not None
+
     def now_ns(self) -> int:
         """Return the time at the peer [ns]; this computer's if nothing is known."""
         if self._server_ns is not None:

@@ -94,13 +94,15 @@ class Delivery:
         with self._changed:
             return frozenset(self._wanted)
 
-    def subscribe(self, topic: str, callback: OnMessage) -> None:
-        """Add a callback, once; it gets what is kept of the topic first."""
+    def subscribe(
+        self, topic: str, callback: OnMessage, on_kept: OnMessage | None = None
+    ) -> None:
+        """Add a callback, once; what is kept of the topic comes first."""
         with self._changed:
             present = self._wanted.get(topic, ())
             if callback not in present:
                 self._wanted[topic] = (*present, callback)
-                self._post(lambda: self._attach(topic, callback))
+                self._post(lambda: self._attach(topic, callback, on_kept or callback))
 
     def unsubscribe(self, topic: str, callback: OnMessage) -> None:
         """Remove a callback; the last one takes what waits and is kept along."""
@@ -187,7 +189,7 @@ class Delivery:
         kept.messages.append(message)
         return message, self._callbacks.get(topic, ())
 
-    def _attach(self, topic: str, callback: OnMessage) -> None:
+    def _attach(self, topic: str, callback: OnMessage, on_kept: OnMessage) -> None:
         with self._changed:
             present = self._callbacks.get(topic, ())
             if callback not in self._wanted.get(topic, ()) or callback in present:
@@ -196,7 +198,7 @@ class Delivery:
             kept = self._kept.get(topic)
             messages = tuple(kept.messages) if kept else ()
         for message in messages:
-            self._call(callback, message)
+            self._call(on_kept, message)
 
     def _call(self, callback: OnMessage, message: Recorded) -> None:
         try:

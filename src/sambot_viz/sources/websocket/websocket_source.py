@@ -131,15 +131,22 @@ class WebsocketSource:
         """Return the topics by name; the last known ones if there is no connection."""
         return self._topics
 
-    def subscribe(self, topic: str, callback: OnMessage) -> None:
+    def subscribe(
+        self, topic: str, callback: OnMessage, on_kept: OnMessage | None = None
+    ) -> None:
         """Call back with each message of a topic, which need not exist yet."""
-        self._delivery.subscribe(topic, callback)
+        self._delivery.subscribe(topic, callback, on_kept)
         self._post(self._update)
 
     def unsubscribe(self, topic: str, callback: OnMessage) -> None:
         """No longer call back; a call that has begun goes on."""
         self._delivery.unsubscribe(topic, callback)
         self._post(self._update)
+
+    @property
+    def has_clock(self) -> bool:
+        """Whether the server has told its time, as that of a simulation."""
+        return self._clock.is_told
 
     def clock_ns(self) -> int:
         """Return the time at the server [ns]."""

@@ -1,0 +1,159 @@
+"""Record what a live source gives: all topics, also those that nobody shows."""
+
+from __future__ import annotations
+
+import logging
+import os
+import threading
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+from typing import BinaryIO
+
+from sambot_viz.errors import UsageError
+from sambot_viz.files import reason_of
+from sambot_viz.sources.recording_thread import RecordingStatus, RecordingThread
+from sambot_viz.sources.source import Source
+from sambot_viz.text import text
+
+_MOST_NAMES = 100
+
+_log = logging.getLogger(__name__)
+
+
+class SourceRecorder:
+    """Starts and stops recordings of a source, one at a time.
+
+    It passes `source.on_topics` on to who had set it before.
+
+    Args:
+        source: what is recorded.
+        folder: where recordings are made that users of the page start; None: they may
+            not.
+        on_change: called about once a second while there is a recording, in its
+            thread; must only post.
+        on_trouble: gets why a recording ended before it was stopped, in the same
+            thread; by default it is logged.
+
+    Attributes:
+        folder: as given.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        folder: Path | None,
+        on_change: Callable[[], object],
+        on_trouble: Callable[[str], object] = _log.error,
+    ) -> None:
+        self.folder = folder
+        self._source = source
+        self._on_change = on_change
+        self._on_trouble = on_trouble
+        self._lock = threading.Lock()
+        self._recording: RecordingThread | None = None
+        self._is_closed = False
+        self._then = source.on_topics
+        source.on_topics = self._look
+
+    @property
+    def status(self) -> RecordingStatus | None:
+        """The present or last recording; None when there was none."""
+        recording = self._recording
+        return None if recording is None else recording.status
+
+    def start(self, path: Path | None = None) -> None:
+        """Begin a recording; nothing happens while there is one.
+
+        Args:
+            path: the file; None takes a name with date and time in `folder`.
+
+        Raises:
+            UsageError: the file is there already, or cannot be written.
+        """
+        with self._lock:
+            last = self._recording
+            if self._is_closed or (last is not None and last.status.is_running):
+                return
+            path, stream = _created(path) if path else _named(self.folder)
+            made = RecordingThread(
+                self._source, path, stream, self._on_change, self._on_trouble
+            )
+            # It is told of topics before it asks for them, so that none is missed.
+            self._recording = made
+            made.start()
+        self._on_change()
+
+    def stop(self, wait: bool = True) -> None:
+        """End the recording and close its file; may be called twice.
+
+        Args:
+            wait: until the file is closed.
+        """
+        with self._lock:
+            recording = self._recording
+        if recording is not None:
+            recording.stop(wait)
+
+    def close(self) -> None:
+        """Stop, and begin no other recording."""
+        with self._lock:
+            self._is_closed = True
+        self.stop()
+
+    def _look(self) -> None:
+        # First: what comes after a subscription of others is from before its start.
+        recording = self._recording
+        if recording is not None:
+            recording.subscribe()
+        self._then()
+
+
+def check_file(path: Path) -> None:
+    """Refuse a file that a recording cannot become, before there is a robot.
+
+    Raises:
+        UsageError: the file is there already, or there is no folder for it.
+    """
+    if os.path.lexists(path):
+        raise UsageError(_exists(path))
+    check_folder(path.parent)
+
+
+def check_folder(folder: Path) -> None:
+    """Refuse a folder in which no recording can be made.
+
+    Raises:
+        UsageError: it is not a folder, or may not be written.
+    """
+    if not folder.is_dir():
+        raise UsageError(f"{text(str(folder))} is not a folder for recordings")
+    if not os.access(folder, os.W_OK):
+        raise UsageError(f"the folder {text(str(folder))} may not be written to")
+
+
+def _named(folder: Path | None) -> tuple[Path, BinaryIO]:
+    """Create a file with date and time as its name, and another number if need be."""
+    if folder is None:
+        raise UsageError("recording is not offered here; start with --record-dir DIR")
+    name = f"{datetime.now():%Y-%m-%d_%H-%M-%S}"
+    for number in range(1, _MOST_NAMES):
+        path = folder / f"{name}{f'_{number}' if number > 1 else ''}.mcap"
+        if not os.path.lexists(path):
+            return _created(path)
+    raise UsageError(f"{text(str(folder))} has too many recordings of this second")
+
+
+def _created(path: Path) -> tuple[Path, BinaryIO]:
+    """Create a file that is not there yet."""
+    try:
+        return path, open(path, "xb")
+    except FileExistsError as error:
+        raise UsageError(_exists(path)) from error
+    except OSError as error:
+        message = f"{text(str(path))} cannot be written: {reason_of(error)}"
+        raise UsageError(message) from error
+
+
+def _exists(path: Path) -> str:
+    return f"{text(str(path))} is there already; give a name for a new file"

@@ -1,0 +1,117 @@
+"""Recordings of robots that tests make: descriptions, frames, and empty topics."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+START = 1_750_000_000
+"""The time of the first message [s]."""
+Told = Sequence[tuple[str, float, Mapping[str, str]]]
+"""Topic, stamp and log time [s from the start], and the parent of each child."""
+
+
+def described(*links: str, radius: float = 0.2) -> str:
+    """Return the URDF of a chain of links, each a ball 1 m above the one before."""
+    shape = f'<visual><geometry><sphere radius="{radius}"/></geometry></visual>'
+    parts = [f'<link name="{link}">{shape}</link>' for link in links]
+    parts += [
+        f'<joint name="{parent}_{child}" type="continuous"><parent link="{parent}"/>'
+        f'<child link="{child}"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/></joint>'
+        for parent, child in itertools.pairwise(links)
+    ]
+    return f'<robot name="{links[0]}">{"".join(parts)}</robot>'
+
+
+def write_recording(
+    path: Path,
+    texts: Mapping[str, str],
+    told: Told = (),
+    empty: Mapping[str, str] | None = None,
+    scans: Sequence[tuple[float, float]] = (),
+) -> Path:
+    """Write an mcap file.
+
+    Args:
+        path: of the file.
+        texts: topic → a text that it sends at the start.
+        told: transforms; each is as many metres along x as its stamp says.
+        empty: topic without a message → its type.
+        scans: stamp and log time of messages of /scan in the frame base [s from the
+            start].
+
+    Returns:
+        The path.
+    """
+    from mcap.writer import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    channels: dict[str, int] = {}
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start()
+
+        def channel(topic: str, name: str) -> int:
+            if topic not in channels:
+                text = store.generate_msgdef(name)[0].encode()
+                schema = writer.register_schema(name, "ros2msg", text)
+                channels[topic] = writer.register_channel(topic, "cdr", schema)
+            return channels[topic]
+
+        def add(topic: str, name: str, seconds: float, message: object) -> None:
+            data = bytes(store.serialize_cdr(message, name))
+            time = START * 1_000_000_000 + round(seconds * 1e9)
+            writer.add_message(channel(topic, name), time, data, time)
+
+        for topic, text in texts.items():
+            name = "std_msgs/msg/String"
+            add(topic, name, 0.0, store.types[name](text))
+        for topic, seconds, frames in told:
+            message = transforms_message(store, seconds, frames)
+            add(topic, "tf2_msgs/msg/TFMessage", seconds, message)
+        for stamp, seconds in scans:
+            name = "sensor_msgs/msg/LaserScan"
+            add("/scan", name, seconds, scan_message(store, stamp))
+        for topic, name in (empty or {}).items():
+            channel(topic, name)
+        writer.finish()
+    return path
+
+
+def transforms_message(store: Any, seconds: float, frames: Mapping[str, str]) -> object:
+    """Return a TFMessage with the transforms of some frames, child → parent."""
+    types = store.types
+    stamp = _stamp(store, seconds)
+    return types["tf2_msgs/msg/TFMessage"](
+        [
+            types["geometry_msgs/msg/TransformStamped"](
+                types["std_msgs/msg/Header"](stamp, parent),
+                child,
+                types["geometry_msgs/msg/Transform"](
+                    types["geometry_msgs/msg/Vector3"](seconds, 0.0, 0.0),
+                    types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0),
+                ),
+            )
+            for child, parent in frames.items()
+        ]
+    )
+
+
+def scan_message(store: Any, seconds: float) -> object:
+    """Return a LaserScan of one ray."""
+    types = store.types
+    header = types["std_msgs/msg/Header"](_stamp(store, seconds), "base")
+    ranges = np.array([1.0], dtype=np.float32)
+    numbers = (0.0, 0.0, 0.1, 0.0, 0.0, 0.1, 10.0)
+    return types["sensor_msgs/msg/LaserScan"](header, *numbers, ranges, ranges)
+
+
+def _stamp(store: Any, seconds: float) -> Any:
+    whole = int(seconds // 1)
+    nanoseconds = round((seconds - whole) * 1e9)
+    return store.types["builtin_interfaces/msg/Time"](START + whole, nanoseconds)

@@ -1,0 +1,70 @@
+"""A robot on the network that publishes what a recording has."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import foxglove
+from foxglove.websocket import ChannelView, Client
+from live_peers import FoxglovePeer
+
+from sambot_viz.sources.bag import Recording, open_recording
+
+START = 1_750_000_000_000_000_000
+
+
+class RobotPeer(FoxglovePeer):
+    """Publishes what a recording has."""
+
+    def __init__(self, recording: Recording, **options: Any) -> None:
+        self.recording = recording
+        super().__init__(**options)
+        for name, topic in recording.topics.items():
+            if topic.is_latched:
+                self._latched[name] = []
+            text = topic.schema.text
+            self._channels[name] = foxglove.Channel(
+                name,
+                schema=foxglove.Schema(
+                    name=topic.schema.name,
+                    encoding=topic.schema.encoding,
+                    data=text.encode() if isinstance(text, str) else text,
+                ),
+                message_encoding=topic.message_encoding,
+                context=self.context,
+            )
+        for message in recording.latched():
+            self._latched[message.topic].append(bytes(message.payload))
+
+    def play(self, until_s: float, from_s: float = 0.0) -> None:
+        """Publish all that moves, between two times [s]."""
+        begin, end = (START + round(time * 1e9) for time in (from_s, until_s))
+        for message in self.recording.messages(begin, end, ("/tf", "/joint_states")):
+            self._channels[message.topic].log(bytes(message.payload))
+
+
+class BusyPeer(RobotPeer):
+    """Publishes all that moves, up to a time [s], as soon as somebody wants it."""
+
+    until_s = 9.05
+
+    def on_subscribe(self, client: Client, channel: ChannelView) -> None:
+        super().on_subscribe(client, channel)
+        end = START + round(self.until_s * 1e9)
+        if channel.topic not in self._latched:
+            for message in self.recording.messages(None, end, (channel.topic,)):
+                self._channels[channel.topic].log(bytes(message.payload))
+
+
+@contextmanager
+def square_peer(repository: Path) -> Generator[BusyPeer]:
+    """A robot that drives the square of `assets/`, as soon as somebody wants it."""
+    with open_recording(repository / "assets" / "square.mcap") as recording:
+        peer = BusyPeer(recording)
+        try:
+            yield peer
+        finally:
+            peer.stop()
