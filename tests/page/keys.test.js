@@ -35,6 +35,13 @@ test("f, z, r, h and Esc act on the view and the window", () => {
   assert.equal(press("h"), "hide");
 });
 
+test("arrows, Home and End go through a recording, also while they are held", () => {
+  assert.deepEqual(press("ArrowLeft", { repeat: true }), { seek: "ArrowLeft" });
+  assert.deepEqual(press("End"), { seek: "End" });
+  assert.equal(press("Home", { shiftKey: true }), undefined);
+  assert.equal(press("ArrowUp"), undefined);
+});
+
 test("the digits of a number pad drive the robot, in the Drive panel only", () => {
   const pad = (key) => meaning({ key }, TOOLS, undefined, true);
   for (const key of "2468") {

@@ -78,3 +78,15 @@ test("the best match is the name itself, then its beginning, then a word in it",
   assert.deepEqual(names(" "), ["my_grid", "grid_map", "agrid", "Grid", "Alpha"]);
   assert.deepEqual(names("x"), []);
 });
+
+test("letters in their order find a long name, after all that has the words", () => {
+  const all = ["drivewhl_l_joint", "drivl", "arm_drivl"].map((name) => ({
+    name,
+    where: "Joints",
+    kind: "joints",
+  }));
+  const names = (text) => matches(all, text).map(({ name }) => name);
+  assert.deepEqual(names("drivl"), ["drivl", "arm_drivl", "drivewhl_l_joint"]);
+  assert.deepEqual(names("lvird"), []);
+  assert.deepEqual(names("rivl"), ["drivl", "arm_drivl"]);
+});

@@ -29,7 +29,14 @@ class Geometry {
     this.scaled = by;
   }
   clone = () => new Geometry();
-  dispose() {}
+  deleteAttribute(name) {
+    delete this.attributes[name];
+  }
+  /** What went with it, as in three.js. */
+  gone = null;
+  dispose() {
+    this.gone = Object.keys(this.attributes);
+  }
 }
 class CylinderGeometry extends Geometry {
   type = "CylinderGeometry";
@@ -75,6 +82,19 @@ test("RViz's sphere and cylinder become round with normals, and what they were a
     assert.equal(object.geometry, geometry);
     assert.equal(object.material.flatShading, true);
   }
+});
+
+test("a batch keeps the numbers of its instances when its round geometry goes", () => {
+  beginShapes();
+  const batch = { ...shape(Geometry, ball), isInstancedMesh: true };
+  const { geometry } = batch;
+  roundOff(batch);
+  const round = batch.geometry;
+  round.setAttribute("instanceIndex", "of the batch");
+  round.setAttribute("position", "its own");
+  putBack(batch);
+  assert.equal(batch.geometry, geometry);
+  assert.deepEqual(round.gone, ["position"]);
 });
 
 test("a shape that is made once is used for all that are the same", () => {

@@ -1,6 +1,7 @@
 // @ts-check
 /* The page: the view as RViz draws it, and the window round it. */
 
+import { actAtOnce } from "./view/new_tool.js";
 import "./view_only.js";
 import { html, render } from "./vendor/preact.js";
 import { act, connect, HOVER, newGesture, rows, send } from "./wire/channel.js";
@@ -12,8 +13,9 @@ import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
 import { followGhost } from "./panels/poses.js";
 import { followPointedJoint } from "./panels/pointed_joint.js";
-import { play } from "./window/player_bar.js";
+import { play, seek } from "./window/player_bar.js";
 import { tellView } from "./panels/views.js";
+import { releaseKept } from "./cells/field.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
 import { followRole } from "./window/people.js";
 import { toolKeys } from "./window/toolbar.js";
@@ -29,11 +31,12 @@ const start = () => {
   listenToKeys({
     tools: toolKeys,
     mouse: mousePlace,
-    act,
+    act: actAtOnce,
     hide: togglePanels,
     cancelPress,
     plays,
     play,
+    seek,
   });
   const hovering = newGesture();
   followMouse({
@@ -43,6 +46,7 @@ const start = () => {
     hover: (place) => send(HOVER, place, hovering),
     rightClick: () => act("tools/right_click"),
     twice: (place) => act("tools/double_click", place),
+    enter: releaseKept,
   });
   tellView();
   followPointedJoint();

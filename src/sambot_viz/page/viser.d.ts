@@ -5,6 +5,7 @@ interface Window {
     sendMessage(message: { type: string; [field: string]: unknown }): void;
     requestRender?(): void;
     canvas: HTMLCanvasElement;
+    messageQueue: any[];
     /** Objects of three.js and camera-controls have no types here. */
     scene: any;
     camera: any;

@@ -33,9 +33,12 @@ export function Box({ row, tab }) {
     onChange=${(/** @type {Change} */ e) => send(row.id, e.target.checked)} /></label>`;
 }
 
+/** The value of a row, with the folders that only a presenter sees; in a component. @param {Row} row */
+const useWhole = (row) => useData("displays/paths")?.[row.id] ?? row.value;
+
 /** @param {{row: Row, tab: number}} props */
 function TextCell({ row, tab }) {
-  return html`<${Field} row=${row} tab=${tab} shown=${String(row.value ?? "")}
+  return html`<${Field} row=${row} tab=${tab} shown=${String(useWhole(row) ?? "")}
     accept=${(/** @type {string} */ typed) => {
       send(row.id, typed);
     }} />`;
@@ -88,6 +91,11 @@ function ColorCell({ row, tab }) {
   </span>`;
 }
 
+/** RViz's own types of views go without the name of their package, which would be cut off.
+ * @param {any} value */
+const short = (value) =>
+  typeof value === "string" ? value.replace(/ \(rviz_default_plugins\)$/, "") : value;
+
 /** @param {{row: Row, tab: number}} props */
 function EnumCell({ row, tab }) {
   const options = row.options || [];
@@ -96,7 +104,7 @@ function EnumCell({ row, tab }) {
   return html`<select class="field" aria-label=${row.name || ""} tabindex=${tab}
       disabled=${row.fixed || row.off} value=${row.value}
       onChange=${(/** @type {Change} */ e) => send(row.id, e.target.value)}>
-    ${offered.map((option) => html`<option value=${option}>${option}</option>`)}
+    ${offered.map((option) => html`<option value=${option}>${short(option)}</option>`)}
   </select>`;
 }
 
@@ -120,8 +128,9 @@ function ComboCell({ row, tab, options }) {
 
 /** @param {{row: Row, tab: number}} props */
 function FactCell({ row, tab }) {
-  return html`<span class="fact" title=${row.kind === "readonly" ? String(row.value) : undefined}>
-    ${row.value}</span>
+  const value = useWhole(row);
+  return html`<span class="fact" title=${row.kind === "readonly" ? String(value) : undefined}>
+    ${short(value)}</span>
     ${row.repair && html`<${RepairButton} row=${row} tab=${tab} />`}
     ${row.leads && html`<${LeadButton} row=${row} tab=${tab} />`}
     ${row.copy && html`<${CopyButton} row=${row} tab=${tab} />`}`;

@@ -50,7 +50,7 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
   const [, again] = useState(0);
   const marked = useRef(-1);
   const id = useRef(`combo${++count}`).current;
-  const typed = () => (typing.current ? element.current.value : null);
+  const typed = () => (typing.current && element.current ? element.current.value : null);
   const offered = () => offers(options, typed());
   useLayoutEffect(() => {
     if (!typing.current) element.current.value = value;
@@ -58,6 +58,8 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
   const close = () => {
     typing.current = false;
     marked.current = -1;
+    // As in a Field: one that is removed while it has the focus loses it afterwards.
+    if (!element.current) return;
     element.current.value = value;
     setOpen(false);
   };
@@ -112,7 +114,7 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
         setOpen(true);
         again((n) => n + 1);
       }}
-      onKeyDown=${key} onBlur=${() => (typing.current ? choose(meant()) : close())} />
+      onKeyDown=${key} onBlur=${() => (typing.current && element.current ? choose(meant()) : close())} />
     ${
       open &&
       html`<${Choices} id=${id} label=${label} of=${element} offered=${offered()}

@@ -22,6 +22,15 @@ export function focusWhole(event) {
   }
 }
 
+/** The number that was accepted by Enter and is still in the hand. @type {HTMLElement | null} */
+let kept = null;
+
+/** The hand goes to the 3D view, as its mouse does in RViz: keys are for tools again. */
+export function releaseKept() {
+  if (kept === document.activeElement) kept?.blur();
+  kept = null;
+}
+
 /**
  * A line of text that is accepted by Enter or by leaving it, and put back by Esc.
  * @param {{row: Row, shown: string, accept: (typed: string) => string | void, tab: number,
@@ -51,9 +60,11 @@ export function Field({
   const why = refusals.get(row.id);
   const put = () => {
     const input = element.current;
+    typing.current = false;
+    // A field that is removed while it has the focus loses it after it is gone from here.
+    if (!input) return;
     const held = document.activeElement === input;
     const text = held ? full : shown;
-    typing.current = false;
     if (input.value === text) return;
     const marked = Number(input.selectionEnd) - Number(input.selectionStart);
     const whole = held && marked === input.value.length;
@@ -61,7 +72,7 @@ export function Field({
     if (whole) input.select();
   };
   const done = () => {
-    if (!typing.current) return;
+    if (!typing.current || !element.current) return;
     const typed = element.current.value;
     typing.current = false;
     const refused = typed === shown || typed === full ? undefined : accept(typed) || undefined;
@@ -78,8 +89,10 @@ export function Field({
       event.preventDefault();
       done();
       // A number stays in the hand: the arrow keys step it.
-      if (step) element.current.select();
-      else leave(element.current);
+      if (step) {
+        element.current.select();
+        kept = element.current;
+      } else leave(element.current);
     } else if (event.key === "Escape" && (typing.current || why)) {
       // The tree takes the focus back to the row.
       put();
@@ -103,6 +116,7 @@ export function Field({
       e.target.select();
     }} onMouseDown=${focusWhole} onPointerDown=${grab}
     onInput=${() => {
+      kept = null;
       typing.current = true;
       if (why) refuse(row.id);
     }}

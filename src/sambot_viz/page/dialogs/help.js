@@ -25,6 +25,15 @@ const KEYS = [
     ],
   ],
   [
+    "Recordings",
+    [
+      ["Space", "play, pause"],
+      [", .", "message before, next message"],
+      ["← →", "one second back, on"],
+      ["Home End", "to the begin, to the end"],
+    ],
+  ],
+  [
     "Rows",
     [
       ["↑ ↓ Home End", "select another row"],

@@ -1,5 +1,5 @@
 // @ts-check
-/* The Topics panel: what a recording has, and why nothing of a topic is seen. */
+/* The Topics panel: what there is, and why nothing of a topic is seen. */
 
 import { html, useEffect } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
@@ -20,6 +20,10 @@ export function TopicsPanel() {
   const chosen = useRow(selected.use().topics || "none");
   const topic = chosen?.display ? chosen : rows.get(chosen?.in || "");
   const kind = topic?.display;
+  const name = topic?.label || "";
+  useEffect(() => {
+    act("topics/choose", [name]);
+  }, [name]);
   const add = () => kind && makeDisplay("add", [kind, ""], true);
   // The server searches: of thousands of topics the page has only those that are found.
   return html`<div class="topics">

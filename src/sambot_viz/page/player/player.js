@@ -3,10 +3,12 @@
 
 import "../view/rviz_look.js";
 import "../view/rviz_mouse.js";
-import { at, read } from "./tracks.js";
+import { at, placeAt, read } from "./tracks.js";
 
-/** @typedef {{title: string, duration: number, view: {kind: string}, size: [number, number]}} About
- *   size: width and height of the picture that the camera was set for [px] */
+/** @typedef {{title: string, duration: number, view: {kind: string}, size: [number, number],
+ *   way: number[][]}} About
+ *   size: width and height of the picture that the camera was set for [px]
+ *   way: the time [ms] and the place of the frame that the camera follows */
 
 /** viser's objects have no types here. @type {any} */
 const globals = window;
@@ -59,6 +61,20 @@ function followHeight() {
   }, 100);
 }
 
+/** Move the camera as the frame that it follows has moved. @param {number[]} from @param {number[]} to */
+function follow(from, to) {
+  if (from.every((part, n) => part === to[n])) return;
+  const { cameraControl, camera, nodeRefFromName } = globals.__viserMutable;
+  const world = nodeRefFromName[""];
+  /** @param {number[]} place */
+  const shown = (place) => world.localToWorld(camera.position.clone().fromArray(place));
+  const by = shown(to).sub(shown(from));
+  const [eye, target] = ["getPosition", "getTarget"].map((end) =>
+    cameraControl[end](camera.position.clone()).add(by),
+  );
+  cameraControl.setLookAt(...eye.toArray(), ...target.toArray(), false);
+}
+
 class Player {
   /** @param {import("./tracks.js").Track[]} tracks */
   constructor(tracks) {
@@ -67,6 +83,7 @@ class Player {
     this.playing = false;
     this.loop = true;
     this.last = 0;
+    this.place = placeAt(about.way, 0);
     this.changed = () => {};
   }
 
@@ -74,6 +91,9 @@ class Player {
   go(time) {
     this.time = Math.max(0, Math.min(about.duration, time));
     const page = globals.__viserMutable;
+    const place = placeAt(about.way, this.time * 1000);
+    follow(this.place, place);
+    this.place = place;
     const messages = at(this.tracks, this.time * 1000);
     if (messages.length) {
       page.messageQueue.push(...messages);

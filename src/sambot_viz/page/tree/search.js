@@ -38,8 +38,18 @@ export function isFound(row, words) {
 }
 
 /**
+ * Whether a name has some letters in their order, and begins with the first: "drivl" is in
+ * drivewhl_l_joint. @param {string} name @param {string} letters
+ */
+function hasLetters(name, letters) {
+  if (letters.length < 3 || name[0] !== letters[0]) return false;
+  let at = -1;
+  return [...letters].every((letter) => (at = name.indexOf(letter, at + 1)) >= 0);
+}
+
+/**
  * What the words find, the best first: the name itself, its beginning, the beginning of a word in
- * it; rows of their own before what is in them.
+ * it, its letters; rows of their own before what is in them.
  * @template {{name: string, where: string, kind: string}} T
  * @param {T[]} all @param {string} text @returns {T[]}
  */
@@ -51,8 +61,9 @@ export function matches(all, text) {
   const rank = ({ name, where, kind }) => {
     const low = name.toLowerCase();
     const path = `${where} ${name}`.toLowerCase();
-    if (!words.every((word) => path.includes(word))) return -1;
     const inside = kind === "displays" || kind === "views" || kind === "tool_properties" ? 1 : 0;
+    if (!words.every((word) => path.includes(word)))
+      return hasLetters(low, words.join("")) ? 12 + inside : -1;
     if (low === wanted) return inside;
     if (low.startsWith(wanted)) return 2 + inside;
     if (words.every((word) => low.includes(word)))

@@ -44,10 +44,10 @@ const CLICK = 4;
 /**
  * Follow the mouse.
  * @param {{wantsHover: () => boolean, hover: (place: [number, number]) => void, rightClick: () =>
- *   void, twice: (place: [number, number]) => void}} to
- *   hover: called while the tool wants it, when the place has changed
+ *   void, twice: (place: [number, number]) => void, enter: () => void}} to
+ *   hover: called while the tool wants it, when the place has changed; enter: the mouse has come in
  */
-export function followMouse({ wantsHover, hover, rightClick, twice }) {
+export function followMouse({ wantsHover, hover, rightClick, twice, enter }) {
   /** @type {Place} */
   let sent = OUTSIDE;
   let timer = 0;
@@ -65,7 +65,9 @@ export function followMouse({ wantsHover, hover, rightClick, twice }) {
     (event) => {
       // A finger does not hover, and with a button the mouse turns the view.
       if (event.pointerType === "touch") return;
+      const before = place;
       place = event.buttons ? OUTSIDE : placeOf(event);
+      if (before === OUTSIDE && place !== OUTSIDE) enter();
       const pause = last + 1000 / HOVERS - performance.now();
       if (!timer && wantsHover()) timer = window.setTimeout(sendLast, Math.max(0, pause));
     },

@@ -15,6 +15,7 @@
 
 import { currentLook } from "./look.js";
 import { keepSharp } from "./sharp.js";
+import { reportWindow } from "./window_size.js";
 import { beginStudio, dress, finishStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
 
 const look = {
@@ -221,6 +222,7 @@ const hook = () => {
   const mutable = window.__viserMutable;
   const scene = mutable && mutable.scene;
   keepSharp(mutable);
+  reportWindow(mutable);
   if (!scene || scene === hooked) return;
   hooked = scene;
   scene.onBeforeRender = (

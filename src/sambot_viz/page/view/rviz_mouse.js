@@ -185,7 +185,8 @@ window.addEventListener(
     if (!onCanvas(event) || !refresh()) return;
     // Browsers capture a finger for what it touches; viser takes a captured pointer for
     // one of its handles being dragged, and gives the tools no click.
-    if (event.pointerType === "touch") page().canvas.releasePointerCapture(event.pointerId);
+    if (event.pointerType === "touch" && page().canvas.hasPointerCapture(event.pointerId))
+      page().canvas.releasePointerCapture(event.pointerId);
     presses.set(event.pointerId, { x: event.clientX, y: event.clientY });
   },
   true,

@@ -1,22 +1,54 @@
 // @ts-check
-/* Studio: names that would cover each other move up or down by whole lines. viser keeps the place
+/* Studio: names that would cover each other move up or down. viser keeps the place
  * of each name in a texture that it writes for every picture: here it is changed before it is
  * drawn. */
 
-/** In which order other places are tried [lines]. */
-const PLACES = [0, -1, 1, -2, 2, -3, 3];
+/** A name does not go farther from its frame than so many of its own heights. */
+const FARTHEST = 8;
 /** The part of a name's box that must not be covered. */
 const HIGH = 0.85;
+/** What is left free between two names, as a part of their height. */
+const GAP = 0.15;
 
-/** The line that each name has. @type {Map<number, number>} */
-const lines = new Map();
+/** The name that each name stands beside, and on which side: "" for its own place.
+ * @type {Map<number, string>} */
+const sides = new Map();
 /** Where viser put a name, and we. @type {Map<number, {from: number[], to: number[]}>} */
 const moved = new Map();
 
-/** @typedef {{x: number, y: number, w: number, h: number}} Box */
-/** @param {Box} a @param {Box} b @param {number} gap */
-const meet = (a, b, gap) =>
-  Math.abs(a.x - b.x) < (a.w + b.w) / 2 && Math.abs(a.y - b.y) < ((a.h + b.h) / 2) * (1 + gap);
+/** @typedef {{x: number, y: number, w: number, h: number, index: number}} Box */
+
+/**
+ * How far each name moves up or down, so that none covers another: as little as it can, and where
+ * it was in the picture before rather than elsewhere.
+ * @param {Box[]} boxes @param {Map<number, string>} before
+ * @returns {{by: number, side: string}[]}
+ */
+export function apart(boxes, before) {
+  /** @type {Box[]} */
+  const placed = [];
+  return boxes.map((box) => {
+    const near = placed.filter((one) => Math.abs(one.x - box.x) < (one.w + box.w) / 2);
+    const places = near.flatMap((one) =>
+      [1, -1].map((sign) => ({
+        by: one.y - box.y + (sign * (1 + GAP) * (one.h + box.h)) / 2,
+        side: `${one.index}${sign}`,
+      })),
+    );
+    places.push({ by: 0, side: "" });
+    places.sort((a, b) => Math.abs(a.by) - Math.abs(b.by));
+    const free = places.find(({ by, side }) => {
+      const gap = before.get(box.index) === side ? 0 : 0.99 * GAP;
+      return (
+        Math.abs(by) <= FARTHEST * box.h &&
+        near.every((one) => Math.abs(one.y - box.y - by) >= ((1 + gap) * (one.h + box.h)) / 2)
+      );
+    });
+    const at = free || { by: 0, side: "" };
+    placed.push({ ...box, y: box.y + at.by });
+    return at;
+  });
+}
 
 /** The place of a name as viser wrote it. @param {Float32Array} data @param {number} index */
 function placeOf(data, index) {
@@ -41,9 +73,9 @@ function move(data, index, from, by) {
  * Move the names of a picture apart.
  * @param {any} object the boxes behind all names
  * @param {any} camera
- * @param {boolean} apart false puts them where viser has them
+ * @param {boolean} on false puts them where viser has them
  */
-export function moveNames(object, camera, apart) {
+export function moveNames(object, camera, on) {
   const { aLabelIndex, aRect, aParams } = object.geometry.attributes;
   const texture = object.material.uniforms.uLabelData?.value;
   const data = texture?.image?.data;
@@ -51,8 +83,8 @@ export function moveNames(object, camera, apart) {
   const p = camera.projectionMatrix.elements;
   const v = camera.matrixWorldInverse.elements;
   const up = [...camera.matrixWorld.elements.slice(4, 7)];
-  /** @type {Box[]} */
-  const placed = [];
+  /** @type {(Box & {from: number[], unit: number})[]} */
+  const boxes = [];
   let changed = false;
   for (let i = 0; i < object.geometry.instanceCount; i += 1) {
     const index = aLabelIndex.array[i];
@@ -60,7 +92,7 @@ export function moveNames(object, camera, apart) {
     // What has its size on the screen is no name of a frame.
     if (aParams.array[2 * i] > 0.5 || !data[4 * index + 3]) continue;
     const from = placeOf(data, index);
-    if (!apart) {
+    if (!on) {
       if (moved.has(index)) changed = move(data, index, from, [0, 0, 0]) || changed;
       continue;
     }
@@ -70,29 +102,31 @@ export function moveNames(object, camera, apart) {
     if (z > -1e-6) continue;
     const size = (scale * p[5]) / -z;
     const [left, bottom, width, height] = aRect.array.subarray(4 * i, 4 * i + 4);
-    const box = {
+    boxes.push({
       x: (x * p[5]) / -z + (left + width / 2) * size,
       y: (y * p[5]) / -z + (bottom + height / 2) * size,
       w: width * size,
       h: height * size * HIGH,
-    };
-    const line = height * HIGH;
-    const before = lines.get(index);
-    const free = PLACES.find((k) =>
-      placed.every(
-        (other) => !meet({ ...box, y: box.y + k * line * size }, other, k === before ? 0 : 0.15),
-      ),
-    );
-    const at = free ?? 0;
-    lines.set(index, at);
-    placed.push({ ...box, y: box.y + at * line * size });
-    const by = at * line * scale;
-    if (at || moved.has(index))
-      changed = move(data, index, from, /** @type {number[]} */ (up.map((u) => u * by))) || changed;
+      index,
+      from,
+      unit: scale / size,
+    });
   }
-  if (!apart) {
+  apart(boxes, sides).forEach(({ by, side }, i) => {
+    const { index, from, unit } = boxes[i];
+    sides.set(index, side);
+    if (by || moved.has(index))
+      changed =
+        move(
+          data,
+          index,
+          from,
+          up.map((u) => u * by * unit),
+        ) || changed;
+  });
+  if (!on) {
     moved.clear();
-    lines.clear();
+    sides.clear();
   }
   if (changed) texture.needsUpdate = true;
 }

@@ -244,7 +244,11 @@ export function putBack(object) {
   const had = before.get(object);
   if (!had) return;
   before.delete(object);
-  if (object.isInstancedMesh) object.geometry.dispose();
+  if (object.isInstancedMesh) {
+    // The numbers of its instances are the batch's, and would go with the geometry.
+    object.geometry.deleteAttribute("instanceIndex");
+    object.geometry.dispose();
+  }
   object.geometry = had.geometry;
   object.material.flatShading = had.flat;
   object.material.needsUpdate = true;

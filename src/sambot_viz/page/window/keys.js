@@ -4,8 +4,8 @@
 /** @typedef {{key: string, code?: string, ctrlKey?: boolean, metaKey?: boolean, altKey?: boolean,
  *   shiftKey?: boolean, repeat?: boolean}} Key */
 /** What a key does: a command with its arguments, "hide" for the panels, "play" to
- * play or pause.
- * @typedef {{act: string, with?: any[]} | "hide" | "play"} Meaning */
+ * play or pause, a key of the time bar.
+ * @typedef {{act: string, with?: any[]} | "hide" | "play" | {seek: string}} Meaning */
 
 const NO_LETTERS = new Set([
   "checkbox",
@@ -17,6 +17,9 @@ const NO_LETTERS = new Set([
   "reset",
   "file",
 ]);
+
+/** Keys that move the time of a recording, also when they are held. */
+const SEEKS = new Set(["ArrowLeft", "ArrowRight", "Home", "End"]);
 
 /** Whether what has the focus takes letters. @param {any} target */
 export function isTyping(target) {
@@ -49,6 +52,7 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
     if (key === "z") return { act: event.shiftKey ? "edit/redo" : "edit/undo" };
     return key === "y" ? { act: "edit/redo" } : undefined;
   }
+  if (SEEKS.has(event.key)) return event.shiftKey ? undefined : { seek: event.key };
   // A key that is held would go to and fro.
   if (event.repeat) return undefined;
   if (key === " ") return "play";
@@ -69,6 +73,9 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
 /** Where digits drive the robot. */
 const DRIVE = ".drive, [data-tab=drive]";
 
+/** Where arrow keys have no other use: nothing there is moved or scrolled by them. */
+const NO_ARROWS = "body, canvas, .player-bar button";
+
 /** What keeps the keys of the window for itself. */
 const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
 
@@ -76,9 +83,9 @@ const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
  * Follow the keyboard.
  * @param {{tools: () => {name: string, key: string}[], mouse: () => [number | null, number | null],
  *   act: (id: string, args?: any[]) => void, hide: () => void, cancelPress: () => void,
- *   plays: () => boolean, play: () => void}} window
+ *   plays: () => boolean, play: () => void, seek: (key: string) => void}} window
  */
-export function listenToKeys({ tools, mouse, act, hide, cancelPress, plays, play }) {
+export function listenToKeys({ tools, mouse, act, hide, cancelPress, plays, play, seek }) {
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
     // The text of the whole page is never meant.
@@ -89,7 +96,11 @@ export function listenToKeys({ tools, mouse, act, hide, cancelPress, plays, play
     if (event.key === "Escape") cancelPress();
     // A button that has the focus is pressed by the space bar.
     if (does === "play" && (!plays() || event.target instanceof HTMLButtonElement)) return;
-    if (does === "hide") hide();
+    if (typeof does === "object" && "seek" in does) {
+      const free = event.target instanceof Element && event.target.matches(NO_ARROWS);
+      if (!plays() || !free) return;
+      seek(does.seek);
+    } else if (does === "hide") hide();
     else if (does === "play") play();
     else act(does.act, does.with);
     event.preventDefault();

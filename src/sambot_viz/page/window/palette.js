@@ -6,7 +6,8 @@ import { Dialog, leaveFor, show } from "../dialogs/dialog.js";
 import { fold } from "../state.js";
 import { matches, namesAbove } from "../tree/search.js";
 import { reveal } from "../tree/tree.js";
-import { act, rows } from "../wire/channel.js";
+import { rows } from "../wire/channel.js";
+import { actAtOnce } from "../view/new_tool.js";
 import { takeTyped } from "./files.js";
 import { Icon } from "./icons.js";
 import { listMenus } from "./menus.js";
@@ -46,7 +47,7 @@ function buttons() {
       name,
       where,
       keys,
-      does: () => act(id, args),
+      does: () => actAtOnce(id, args),
     }));
 }
 

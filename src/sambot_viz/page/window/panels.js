@@ -70,10 +70,14 @@ function choose(name) {
   if (shape.value !== "wide") hidden.set({ ...hidden.value, side: false });
 }
 
+/** The tab that the list of problems has taken the place of. */
+let covered = "joints";
+
 /** Show the list of problems, or hide it. @param {boolean} on */
 export function showProblems(on) {
-  if (shape.value === "wide") hidden.set({ ...hidden.value, problems: !on });
-  else choose(on ? "problems" : "joints");
+  if (shape.value === "wide") return hidden.set({ ...hidden.value, problems: !on });
+  if (on && tab.value !== "problems") covered = tab.value;
+  choose(on ? "problems" : covered);
 }
 
 /** What the menu Panels lists: a tab is shown when it is the chosen one.

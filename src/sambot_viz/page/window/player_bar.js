@@ -3,20 +3,21 @@
  * own time go on, and is told once in a while where the recording is. */
 
 import { html, useEffect, useReducer, useRef } from "../vendor/preact.js";
-import { useData, useRow } from "../state.js";
+import { useCommand, useData, useRow } from "../state.js";
 import { act, newGesture, rows, send } from "../wire/channel.js";
 import { Icon } from "./icons.js";
+import { Popup } from "./popup.js";
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 /** What a key press at the slider adds [s]. */
 const KEY_STEP = 1;
 
-/** @param {number} seconds */
-export function clock(seconds) {
-  const tenths = Math.max(0, Math.round(seconds * 10));
-  const [minutes, rest] = [Math.floor(tenths / 600), tenths % 600];
-  const short = (rest / 10).toFixed(1);
-  return `${minutes}:${rest < 100 ? "0" : ""}${short}`;
+/** @param {number} seconds @param {number} digits behind the point */
+export function clock(seconds, digits = 1) {
+  const unit = 10 ** digits;
+  const parts = Math.max(0, Math.round(seconds * unit));
+  const [minutes, rest] = [Math.floor(parts / (60 * unit)), parts % (60 * unit)];
+  return `${minutes}:${rest < 10 * unit ? "0" : ""}${(rest / unit).toFixed(digits)}`;
 }
 
 /** Where the time of the recording is, from what was told of it and when.
@@ -25,7 +26,32 @@ export function clock(seconds) {
 export const timeNow = (told, rate, most, now) =>
   Math.min(most, told.value + (Math.max(0, now - told.at) / 1000) * rate);
 
-/** Send what a hand does with the player. */
+/** How far a key goes [s]; undefined for one that goes nowhere.
+ * @param {string} key @param {number} most the length of the recording [s]
+ * @returns {number | undefined} */
+export const keyGoes = (key, most) =>
+  /** @type {Record<string, number>} */ ({
+    ArrowRight: KEY_STEP,
+    ArrowUp: KEY_STEP,
+    ArrowLeft: -KEY_STEP,
+    ArrowDown: -KEY_STEP,
+    PageUp: most / 10,
+    PageDown: -most / 10,
+    Home: -most,
+    End: most,
+  })[key];
+
+/** What the time bar shows [s], and its length. */
+let bar = () => ({ shown: 0, most: 0 });
+
+/** @param {number} seconds @param {number} [gesture] */
+function go(seconds, gesture) {
+  const inside = Math.min(bar().most, Math.max(0, seconds));
+  send("player/time", inside, gesture || newGesture());
+}
+
+/** Send what a hand does with the player. @param {string} key */
+export const seek = (key) => go(bar().shown + (keyGoes(key, bar().most) || 0));
 export const play = () => send("player/playing", !rows.value("player/playing"));
 /** @param {boolean} back */
 export const step = (back) => act("player/step", [back]);
@@ -39,15 +65,75 @@ export function PlayerBar() {
   </section>`;
 }
 
+/** @param {number} bytes */
+export function sizeText(bytes) {
+  const [by, unit] = bytes < 1e6 ? [1e3, "kB"] : bytes < 1e9 ? [1e6, "MB"] : [1e9, "GB"];
+  return `${(bytes / by).toFixed(by > 1e3 ? 1 : 0)} ${unit}`;
+}
+
 /** How the connection to a live robot is.
- * @param {{name: string, connected: boolean, sentence: string}} props */
-function Source({ name, connected, sentence }) {
+ * @param {{name: string, connected: boolean, sentence: string, recording: any}} props */
+function Source({ name, connected, sentence, recording }) {
   return html`<section class="player-bar" aria-label="Source">
     <span class=${`source l-${connected ? "ok" : "warn"}`}><${Icon} name=${connected ? "ok" : "warn"} />
       ${connected ? "Live" : "Waiting"}</span>
     <span class="uri" title=${name}>${name}</span>
     <span class="sentence" role="status" title=${sentence}>${sentence}</span>
+    <${LiveTime} />
+    <${Recording} recording=${recording} />
   </section>`;
+}
+
+/** The time of a live robot, from what was told of it and when: that of a simulation goes
+ * on at its own rate, any other with the clock of this computer.
+ * @param {{simulated: boolean, time: number, rate: number}} told
+ * @param {number} since when it was told [ms] @param {number} now [ms] @param {number} wall [s] */
+export const liveTime = ({ simulated, time, rate }, since, now, wall) =>
+  simulated ? time + (Math.max(0, now - since) / 1000) * rate : wall + time;
+
+/** RViz's Time panel for a live robot. */
+function LiveTime() {
+  const clock = useData("source/clock");
+  const told = useRef({ clock, at: performance.now() });
+  if (told.current.clock !== clock) told.current = { clock, at: performance.now() };
+  const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
+  useEffect(() => {
+    const timer = setInterval(() => again(0), 1000);
+    return () => clearInterval(timer);
+  }, []);
+  if (!clock) return null;
+  const ros = () => liveTime(clock, told.current.at, performance.now(), Date.now() / 1000);
+  // A simulation that was reset begins again.
+  firstRos = Math.min(firstRos, ros());
+  return html`<span class="time"><${Popup} name="Time" role="dialog" title="ROS and wall time"
+    label=${`${clock.simulated ? "Simulated " : ""}${ros().toFixed(1)} s`}>
+    ${() => html`<${Times} ros=${ros} />`}<//></span>`;
+}
+
+/** What is recorded, and the button for it where the command line allows it.
+ * @param {{recording: {name: string, running: boolean, seconds: number, size: number,
+ *   trouble: string} | null}} props */
+function Recording({ recording }) {
+  const [record, stop] = [useCommand("source/record"), useCommand("source/stop")];
+  const { name = "", running = false, seconds = 0, size = 0, trouble = "" } = recording || {};
+  const length = `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+  return html`
+    ${
+      recording &&
+      html`<span class=${`recording ${running ? "running" : ""}`} title=${name}>
+      ${`${running ? "Recording" : "Recorded"} ${name}, ${length}, ${sizeText(size)}`}</span>`
+    }
+    ${trouble && html`<span class="l-warn trouble" role="status" title=${trouble}>${trouble}</span>`}
+    ${
+      record &&
+      html`<button title="Record all topics to a new file on the server"
+      onClick=${() => act("source/record")}>Record</button>`
+    }
+    ${
+      stop &&
+      html`<button title="End the recording and close its file"
+      onClick=${() => act("source/stop")}>Stop</button>`
+    }`;
 }
 
 /** @param {{time: any}} props */
@@ -71,26 +157,18 @@ function Controls({ time }) {
   }, [playing]);
   const gesture = useRef(0);
   const most = time.max || 0;
-  const shown = playing ? timeNow(told.current, rate, most, performance.now()) : time.value;
-  /** @param {number} seconds */
-  const go = (seconds) =>
-    send("player/time", Math.min(most, Math.max(0, seconds)), gesture.current || newGesture());
+  const now = () => (playing ? timeNow(told.current, rate, most, performance.now()) : time.value);
+  bar = () => ({ shown: now(), most });
+  const shown = now();
+  if (begin) firstRos = Math.min(firstRos, begin + shown);
   /** @param {Key} event */
   const key = (event) => {
-    const by = /** @type {Record<string, number>} */ ({
-      ArrowRight: KEY_STEP,
-      ArrowUp: KEY_STEP,
-      ArrowLeft: -KEY_STEP,
-      ArrowDown: -KEY_STEP,
-      PageUp: most / 10,
-      PageDown: -most / 10,
-      Home: -most,
-      End: most,
-    })[event.key];
-    if (by === undefined) return;
+    if (keyGoes(event.key, most) === undefined) return;
     event.preventDefault();
-    go(shown + by);
+    seek(event.key);
   };
+  // A step between two messages is often a few milliseconds.
+  const short = `${clock(shown, playing ? 1 : 3)} / ${clock(most)}`;
   const words = `${clock(shown)} of ${clock(most)}`;
   return html`
     <button class="play needs-control" aria-keyshortcuts="Space" title=${`${playing ? "Pause" : "Play"} (space bar)`}
@@ -104,9 +182,11 @@ function Controls({ time }) {
       value=${shown} aria-valuetext=${words}
       onPointerDown=${() => (gesture.current = newGesture())}
       onPointerUp=${() => (gesture.current = 0)}
-      onInput=${(/** @type {any} */ event) => go(Number(event.currentTarget.value))}
+      onInput=${(/** @type {any} */ event) =>
+        go(Number(event.currentTarget.value), gesture.current)}
       onKeyDown=${key} />
-    <span class="time" title=${`Source time ${(begin + shown).toFixed(3)} s`}>${clock(shown)} / ${clock(most)}</span>
+    <span class="time"><${Popup} name="Time" role="dialog" title="ROS and wall time" label=${short}>
+      ${() => html`<${Times} ros=${() => begin + now()} />`}<//></span>
     <label class="rate">Rate <select class="needs-control" aria-label="Rate" value=${String(rate)}
       onChange=${(/** @type {any} */ event) => send("player/rate", Number(event.currentTarget.value))}>
       ${[...new Set([...RATES, rate])]
@@ -115,6 +195,34 @@ function Controls({ time }) {
     </select></label>
     <button class="flat needs-control" aria-pressed=${String(loop)} title="Begin again at the end"
       onClick=${() => send("player/loop", !loop)}>Loop</button>`;
+}
+
+/** When the page was opened [s since 1970]. */
+const OPENED = Date.now() / 1000;
+/** The time of the recording when the page first had it, or that of a jump back before it. */
+let firstRos = Infinity;
+
+/** What RViz's Time panel shows: seconds since 1970 and since the page was opened, of the
+ * recording and of the wall. @param {number} ros @param {number} wall @param {number} first
+ * @returns {[string, string][]} */
+export const times = (ros, wall, first, opened = OPENED) => [
+  ["ROS Time", ros.toFixed(2)],
+  ["ROS Elapsed", (ros - first).toFixed(2)],
+  ["Wall Time", wall.toFixed(2)],
+  ["Wall Elapsed", (wall - opened).toFixed(2)],
+];
+
+/** @param {{ros: () => number}} props */
+function Times({ ros }) {
+  const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
+  useEffect(() => {
+    const timer = setInterval(() => again(0), 100);
+    return () => clearInterval(timer);
+  }, []);
+  return html`<table class="times">${times(ros(), Date.now() / 1000, firstRos).map(
+    ([name, seconds]) =>
+      html`<tr key=${name}><th scope="row">${name}</th><td>${seconds} s</td></tr>`,
+  )}</table>`;
 }
 
 /** Whose messages the steps go to. */

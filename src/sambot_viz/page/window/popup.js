@@ -51,7 +51,7 @@ export function Popup({ label, name, role, title, opened, children }) {
   const key = (event) => {
     const by = /** @type {Record<string, number>} */ ({ ArrowDown: 1, ArrowUp: -1 })[event.key];
     const does = meaning(event, []);
-    const edits = typeof does === "object" && does.act.startsWith("edit/");
+    const edits = typeof does === "object" && "act" in does && does.act.startsWith("edit/");
     if (event.key === "Escape") close();
     // A field with nothing in it has nothing of its own to undo.
     else if (edits && !(isTyping(event.target) && "value" in event.target && event.target.value))

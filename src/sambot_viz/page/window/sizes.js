@@ -5,8 +5,8 @@
  * Sizes that a hand has chosen [px], and the width of the window where it did.
  * @typedef {{left?: number, right?: number, side?: number, bottom?: number, views?: number, at?:
  *   number}} Chosen
- * @typedef {{left: number, right: number, side: number, bottom: number, views: number, chosen:
- *   boolean}} Sizes chosen: whether a hand has chosen the height of Views
+ * @typedef {{left: number, right: number, side: number, bottom: number, views: number}} Sizes each
+ *   is a property of the window's style
  */
 
 /** A panel that gives way does not become smaller [px]. */
@@ -49,6 +49,5 @@ export function fitted(chosen, width, height, away = {}) {
     ),
     bottom: between(SMALLEST, chosen.bottom ?? 210, HALF * height),
     views: between(SMALLEST, chosen.views ?? 240, HALF * height),
-    chosen: chosen.views !== undefined,
   };
 }

@@ -46,9 +46,14 @@ export function useSizes() {
   return fitted(chosen.use(), width, height, hidden.use());
 }
 
+/** Whether a hand has chosen the height of Views, in a component. */
+export function useChosenViews() {
+  return chosen.use().views !== undefined;
+}
+
 /**
  * An edge that a hand can move; arrow keys move it too.
- * @param {{side: Exclude<keyof Sizes, "chosen">, label: string}} props
+ * @param {{side: keyof Sizes, label: string}} props
  */
 export function Splitter({ side, label }) {
   const sizes = useSizes();

@@ -3,6 +3,7 @@
 
 import { html, useEffect, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
+import { actAtOnce, newTool } from "../view/new_tool.js";
 import { Icon } from "./icons.js";
 import { useCommand, useData } from "../state.js";
 import { togglePanels } from "./splitters.js";
@@ -20,8 +21,12 @@ export const EDITS = { undo: "Undo", redo: "Redo" };
 export function Toolbar() {
   /** @type {Tool[]} */
   const tools = useData("tools/list") || [];
+  const chosen = newTool.use();
   return html`<div class="toolbar" role="toolbar" aria-label="Tools" onKeyDown=${move}>
-    ${tools.map((tool) => html`<${ToolButton} key=${tool.name} tool=${tool} />`)}
+    ${tools.map(
+      (tool) => html`<${ToolButton} key=${tool.name} tool=${tool}
+      on=${chosen === null ? tool.current : chosen === tool.name} />`,
+    )}
     <span class="rule"></span>
     <${Button} icon="focus" name="Focus" keys="F"
       help="Look at the selection, or at the whole robot if nothing is selected."
@@ -46,11 +51,11 @@ function move(event) {
   event.stopPropagation();
 }
 
-/** @param {{tool: Tool}} props */
-function ToolButton({ tool: { name, key, help, current } }) {
-  return html`<button class="tool" aria-label=${name} aria-pressed=${String(current)}
+/** @param {{tool: Tool, on: boolean}} props */
+function ToolButton({ tool: { name, key, help }, on }) {
+  return html`<button class="tool" aria-label=${name} aria-pressed=${String(on)}
     aria-keyshortcuts=${key.toUpperCase()} title=${`${name} (${key.toUpperCase()}): ${help}`}
-    onClick=${() => act("tools/choose", [name])}><${Icon} name=${name} /> <span class="word">${name}
+    onClick=${() => actAtOnce("tools/choose", [name])}><${Icon} name=${name} /> <span class="word">${name}
       </span></button>`;
 }
 

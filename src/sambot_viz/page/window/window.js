@@ -5,7 +5,15 @@ import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
 import { rows } from "../wire/channel.js";
 import { Connection } from "../wire/connection.js";
 import { Dialogs } from "../dialogs/dialog.js";
-import { hidden, room, shape, Splitter, togglePanels, useSizes } from "./splitters.js";
+import {
+  hidden,
+  room,
+  shape,
+  Splitter,
+  togglePanels,
+  useChosenViews,
+  useSizes,
+} from "./splitters.js";
 import { DisplaysPanel } from "../panels/displays.js";
 import { Driving } from "../panels/drive.js";
 import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
@@ -48,7 +56,7 @@ export function Window() {
     ${
       !away.all &&
       html`<${StatusBar}
-      problems=${{ shown: listed, show: showProblems, byItself: form === "wide" }} />`
+      problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} />`
     }
     <${Connection} />
     <${Asking} />
@@ -80,13 +88,14 @@ function Left() {
   const away = hidden.use();
   useRow("panel:views");
   const views = rows.children("panel:views").length > 0 && !away.views;
-  const sizes = useSizes();
+  const { views: height } = useSizes();
+  const lower = useChosenViews() ? "lower" : "lower free";
   if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
   return html`<aside class="left" aria-label="Left panels">
     ${!away.displays && html`<${DisplaysPanel} />`}
     ${
       views &&
-      html`<div class=${sizes.chosen ? "lower" : "lower free"} style=${`flex-basis:${sizes.views}px`}>
+      html`<div class=${lower} style=${`flex-basis:${height}px`}>
       <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`
     }
     <${Splitter} side="left" label="Width of the left panels" />

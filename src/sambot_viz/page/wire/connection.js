@@ -58,6 +58,10 @@ export function followConnection() {
   let before = kept;
   /** What waits for the robot, which may come later than the page. */
   let whenJoints = () => {};
+  said.listeners.add(() => {
+    const away = isState(said.value) || said.value === "removed";
+    document.body.classList.toggle("offline", away);
+  });
   const cut = () => {
     if (lost) return;
     lost = true;
@@ -238,7 +242,7 @@ function Lost({ tries, status, ended }) {
         : "";
   const words =
     status === 401
-      ? "The program was started again with another link. Ask for the new one."
+      ? "The program was started again with another link. Ask for the new one: its terminal shows it."
       : ended
         ? "Connection lost. The program does not answer."
         : `Connection lost. Trying again…${waits}`;

@@ -7,7 +7,7 @@ import { copy } from "../window/clipboard.js";
 import { hasJoints } from "./reconnect.js";
 
 /** What is in the part after the "#" of a link, which a hand may have written. */
-const PART = /[#&](view|robot|fixed|select|v|(view|j|show)\.[^=&]*)=/;
+const PART = /[#&](view|robot|time|fixed|select|v|(view|j|show)\.[^=&]*)=/;
 /** A robot that is not there after this time [ms] is not waited for. */
 const PATIENCE = 15_000;
 
