@@ -89,7 +89,8 @@ _SET_RESOLUTION = """(() => {
 _PICTURE = """(() => {
   const shown = __viserMutable.canvas;
   const copy = document.createElement("canvas");
-  copy.width = shown.width; copy.height = shown.height;
+  const gl = shown.getContext("webgl2");
+  copy.width = gl.drawingBufferWidth; copy.height = gl.drawingBufferHeight;
   copy.getContext("2d").drawImage(shown, 0, 0);
   return copy.toDataURL("image/png").split(",")[1];
 })()"""
@@ -151,6 +152,12 @@ class ViewerPage:
         self.page.evaluate(_DRAW_SELDOM)
         self.wait_for_frames()
 
+    def reload(self) -> None:
+        """Load the page again; returns when the old one is gone."""
+        # A page that is going away answers nothing.
+        self.page.evaluate("window.isOld = true; setTimeout(() => location.reload())")
+        self.user.until(lambda: not self.page.evaluate("window.isOld === true"))
+
     # Waiting.
 
     def wait_for(self, condition: str, timeout: float = 10.0) -> None:
@@ -203,6 +210,7 @@ class ViewerPage:
         wanted = [
             float(T_parent_node[row, col]) for col in range(4) for row in range(4)
         ]
+        self._wait_for_objects(name, parent)
         pose = self._pose_script(name, parent)
         self.wait_for(f"{pose}.every((v, i) => Math.abs(v - {wanted}[i]) < {atol})")
         self.wait_for_frames()
@@ -221,7 +229,11 @@ class ViewerPage:
         )
 
     def pose(self, name: str, parent: str = "") -> Matrix:
-        """T_parent_node in three.js, (4, 4); the parent "" is viser's world."""
+        """T_parent_node in three.js, (4, 4); the parent "" is viser's world.
+
+        A node that is not there yet is waited for.
+        """
+        self._wait_for_objects(name, parent)
         elements: Any = self.page.evaluate(self._pose_script(name, parent))
         columns = [elements[start : start + 4] for start in range(0, 16, 4)]
         return np.array(list(zip(*columns, strict=True)), np.float64)
@@ -265,6 +277,7 @@ class ViewerPage:
             name: the node; "" is viser's world, which is our fixed frame.
             point: x, y, z in the node's coordinates [m].
         """
+        self._wait_for_objects(name)
         script = _PROJECT.replace("NAME", json.dumps(name))
         script = script.replace("POINT", json.dumps([float(v) for v in point]))
         x, y = cast(tuple[float, float], self.page.evaluate(script))
@@ -303,6 +316,11 @@ class ViewerPage:
     def _change_resolution(self, resolution: float) -> float:
         script = _SET_RESOLUTION.replace("WANTED", str(resolution))
         return float(cast("float", self.page.evaluate(script)))
+
+    def _wait_for_objects(self, *names: str) -> None:
+        """Wait until three.js has an object for each of these nodes."""
+        wanted = json.dumps(names)
+        self.wait_for(f"{wanted}.every(n => __viserMutable.nodeRefFromName[n])", 20.0)
 
     def _pose_script(self, name: str, parent: str) -> str:
         script = _POSE.replace("PARENT", json.dumps(parent))
