@@ -100,7 +100,9 @@ ROOMS: Mapping[str, Row] = {
     "drive": Row("joints robot", "numpy"),
     "messages": Row("", "numpy rosbags"),
     # From recordings and robots on the network to messages as bytes.
-    "sources": Row("messages", "lz4 msgspec numpy websockets yaml zstandard"),
+    "sources": Row(
+        "_version messages", "lz4 mcap msgspec numpy websockets yaml zstandard"
+    ),
     # What the messages mean.
     "topics": Row("frames joints messages robot sources", "numpy"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
@@ -139,8 +141,8 @@ ROOMS: Mapping[str, Row] = {
         "displays export frames joints robot rviz server session views", "numpy viser"
     ),
     "commands": Row(
-        "_version bundled checks export flags frames inputs joints moved_by "
-        "options problems robot rviz server session topics visualizer",
+        "_version bundled checks export flags frames inputs joints listened "
+        "moved_by options problems robot rviz server session topics visualizer",
         "PIL segno",
         "signal webbrowser",
     ),
@@ -155,12 +157,14 @@ ROOMS: Mapping[str, Row] = {
     "files": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
-        "bundled displays joints moved_by options robot rviz tools views",
+        "bundled displays joints listened moved_by options robot rviz tools topics "
+        "views",
         "yourdfpy",
         "concurrent threading",
     ),
     "flags": Row("frames joints"),
-    "moved_by": Row("messages options sources topics"),
+    "listened": Row("sources topics", "", "threading"),
+    "moved_by": Row("messages options rviz sources topics"),
     "options": Row("flags frames joints robot rviz sources", "yourdfpy"),
     "problems": Row(),
     "text": Row(),
@@ -173,7 +177,10 @@ ROOMS: Mapping[str, Row] = {
 EXCEPTIONS: Mapping[str, str] = {
     # A live source has a thread for its connection and one that calls back.
     "sources/source.py": "concurrent",
+    # A recording has a thread that writes it.
+    "sources/recording_thread.py": "threading",
     "sources/websocket/assets.py": "concurrent",
+    "topics/live_files.py": "concurrent",  # files are asked for at once
     "sources/websocket/delivery.py": "threading",
     "sources/websocket/runner.py": "asyncio",
     "sources/websocket/event_loop.py": "asyncio socket threading",

@@ -17,6 +17,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.files import RECORDING_ENDINGS
 from sambot_viz.robot.packages.package_model import (
     MODEL_ENDINGS,
     choose_model,
@@ -188,6 +189,8 @@ def _missing(what: str, path: Path) -> str:
     if not folder.is_dir():
         return f"no {what} '{path}': the folder '{folder}' does not exist"
     endings = MODEL_ENDINGS if what == "model" else (".rviz",)
+    if what == "model" and path.suffix in RECORDING_ENDINGS:
+        what, endings = "recording", RECORDING_ENDINGS
     names = [p.name for p in _files(folder, endings)]
     near = did_you_mean(path.name, names) if names else f"'{folder}' has no {what}"
     return f"no {what} '{path}': there is no such file; {near}"

@@ -18,6 +18,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     ├── SourceError                 a bag or a robot that cannot be read (.problems)
     ├── JointError                  an unknown joint, or a value that is not finite
     ├── DecodeError                 a message, or its definition, that cannot be read
+    │   └── UnreadFieldError        a field of a kind that is not read
     ├── ServerError                 a port that is taken, a server that cannot go on
     │   └── BrowserError            a browser that is missing, ends or does not answer
     └── UsageError                  a command line or an argument that makes no sense

@@ -14,19 +14,32 @@ from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz import bundled
-from sambot_viz.errors import ConfigError, Problem, RobotError, UsageError
-from sambot_viz.moved_by import open_live, open_recorded
+from sambot_viz.errors import (
+    ConfigError,
+    Problem,
+    RobotError,
+    SourceError,
+    UsageError,
+)
+from sambot_viz.moved_by import named_descriptions, open_live, open_recorded
 from sambot_viz.options import Options, PathLike
-from sambot_viz.robot.model_source import OpenedModel, looks_like_text, open_model
+from sambot_viz.robot.model_source import (
+    OpenedModel,
+    looks_like_text,
+    open_model,
+    open_text,
+)
 
 # The page is there before what is only needed to draw in it has been imported.
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
     from sambot_viz.joints.presets import Presets
+    from sambot_viz.listened import Listened
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.document import Document
+    from sambot_viz.topics.live_robot import LiveRobot
 
 
 @cache
@@ -74,6 +87,8 @@ class Inputs:
         options: what the user asked for.
         may_be_broken: whether a model or a config with a mistake in it is shown as
             such, until it is fixed, rather than refused.
+        listen: takes what a live robot says within so long [s] as a recording; None
+            follows it for good.
 
     Attributes:
         opened: when the files were opened [ns], as `time.time_ns` counts.
@@ -87,21 +102,29 @@ class Inputs:
 
     Raises:
         UsageError: a file does not exist, or the model is an object of a wrong type.
+        SourceError: a recording cannot be opened, or a live robot that is listened to
+            says nothing.
         RobotError: the model is not XML, or ROS would refuse a `yourdfpy.URDF`.
         ConfigError: the config is not a .rviz document.
     """
 
-    def __init__(self, options: Options, *, may_be_broken: bool = False) -> None:
+    def __init__(
+        self,
+        options: Options,
+        *,
+        may_be_broken: bool = False,
+        listen: float | None = None,
+    ) -> None:
         self.opened = time.time_ns()
         self._options = options
         model, config = options.model, options.config
         text = model if isinstance(model, str) and looks_like_text(model) else None
         self.live = open_live(options)
         self.recorded = None if self.live is not None else open_recorded(options)
+        self._listened: Listened | None = None
+        if self.live is not None and listen is not None:
+            self._listen(self.live, listen)
         self._trusts_model = True
-        if self.recorded is not None:
-            notes = (*options.notes, *self.problems_of_recording())
-            self._options = options.having(notes=notes)
         found = bundled.find(
             Path(model) if isinstance(model, Path | str) and text is None else None,
             Path(config) if isinstance(config, Path | str) else None,
@@ -112,6 +135,7 @@ class Inputs:
         self.broken_config: ConfigError | None = None
         if self.config is not None:
             self._open_config(self.config, may_be_broken)
+        self._choose_robot()
         self._of_config: tuple[Problem, ...] = ()
         self._robot: Future[Robot] = Future()
         self._opened: OpenedModel | None = None
@@ -122,7 +146,10 @@ class Inputs:
             self.model, self._may_be_broken = None, False
             # Whoever recorded it is not who reads it.
             self._trusts_model = False
-            self._open_model(source.model, source.label)
+            try:
+                self._opened = open_text(source.model, source.label)
+            except RobotError as error:
+                self._robot.set_result(self._without_robot(error))
         elif model is None or isinstance(model, Path | str):
             self.model = found.model
             # A pipe of the shell can be read only once.
@@ -158,7 +185,7 @@ class Inputs:
         """Load the robot in a thread; a second call does nothing."""
         opened, self._opened = self._opened, None
         if opened is not None:
-            _in_thread(lambda: self.load(opened, self._trusts_model), self._robot)
+            _in_thread(lambda: self._load_opened(opened), self._robot)
 
     def robot(self) -> Robot:
         """Return the robot, as soon as it is loaded.
@@ -206,6 +233,8 @@ class Inputs:
         if recorded is None:
             return ()
         found = recorded.problems
+        if self._listened is not None:
+            found = (*found, *self._listened.missing)
         if self._options.model is None:
             return found
         return tuple(p for p in found if p.code != "no-description")
@@ -222,9 +251,11 @@ class Inputs:
     def close(self) -> None:
         """Close recordings and connections; a second call does nothing."""
         if self.live is not None:
-            self.live.source.close()
+            self.live.close()
         if self.recorded is not None:
             self.recorded.recording.close()
+        if self._listened is not None:
+            self._listened.close()
 
     def __enter__(self) -> Inputs:
         return self
@@ -252,10 +283,13 @@ class Inputs:
         """
         from sambot_viz.robot.model import load_robot
 
+        packages = self._options.package_path
+        if self._listened is not None:
+            packages = (self._listened.packages, *packages)
         return load_robot(
             model,
             xacro_args=self._options.xacro_args,
-            package_path=self._options.package_path,
+            package_path=packages,
             trusted=trusted and self._options.trusted,
         )
 
@@ -301,9 +335,57 @@ class Inputs:
             self._presets = Presets(self.poses)
         return self._presets
 
-    def _open_model(self, model: PathLike, label: str | None = None) -> None:
+    def _listen(self, live: LiveRobot, seconds: float) -> None:
+        """Take what a live robot says for a recording.
+
+        Raises:
+            SourceError: it says nothing.
+        """
+        from sambot_viz.listened import Listened
+        from sambot_viz.topics.live_reasons import nothing_came
+
+        listened = Listened(live, seconds, self._options.at)
+        if listened.recorded is None:
+            listened.close()
+            raise SourceError(f"{live.name}: {nothing_came(seconds)}")
+        self._listened, self.recorded, self.live = listened, listened.recorded, None
+
+    def _load_opened(self, opened: OpenedModel) -> Robot:
         try:
-            self._opened = open_model(model, label)
+            return self.load(opened, self._trusts_model)
+        except RobotError as error:
+            if self._options.model is not None:
+                raise
+            return self._without_robot(error)
+
+    def _without_robot(self, error: RobotError) -> Robot:
+        """Return a stand-in: what else a recording has is shown without its robot.
+
+        Raises:
+            RobotError: as given, where there is no recording.
+        """
+        if self.recorded is None:
+            raise error
+        self.recorded.refusal = f"URDF failed Model parse: {error.problems[0].message}"
+        stand_in = open_text(self.recorded.stand_in, self.recorded.label)
+        robot = self.load(stand_in, trusted=False)
+        return replace(robot, problems=(*error.problems, *robot.problems))
+
+    def _choose_robot(self) -> None:
+        """Take the robot whose topic the config names, where messages have several."""
+        given = self._options.config
+        read = self._document if isinstance(given, Path | str | None) else given
+        named = named_descriptions(read)
+        if self.live is not None:
+            self.live.named = named
+        if self.recorded is not None:
+            self.recorded.choose(named)
+            notes = (*self._options.notes, *self.problems_of_recording())
+            self._options = self._options.having(notes=notes)
+
+    def _open_model(self, model: PathLike) -> None:
+        try:
+            self._opened = open_model(model)
         except RobotError as error:
             if not self._may_be_broken:
                 raise

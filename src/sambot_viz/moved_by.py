@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,9 @@ from sambot_viz.options import Options
 
 # Most robots are moved by hand.
 if TYPE_CHECKING:
+    from sambot_viz.rviz import RvizConfig
+    from sambot_viz.rviz.yaml.document import Document
+    from sambot_viz.rviz.yaml.nodes import Map
     from sambot_viz.topics.live_robot import LiveRobot
     from sambot_viz.topics.recorded_robot import RecordedRobot
 
@@ -18,18 +22,25 @@ def open_live(options: Options) -> LiveRobot | None:
     """Return the live robot of the options, not connected yet; None without one.
 
     Raises:
-        UsageError: there are further sources beside it.
+        UsageError: there are further sources beside it, or it cannot be recorded
+            where the options say.
     """
     if not options.live_sources:
         return None
     if len(options.source) > 1:
         raise UsageError("a live source is the only one: give one --source")
     from sambot_viz.messages import MessageTypes
+    from sambot_viz.sources.recorder import check_file, check_folder
     from sambot_viz.sources.registry import open_source
     from sambot_viz.topics.live_robot import LiveRobot
 
     types = MessageTypes([Path(folder) for folder in options.msg_path])
-    return LiveRobot(open_source(options.live_sources[0]), types)
+    folder = None if options.record_dir is None else Path(options.record_dir)
+    if folder is not None:
+        check_folder(folder)
+    if options.record is not None:
+        check_file(Path(options.record))
+    return LiveRobot(open_source(options.live_sources[0]), types, folder)
 
 
 def open_recorded(options: Options) -> RecordedRobot | None:
@@ -52,3 +63,35 @@ def open_recorded(options: Options) -> RecordedRobot | None:
     while not recording.index_more():
         pass
     return RecordedRobot(recording, types, name, options.at)
+
+
+def named_descriptions(config: Document | RvizConfig | None) -> tuple[str, ...]:
+    """Return the topics of which a config wants robots, in its order.
+
+    Args:
+        config: as text or as a document; None for no topics.
+    """
+    from sambot_viz.rviz import RvizConfig
+    from sambot_viz.rviz.yaml.nodes import Map, items_of
+
+    if config is None:
+        return ()
+    if isinstance(config, RvizConfig):
+        return tuple(_topics_of(display.node for display in config.displays))
+    manager = config.root.get("Visualization Manager")
+    items = manager.get("Displays") if isinstance(manager, Map) else None
+    return tuple(_topics_of(display for _, display in items_of(items)))
+
+
+def _topics_of(displays: Iterable[Map]) -> Iterator[str]:
+    from sambot_viz.rviz.yaml.nodes import Map, Scalar, items_of
+
+    for display in displays:
+        if display.text("Enabled") == "false":
+            continue
+        yield from _topics_of(one for _, one in items_of(display.get("Displays")))
+        topic = display.get("Description Topic")
+        value = topic.get("Value") if isinstance(topic, Map) else topic
+        is_file = display.text("Description Source") == "File"
+        if isinstance(value, Scalar) and value.text and not is_file:
+            yield f"/{value.text.removeprefix('/')}"

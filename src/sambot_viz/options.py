@@ -131,6 +131,20 @@ class Options:
         metavar="DIR",
         read=words_of,
     )
+    record: PathLike | None = option(
+        None,
+        "record all topics of a live robot to this mcap file; a file that is there is "
+        "never overwritten",
+        "--record",
+        metavar="FILE",
+    )
+    record_dir: PathLike | None = option(
+        None,
+        "offer a button in the page to whoever has control: it records all topics of a "
+        "live robot to a new mcap file in this folder, with date and time as its name",
+        "--record-dir",
+        metavar="DIR",
+    )
     fixed_frame: str | None = option(
         None,
         "the fixed frame, instead of the config's",
@@ -338,6 +352,15 @@ class Options:
         object.__setattr__(self, "source", source)
         for uri in self.live_sources:
             _check_live(uri)
+        for flag, given in (
+            ("--record", self.record),
+            ("--record-dir", self.record_dir),
+        ):
+            if given is not None and not self.live_sources:
+                raise UsageError(
+                    f"{flag} needs a live robot: give --source foxglove://HOST:8765 or "
+                    "rosbridge://HOST:9090"
+                )
 
     def _check_presenter(self) -> None:
         if self.presenter is None:

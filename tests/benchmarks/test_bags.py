@@ -2,23 +2,26 @@
 
     python -m pytest tests/benchmarks/test_bags.py -s
 
-The same is done with the `mcap` package in the same run; the file is in the cache of
-the system for both.
+The same is done with the `mcap` package in the same run, and with rosbags for a db3 of
+that size; the file is in the cache of the system for both.
 """
 
 from __future__ import annotations
 
 import random
+import sqlite3
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
+from rosbags.rosbag2 import Reader
 
 from sambot_viz.sources.bag import Bag, open_bag
 
@@ -29,13 +32,52 @@ STEP = 4_000_000
 OPENING = 1.0
 JUMP = 0.05
 MEMORY = 100.0
+TABLES = """
+create table schema(schema_version integer primary key, ros_distro text not null);
+create table metadata(id integer primary key, metadata_version integer not null,
+    metadata text not null);
+create table topics(id integer primary key, name text not null, type text not null,
+    serialization_format text not null, offered_qos_profiles text not null);
+create table messages(id integer primary key, topic_id integer not null,
+    timestamp integer not null, data blob not null);
+create index timestamp_idx on messages (timestamp asc);
+insert into schema values (3, 'humble');
+"""
+"""Those of Humble, the last one that records db3 by default."""
 
 
-def write(path: Path, *, chunks: bool) -> None:
-    """Write what a robot with a lidar records, by rosbag2's default in chunks."""
+def messages() -> Iterator[tuple[int, int, bytes]]:
+    """Yield what a robot with a lidar records: number of the topic, time and bytes."""
     rng = random.Random(1)
     small = [rng.randbytes(size) for size in (120, 300, 1500, 3000)]
     cloud = rng.randbytes(400_000)
+    yield 5, START, small[1]
+    number = total = 0
+    while total < SIZE:
+        number += 1
+        kind = 4 if number % 27 == 0 else number % 4
+        data = cloud if kind == 4 else small[kind]
+        yield kind, START + number * STEP, data
+        total += len(data)
+
+
+def write_db3(path: Path) -> None:
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute("pragma synchronous = off")
+        connection.executescript(TABLES)
+        connection.executemany(
+            "insert into topics values (?, ?, 'std_msgs/msg/String', 'cdr', '')",
+            [(number + 1, name) for number, name in enumerate(TOPICS)],
+        )
+        connection.executemany(
+            "insert into messages(topic_id, timestamp, data) values (?, ?, ?)",
+            ((kind + 1, at, data) for kind, at, data in messages()),
+        )
+        connection.commit()
+
+
+def write(path: Path, *, chunks: bool) -> None:
+    """Write the messages by rosbag2's default in chunks, or as `fastwrite` does."""
     with path.open("wb") as stream:
         writer = Writer(
             stream,
@@ -47,15 +89,8 @@ def write(path: Path, *, chunks: bool) -> None:
         writer.start("ros2", "benchmark")
         schema = writer.register_schema("a/msg/A", "ros2msg", b"uint8[] a")
         channels = [writer.register_channel(name, "cdr", schema) for name in TOPICS]
-        writer.add_message(channels[5], START, small[1], START)
-        number = total = 0
-        while total < SIZE:
-            number += 1
-            kind = 4 if number % 27 == 0 else number % 4
-            data = cloud if kind == 4 else small[kind]
-            at = START + number * STEP
+        for kind, at, data in messages():
             writer.add_message(channels[kind], at, data, at)
-            total += len(data)
         writer.finish()
 
 
@@ -65,6 +100,14 @@ def large(
 ) -> Iterator[Path]:
     path = tmp_path_factory.mktemp("bags") / "large.mcap"
     write(path, chunks=request.param)
+    yield path
+    path.unlink()
+
+
+@pytest.fixture(scope="module")
+def large_db3(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    path = tmp_path_factory.mktemp("bags") / "large.db3"
+    write_db3(path)
     yield path
     path.unlink()
 
@@ -116,7 +159,51 @@ def test_it_opens_and_jumps_faster_than_the_package(
         assert result.ratio < 1
 
 
+def test_a_db3_opens_within_a_second_and_jumps_at_once(
+    large_db3: Path, compare: Callable[..., Any]
+) -> None:
+    def ours() -> None:
+        with open_bag(large_db3) as bag:
+            # All rows are found, as before a page is shown.
+            while not bag.index_more():
+                pass
+
+    def theirs() -> None:
+        with Reader(large_db3) as reader:
+            assert reader.message_count
+
+    opening = compare("opening a db3", ours, theirs, rounds=5)
+    assert min(opening.ours) < OPENING
+    rng = random.Random(2)
+    with open_bag(large_db3) as bag, Reader(large_db3) as reader:
+        while not bag.index_more():
+            pass
+        first, last = bag.start_ns or 0, bag.end_ns or 0
+
+        def our_jump() -> None:
+            jump(bag, rng.randrange(first + 10**9, last))
+
+        def their_jump() -> None:
+            # The first message of each topic from there on: it has no way back.
+            at = rng.randrange(first + 10**9, last - 10**9)
+            for one in reader.connections:
+                if one.topic != "/tf_static":
+                    next(reader.messages([one], start=at))
+
+        result = compare("jump in a db3", our_jump, their_jump, rounds=20)
+        assert min(result.ours) < JUMP
+
+
+def test_a_db3_takes_little_memory(large_db3: Path) -> None:
+    assert own_memory(large_db3) < MEMORY
+
+
 def test_it_takes_little_memory(large: Path) -> None:
+    assert own_memory(large) < MEMORY
+
+
+def own_memory(path: Path) -> float:
+    """Return what opening a bag, reading on and jumping take at most [MB]."""
     script = (
         "import sys, numpy, zstandard, lz4.frame\n"
         "from sambot_viz.sources.bag import open_bag\n"
@@ -132,7 +219,7 @@ def test_it_takes_little_memory(large: Path) -> None:
         "        [bag.last(topic, at) for topic in bag.topics]\n"
         "print(peak() - before)\n"
     )
-    command = [sys.executable, "-c", script, str(large)]
+    command = [sys.executable, "-c", script, str(path)]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     print(f"\nown memory {float(done.stdout):.0f} MB")
-    assert float(done.stdout) < MEMORY
+    return float(done.stdout)

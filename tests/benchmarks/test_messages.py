@@ -10,13 +10,19 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz.frames import FrameHistory
 from sambot_viz.messages import MessageTypes, Schema, TransformDecoder
+from sambot_viz.sources.message import Recorded, TopicChannel
+from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.transforms import TransformTopics
 
 FRAMES = 300
 MICROSECONDS = 60
 """For a message of 300 transforms; printed, and judged with the slack of a busy
 machine."""
 LEAST_RATIO = 15
+RATE, TAKEN, SHARE = 1000, 500, 0.15
+"""Messages in a second, so many of them, and the part of a core that they may take."""
 
 
 def medians(*ways: Callable[[], object], rounds: int = 15) -> list[float]:
@@ -31,8 +37,9 @@ def medians(*ways: Callable[[], object], rounds: int = 15) -> list[float]:
     return [statistics.median(each) for each in times]
 
 
-def transforms(store: Any) -> bytes:
-    stamp = store.types["builtin_interfaces/msg/Time"](sec=7, nanosec=5)
+def transforms(store: Any, nanoseconds: int = 7_000_000_005) -> bytes:
+    time = store.types["builtin_interfaces/msg/Time"]
+    stamp = time(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
     head, row, transform, vector, turn = (
         store.types[name]
         for name in (
@@ -110,3 +117,26 @@ def test_a_cloud_of_a_megabyte_is_not_copied() -> None:
         lambda: decoder.decode(payload), lambda: bytearray(payload)
     )
     print(f"\n1 MB: {decoding * 1e6:.0f} µs, a copy of it {copying * 1e6:.0f} µs")
+
+
+def test_300_frames_at_1_khz_leave_most_of_a_core() -> None:
+    """Decoded and kept, as for every picture."""
+    from rosbags.typesys import Stores, get_typestore
+
+    store, name = get_typestore(Stores.ROS2_JAZZY), "tf2_msgs/msg/TFMessage"
+    text = store.generate_msgdef(name, ros_version=2)[0]
+    channel = TopicChannel("/tf", Schema(name, "ros2msg", text), "cdr")
+    period = round(1e9 / RATE)
+    messages = [
+        Recorded("/tf", channel, at, None, transforms(store, at))
+        for at in range(10**12, 10**12 + TAKEN * period, period)
+    ]
+    decode = Decoding(MessageTypes([])).transforms
+    topics = TransformTopics(FrameHistory(), ("/tf",), (), decode)
+    start = time.process_time()
+    for message in messages:
+        topics.take(message)
+    each = (time.process_time() - start) / TAKEN
+    print(f"\n{FRAMES} transforms: {each * 1e6:.0f} µs, {each * RATE:.1%} of a core")
+    assert len(topics.changed()) == FRAMES
+    assert each * RATE < SHARE

@@ -253,3 +253,11 @@ def test_a_mere_remark_takes_no_room(own: Own) -> None:
     user.reads("To fix it: do that")
     user.click("button", "Problems: 1 info")
     user.gone("treegrid", "Problems")
+
+
+def test_the_row_that_is_selected_is_seen(desk: Desk) -> None:
+    user = desk.user
+    grid, tf = user.row("Displays", "Grid"), user.row("Displays", "TF")
+    user.click_on(grid)
+    user.until(lambda: user.row("Displays", "Grid").state("selected"))
+    assert user.color_behind(grid) != user.color_behind(tf)

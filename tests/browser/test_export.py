@@ -66,12 +66,12 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
     viewer = open_file(file, 800, 600 + BAR)
     viewer.wait_for_nodes(wheel)
     assert viewer.page.evaluate("document.title") == "sam_bot"
-    viewer.user.until(lambda: differing(viewer, live) < 0.001)
+    viewer.user.until(lambda: differing(viewer, live) < 0.001, 30.0)
     user = viewer.user
     still = viewer.pose(wheel)
     user.click("button", "Play")
     user.find("button", "Pause")
-    user.until(lambda: np.abs(viewer.pose(wheel) - still).max() > 0.5)
+    user.until(lambda: np.abs(viewer.pose(wheel) - still).max() > 0.5, 30.0)
     user.click("button", "Pause")
     user.find("button", "Play")
     viewer.wait_until_drawn()
@@ -81,7 +81,7 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
     # By keys: the slider is behind the button, and the space bar plays.
     viewer.page.keyboard.press("Tab")
     viewer.page.keyboard.press("Home")
-    user.until(lambda: np.allclose(viewer.pose(wheel), still, atol=1e-5))
+    user.until(lambda: np.allclose(viewer.pose(wheel), still, atol=1e-5), 30.0)
     user.until(lambda: user.find("slider", "Time").value in ("0", 0))
     viewer.page.keyboard.press(" ")
     user.find("button", "Pause")
@@ -135,6 +135,14 @@ def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
         viewer.settle(viz)
         viewer.page.mouse.drag((600.0, 300.0), (660.0, 330.0))
         still = viewer.pose(wheel)
+        # Nothing has moved: the dialog says so, and stays.
+        viewer.user.menu("File", "Export Page…")
+        viewer.user.click("radio", re.compile("^The last minute"), ("dialog", None))
+        viewer.user.click("button", "Export")
+        viewer.user.find("alert", None, ("dialog", "Export Page"))
+        viewer.user.reads("Nothing has moved in the last minute")
+        viewer.user.click("button", "Cancel", ("dialog", "Export Page"))
+        viewer.user.gone("dialog", "Export Page")
         viz.set_joint_positions({"drivewhl_l_joint": 1.0})
         viewer.user.until(lambda: np.abs(viewer.pose(wheel) - still).max() > 0.5)
         viewer.settle(viz)
@@ -143,6 +151,7 @@ def test_a_user_downloads_the_last_minute_as_seen_by_his_camera(
         viewer.user.menu("File", "Export Page…")
         viewer.user.find("radio", re.compile("^The last minute"), ("dialog", None))
         viewer.user.click("button", "Export")
+        viewer.user.gone("dialog", "Export Page")
         viewer.user.reads("Saved sam_bot.html, 1.0 MB", 30.0)
         file = tmp_path / "sam_bot.html"
         viewer.user.until(lambda: file.exists() and b"</html>" in file.read_bytes())

@@ -189,3 +189,25 @@ def test_undo_and_escape_act_in_the_list_of_poses_after_one_is_removed(
         assert "near" not in path.read_text()
         user.keys("Escape")
         user.gone("button", "Remove pose far")
+
+
+def test_keys_are_for_tools_when_the_mouse_comes_into_the_view(desk: Desk) -> None:
+    user, mouse = desk.user, desk.page.mouse
+    field = user.row("Joints", "drivewhl_l_joint").one("textbox")
+    mouse.move(1250.0, 500.0)
+    user.enter(field, "0.5")
+    # A number stays in the hand: the arrow keys step it.
+    user.keys("ArrowUp")
+    user.until(
+        lambda: desk.viz.joint_positions["drivewhl_l_joint"] == pytest.approx(0.51)
+    )
+    user.keys("Enter")
+    mouse.move(640.0, 120.0)
+    user.keys("s")
+    desk.has_tool("Select")
+    # What is half typed is not taken away.
+    user.click_into(user.row("Joints", "drivewhl_l_joint").one("textbox"))
+    user.keys("2")
+    mouse.move(645.0, 120.0)
+    user.keys(".", "5", "Enter")
+    user.until(lambda: desk.viz.joint_positions["drivewhl_l_joint"] == 2.5)

@@ -69,7 +69,7 @@ def test_the_script_names_nothing_of_any_model_and_fetches_nothing(
         assert forbidden not in script
 
 
-_WIDTH = "__viserMutable.canvas.width"
+_WIDTH = "__viserMutable.canvas.getContext('webgl2').drawingBufferWidth"
 _LOWER = """(() => {
   const { setDpr } = __viserMutable.scene.__r3f.root.getState();
   setDpr(0.75);
@@ -79,7 +79,7 @@ _MOVE = """new Promise(done => {
   const widths = new Set();
   const timer = setInterval(() => {
     __viserMutable.requestRender();
-    widths.add(__viserMutable.canvas.width);
+    widths.add(__viserMutable.canvas.getContext("webgl2").drawingBufferWidth);
   }, 20);
   setTimeout(() => { clearInterval(timer); done([...widths]); }, 900);
 })"""
@@ -99,6 +99,8 @@ def test_the_picture_is_sharp_at_rest_and_motions_have_visers_choice(
         page.evaluate("new Promise(done => setTimeout(done, 500))")
         # From there viser may go on to more or fewer, as quick as the machine is.
         widths = page.evaluate(_MOVE)
+        reported = page.evaluate("__viserMutable.canvas.width")
+        assert reported == full, "the program is told of the window"
         assert any(abs(width - 0.75 * full) < 2 for width in widths), widths
         page.wait_for(f"{_WIDTH} === {full}")
         # From then on only viser's own picture a second is drawn.

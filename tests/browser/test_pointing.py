@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
+import robots
 from inside import node_of
 from viewer_page import ViewerPage
 
@@ -66,3 +68,21 @@ def test_a_double_click_on_a_link_goes_to_its_joint(
     user.until(
         lambda: page.evaluate("document.activeElement.dataset.row ?? ''") == f"j/{LEFT}"
     )
+
+
+def test_names_of_joints_are_whole_beside_a_joint_with_a_turn_button(
+    tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    model = tmp_path / "humanoid.urdf"
+    head = 'name="head_yaw_joint" type='
+    text = robots.humanoid().replace(f'{head}"revolute"', f'{head}"continuous"')
+    model.write_text(text, "utf-8")
+    with Visualizer(model, port=0, look="rviz") as viz:
+        user = open_viewer(viz.url, dark=True).user
+        user.find("button", "Turn head_yaw_joint")
+        for name in ("head_yaw_joint", "left_wrist_pitch_joint"):
+            row = user.row("Joints", name)
+            (label,) = row.all("gridcell", name)[0].all("StaticText")
+            assert not user.is_cut_off(label)
+            left, _, width, _ = user.box(row.one("slider"))
+            assert width > 40.0 and left > 900.0

@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 import robots
 from ax_tree import Thing
+from inside import session_of
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
+from sambot_viz.displays.picking.pick_geometry import Selectable
 
 pytestmark = pytest.mark.browser
 
@@ -65,3 +67,21 @@ def test_all_tabs_of_a_phone_are_in_sight_and_hints_are_for_fingers(
         assert not user.is_cut_off(tab)
     user.menu("Menu", "Problems")
     user.until(lambda: user.find("tab", "Problems").state("selected"))
+
+
+def test_on_a_phone_what_is_selected_has_the_room_of_the_hint_and_texts_are_in_line(
+    viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url, width=390, height=844, touch=True)
+    user = viewer.user
+    user.reads("One finger: turn")
+    # Nor is there anything of viser's own panel for those who do not see it.
+    assert not user.there("button", "Save Canvas")
+    (client,) = session_of(viz).clients.all.values()
+    client.tools.select({Selectable("link", "head_yaw")}, None)
+    user.reads("Selected: head_yaw")
+    user.until(lambda: "One finger: turn" not in user.see().text)
+    user.tab("Selection")
+    row = user.row("Selection", "Link head_yaw", "Parent")
+    name, value = (user.box(cell.all("StaticText")[0]) for cell in row.all("gridcell"))
+    assert abs(name[1] - value[1]) <= 2.0

@@ -207,6 +207,34 @@ def test_keys_choose_tools_and_clicks_select_and_measure(desk: Desk) -> None:
     viewer.wait_for("document.body.innerText.includes('[Length: ')")
 
 
+def test_a_tool_that_was_just_chosen_has_the_mouse_at_once(desk: Desk) -> None:
+    """The press comes before the server has switched tools, and is for the new one."""
+    session, viewer = desk.session, desk.viewer
+    keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, tools_of(session)
+    yaw = value(session, "Yaw")
+    x, y = place(viewer, (0.0, 0.0, 0.0))
+    with session.lock:
+        keyboard.press("s")
+        mouse.move(x - 200, y - 150)
+        mouse.press()
+        mouse.move(x - 100, y - 100)
+    mouse.move(x + 200, y + 150)
+    mouse.release()
+    until(viewer, lambda: len(tools.selection) > 1)
+    assert value(session, "Yaw") == yaw
+    selected = dict(tools.selection)
+    point = place(viewer, (0.6, 0.0, 0.0))
+    keyboard.press("n")
+    mouse.click(*point)
+    until(viewer, lambda: "second point" in tools.status)
+    keyboard.press("s")
+    keyboard.press("m")
+    mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
+    until(viewer, lambda: abs(value(session, "Yaw") - yaw - 0.1) < 1e-4)
+    assert tools.selection == selected
+    chosen(desk.viz, viewer, "Move Camera")
+
+
 def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
     own: Visualizer, open_viewer: Open
 ) -> None:
@@ -320,3 +348,26 @@ def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     until(viewer, lambda: tools.status == "Click on the second point.")
     touch.tap(*place(viewer, (0.1, 0.0, 0.09)))
     until(viewer, lambda: tools.status.startswith("[Length: "))
+
+
+TOP_DOWN = """(() => {
+  const types = document.querySelector(".views .above select");
+  types.value = [...types.options].find(o => o.label.startsWith("TopDownOrtho")).value;
+  types.dispatchEvent(new Event("change", {bubbles: true}));
+})()"""
+"""Another type of view; the hand stays in the field that it is in."""
+
+
+@pytest.mark.parametrize("typed", ["1.25", ""])
+def test_a_field_that_goes_with_its_view_type_is_left_without_an_error(
+    make_viz: Callable[..., Visualizer], open_viewer: Open, typed: str
+) -> None:
+    viz = make_viz()
+    viewer = open_viewer(viz.url)
+    user = viewer.user
+    user.click_into(user.row("Views", "Yaw").one("textbox"))
+    user.type(typed)
+    viewer.page.evaluate(TOP_DOWN)
+    user.until(lambda: "TopDownOrtho" in user.row("Views", "Current View").text)
+    user.until(lambda: "Yaw" not in user.rows("Views"))
+    assert viewer.errors() == []

@@ -64,6 +64,18 @@ def test_a_fixed_frame_that_does_not_exist_is_pointed_at(checked: Checked) -> No
     assert problem.hint == "choose base_link, the root of this robot"
 
 
+def test_a_fixed_frame_that_was_typed_is_in_no_line_of_the_file(
+    robot: Robot, tmp_path: Path
+) -> None:
+    file = tmp_path / "c.rviz"
+    file.write_text(GOOD)
+    config = RvizConfig.load(file, Declarations())
+    config.global_options.set("Fixed Frame", "mapp")
+    (problem,) = check_config(robot, config)
+    assert problem.code == "setup-fixed-frame" and "mapp" in problem.message
+    assert (problem.file, problem.line) == (None, None)
+
+
 def test_a_leading_slash_of_the_fixed_frame_does_not_matter(checked: Checked) -> None:
     assert checked(GOOD.replace("Frame: base_link", "Frame: /base_link")) == []
 

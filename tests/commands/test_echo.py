@@ -149,3 +149,30 @@ def test_a_mimic_joint_that_disagrees_is_a_warning(
     assert capsys.readouterr().err == ""
     assert main([*words, "--joint", "tail=0.1"]) == 0
     assert "joint 'tail' was given 0.1, but it mimics 'lead'" in capsys.readouterr().err
+
+
+def test_the_model_may_come_last(repository: Path, capsys: Capture) -> None:
+    model = str(repository / "assets" / "sam_bot.urdf.xacro")
+    words = ["base_link", "drivewhl_l_link"]
+    for ordered in ([model, *words], [*words, model]):
+        assert main(["echo", *ordered]) == 0
+    first, second = capsys.readouterr().out.split("At time")[1:]
+    assert first == second
+
+
+def test_a_time_outside_of_a_recording_is_said(
+    repository: Path, capsys: Capture
+) -> None:
+    square = str(repository / "assets" / "square.mcap")
+    for at, said in (("99", "its end is shown"), ("-1", "its begin is shown")):
+        main(["echo", square, "odom", "base_link", "--at", at])
+        err = capsys.readouterr().err
+        assert "at-outside" in err and said in err
+    main(["echo", square, "odom", "base_link", "--at", "19"])
+    assert capsys.readouterr().err == ""
+
+
+def test_a_recording_that_does_not_exist_is_no_model(capsys: Capture) -> None:
+    for name in ("nowhere.mcap", "nowhere.db3", "nowhere.bag"):
+        assert main(["echo", name, "a", "b"]) == 2
+        assert f"no recording '{name}'" in capsys.readouterr().err

@@ -80,6 +80,8 @@ def test_a_file_that_is_no_recording_is_one_line(
     assert "name a recording" in capsys.readouterr().err
     assert main(["topics", str(repository / "assets" / "sam_bot.urdf.xacro")]) == 2
     assert "is not a recording" in capsys.readouterr().err
+    assert main(["topics", "nowhere.mcap"]) == 2
+    assert "does not exist" in capsys.readouterr().err
     for name in ("empty.mcap", "no_messages.mcap", "garbage.mcap"):
         assert main(["topics", str(made / name)]) == 1
         assert len(capsys.readouterr().err.splitlines()) == 1
@@ -100,3 +102,12 @@ def test_a_command_for_models_refuses_a_recording(
     assert out == ""
     assert square in err
     assert "sambot-viz topics" in err
+
+
+def test_two_parents_have_one_remedy(made: Path, capsys: Capture) -> None:
+    assert main(["topics", str(made / "two_parents.mcap")]) == 0
+    out, err = capsys.readouterr()
+    assert "publish odom -> base_link" in err
+    (row,) = (line for line in out.splitlines() if line.startswith("/odom "))
+    assert "publish odom -> base_link" in row
+    assert "static_transform_publisher" not in row

@@ -61,3 +61,35 @@ def test_a_sweep_moves_the_joints_of_a_recorded_robot(viz: Visualizer) -> None:
     assert exported(viz, "sweep")["duration"] > 1.0
     # What is shown is as it was.
     assert session_of(viz).robot.followed.value == "square.mcap"
+
+
+def test_the_camera_of_a_page_goes_with_the_frame_that_the_view_follows(
+    viz: Visualizer,
+) -> None:
+    viz.player.jump(1.0)
+    way = exported(viz, "recording")["way"]
+    times = [time for time, *_ in way]
+    assert times == sorted(set(times)) and times[0] == 0
+    assert len(way) > 100
+    for seconds in (9.0, 1.5):
+        viz.player.jump(seconds)
+        x, y, _ = viz.frames.lookup("odom", "base_link").translation
+        shown = [at for time, *at in way if time <= 1000 * (seconds - 1.0)][-1]
+        assert shown[:2] == pytest.approx([x, y], abs=0.02)
+
+
+def test_a_page_from_the_begin_waits_for_nothing_and_has_all_links(
+    viz: Visualizer,
+) -> None:
+    viz.player.jump(0.0)
+    shown = exported(viz, "recording")
+    assert shown["duration"] == pytest.approx(viz.player.duration, abs=1e-6)
+    # Its first picture has the links where the first transforms will have them.
+    copy = session_of(viz).copy()
+    pose = session_of(viz).scene.context.pose
+    for link in copy.robot.links if copy.robot else ():
+        assert pose(link) is not None
+
+
+def test_a_page_without_a_recording_has_no_way(make_viz: Any) -> None:
+    assert exported(make_viz(), "sweep")["way"] == []

@@ -72,7 +72,7 @@ def test_few_commands_are_for_viewers_too() -> None:
         # These ask themselves whether a presenter calls them.
         *("role/decline-all", "role/remove", "role/rename", "people/invite"),
         "role/greet",
-        *("topics/show", "topics/find"),
+        *("topics/show", "topics/find", "topics/choose"),
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
         *("tools/press", "tools/right_click", "tools/zero"),
         *("views/restore", "views/use"),

@@ -11,6 +11,7 @@ from inside import session_of
 from panel_rows import commands_of, data_of, edit, panel_of, rows_of
 
 from sambot_viz import SambotVizError, Visualizer
+from sambot_viz.frames import Transform
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.panels.displays.display_commands import DisplayCommands
@@ -222,6 +223,16 @@ def test_a_fixed_frame_that_is_missing_is_taken_and_every_status_says_which_ther
     displays.set("options/Fixed Frame", "base")
     assert displays.named("Global Status", "Fixed Frame").value == "OK"
     assert displays.named("Global Status", "Fixed Frame").extra is None
+
+
+def test_of_many_frames_a_missing_one_names_a_few(
+    displays: Displays, session: Session
+) -> None:
+    for number in range(60):
+        session.frames.add("base", f"frame{number:02}", Transform.identity())
+    displays.change("Global Options", "Fixed Frame", to="map")
+    said = displays.named("Global Status", "Fixed Frame").value
+    assert str(said).endswith("There are: arm/tip, base, frame00, frame01 and 58 more")
 
 
 def test_a_frame_that_is_missing_is_repaired_by_the_nearest_name(

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 from inside import session_of
@@ -302,5 +303,16 @@ def test_moving_a_joint_twice_shows_its_axis_in_the_scene(
     before = set(session.audience.scene._handle_from_node_name)  # pyright: ignore
     edit(panel, f"j/{LEFT}", 0.1)
     edit(panel, f"j/{LEFT}", 0.2)
-    new = set(session.audience.scene._handle_from_node_name) - before  # pyright: ignore
-    assert len(new) == 1
+    nodes: Any = session.audience.scene._handle_from_node_name  # pyright: ignore
+    new = {name.rpartition("/")[2]: node for name, node in nodes.items()}
+    new = {name: new[name] for name in ("~positive", "~turn")}
+    assert len(set(nodes) - before) == 2
+    # The wheel turns about y: a round arc, and on it two heads that point along it.
+    arc = np.asarray(new["~turn"].points)
+    assert np.allclose(np.hypot(arc[..., 0], arc[..., 2]), 0.15, atol=1e-6)
+    _, *heads = np.asarray(new["~positive"].points)
+    for start, end in heads:
+        middle, way = (start + end) / 2, end - start
+        assert np.cross(middle, way)[1] > 0.0
+        assert np.hypot(middle[0], middle[2]) == pytest.approx(0.15, abs=0.01)
+        assert np.linalg.norm(way) == pytest.approx(0.0404, abs=1e-4)

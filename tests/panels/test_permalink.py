@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,7 +13,9 @@ from panel_rows import data_of, edit, panel_of
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
+from sambot_viz.panels.player import PlayerPanel
 from sambot_viz.panels.row import Answer
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
@@ -30,14 +33,16 @@ class Links:
 
     def __init__(self, session: Session, client: Client, joints: bool = True) -> None:
         self.session, self.client = session, client
-        panel = panel_of(JointsPanel, session)
+        panels: list[Panel] = [panel_of(JointsPanel, session)] if joints else []
+        if session.data is not None and session.data.player is not None:
+            panels.append(PlayerPanel(session.data.player, "a recording"))
         self.panel = panel_of(
             PermalinkPanel,
             session,
             client,
             views=panel_of(ViewsPanel, session, client),
             row=lambda row_id: next(
-                (r for r in panel.rows() if joints and r.id == row_id), None
+                (r for panel in panels for r in panel.rows() if r.id == row_id), None
             ),
         )
 
@@ -319,3 +324,55 @@ def test_another_config_begins_with_its_own_switches(
     config.displays[0].set_enabled(False)
     session.document.replace(config)
     assert not [name for name, _ in links.copy() if name.startswith("show.")]
+
+
+@pytest.fixture
+def recorded(protocol: Callable[..., Any], repository: Path) -> Iterator[Links]:
+    with Visualizer(repository / "assets" / "square.mcap", port=0) as viz:
+        peer = protocol(viz.viser.get_port())
+        peer.settle(viz.viser)
+        session = session_of(viz)
+        peer.wait_until(lambda: bool(session.clients.all))
+        (client,) = session.clients.all.values()
+        yield Links(session, client)
+
+
+def test_a_link_stops_a_recording_at_its_time(recorded: Links) -> None:
+    data, joints = recorded.session.data, recorded.session.robot.joints
+    assert data is not None and data.player is not None and joints is not None
+    player = data.player
+    player.pause()
+    player.jump(player.start_ns + 7_123_456_789)
+    positions, parts = dict(joints.positions), recorded.copy()
+    assert ["time", "7.123456789"] in parts
+    assert not [name for name, _ in parts if name.startswith("j.")]
+
+    player.jump(player.start_ns)
+    player.play()
+    assert recorded.open(parts) == "Opened the link"
+    assert not player.playback.value.playing
+    assert player.time_ns - player.start_ns == 7_123_456_789
+    assert joints.positions == positions
+
+
+@pytest.mark.parametrize("time", ["-1", "1e9", "nan", "now"])
+def test_a_time_that_the_recording_does_not_have_is_refused(
+    recorded: Links, time: str
+) -> None:
+    data = recorded.session.data
+    assert data is not None and data.player is not None
+    data.player.pause()
+    before = data.player.time_ns
+    said = recorded.open([*ORBIT, ["time", time], *END])
+    assert "but not all of it: 'Time'" in said
+    assert data.player.time_ns == before
+
+
+def test_joints_that_a_recording_moves_stay_with_it(recorded: Links) -> None:
+    said = recorded.open([*ORBIT, [f"j.{LEFT}", "1"], *END])
+    assert said.endswith("joints are moved by square.mcap, not by the link")
+
+
+def test_the_time_of_a_link_needs_a_recording(links: Links) -> None:
+    said = links.open([*ORBIT, ["time", "2"], *END])
+    assert said.endswith("not all of it: no recording is played here")

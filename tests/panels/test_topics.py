@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from inside import session_of
+from live_peers import WAIT
+from patience import until
+from protocol_client import wait_for_workers
+from robot_peer import BusyPeer, square_peer
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.topics import MOST_SHOWN, TopicsPanel
 from sambot_viz.session import Session
+from sambot_viz.session.data import live_topics
+from sambot_viz.session.signals import connect
 
 
 class Opened:
@@ -22,11 +28,11 @@ class Opened:
         assert session.data is not None
         self.session = session
         self.data = session.data
-        self.data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
+        if self.data.player is not None:
+            self.data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
         self.remade = 0
-        self.panel = TopicsPanel(
-            self.data.topics, self.data.player, session.scene, self._remake
-        )
+        self.panel = TopicsPanel(self.data.topics, session.scene, self._remake)
+        connect([self.data.topics.looked], lambda: self._remake(self.panel))
 
     def _remake(self, panel: Panel) -> None:
         self.remade += 1
@@ -42,6 +48,8 @@ class Opened:
         with self.session.lock:
             survey.finish()
         self.run("topics/show", True)
+        # The worker tells that all was looked at.
+        wait_for_workers()
 
     def values(self) -> dict[str, Any]:
         with self.session.lock:
@@ -166,3 +174,152 @@ def test_two_parents_are_a_problem_from_the_start(shared: Path) -> None:
     with Visualizer(path, port=0) as viz:
         listed = session_of(viz).problems.shown.value.listed
         assert [p.code for p in listed].count("two-parents") == 1
+
+
+class LiveOpened(Opened):
+    """The same of a robot on the network, whose page nobody has open."""
+
+    def look(self) -> None:
+        self.run("topics/show", True)
+
+    def until_shown(self, condition: Callable[[dict[str, Any]], object]) -> None:
+        def holds() -> bool:
+            with self.session.lock:
+                self.panel.values()
+            return bool(condition(self.values()))
+
+        until(holds, WAIT, not_yet=(AssertionError, KeyError))
+
+
+@pytest.fixture
+def peer(repository: Path) -> Iterator[BusyPeer]:
+    with square_peer(repository) as peer:
+        yield peer
+
+
+@pytest.fixture
+def live(peer: BusyPeer) -> Iterator[LiveOpened]:
+    with Visualizer(source=peer.uri, port=0) as viz:
+        until(
+            lambda: session_of(viz).robot.model.name == "sam_bot",
+            WAIT,
+            not_yet=(AttributeError,),
+        )
+        yield LiveOpened(session_of(viz))
+
+
+def test_a_live_topic_is_listened_to_while_its_row_is_on_the_screen(
+    live: LiveOpened, peer: BusyPeer
+) -> None:
+    assert "/scan" not in peer.subscribed()
+    live.look()
+    live.until_shown(lambda shown: shown["topic:/scan/count"] == "46")
+    shown = live.values()
+    assert shown["topic:/scan/type"] == "sensor_msgs/msg/LaserScan"
+    assert shown["topic:/scan/reason"].startswith("Nothing draws")
+    assert shown["topic:/scan"].endswith("s ago")
+    assert shown["topic:/robot_description/count"] == "1"
+    live.run("topics/find", "tf")
+    live.values()
+    until(lambda: "/scan" not in peer.subscribed(), WAIT)
+    live.run("topics/find", "")
+    live.values()
+    until(lambda: "/scan" in peer.subscribed(), WAIT)
+    live.run("topics/show", False)
+    until(lambda: "/scan" not in peer.subscribed(), WAIT)
+    assert "/tf" in peer.subscribed()
+
+
+def test_a_page_that_leaves_listens_to_nothing(
+    live: LiveOpened, peer: BusyPeer
+) -> None:
+    live.look()
+    live.values()
+    until(lambda: "/scan" in peer.subscribed(), WAIT)
+    with live.session.lock:
+        live.panel.close()
+    until(lambda: "/scan" not in peer.subscribed(), WAIT)
+
+
+def test_live_topics_that_appear_have_rows(live: LiveOpened, peer: BusyPeer) -> None:
+    live.look()
+    assert "topic:/late" not in live.values()
+    peer.advertise("/late")
+    live.until_shown(lambda shown: "topic:/late" in shown)
+    until(lambda: "/late" in peer.subscribed(), WAIT)
+    peer.publish("/late", "hello")
+    live.until_shown(lambda shown: shown["topic:/late/count"] == "1")
+    peer.remove("/late")
+    live.until_shown(lambda shown: "topic:/late" not in shown)
+
+
+def test_large_messages_come_when_their_row_is_chosen(
+    live: LiveOpened, peer: BusyPeer
+) -> None:
+    peer.advertise("/camera", schema="sensor_msgs/msg/Image")
+    live.look()
+    live.until_shown(lambda shown: "select this row" in shown["topic:/camera/reason"])
+    assert "/camera" not in peer.subscribed()
+    live.run("topics/choose", "/camera")
+    until(lambda: "/camera" in peer.subscribed(), WAIT)
+    live.run("topics/choose", "/scan")
+    until(lambda: "/camera" not in peer.subscribed(), WAIT)
+
+
+def test_why_nothing_of_a_live_topic_is_seen(
+    live: LiveOpened, peer: BusyPeer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live_topics, "SILENT_AFTER", 0.0)
+    peer.advertise("/silent")
+    peer.advertise("/odd", schema="nobody_msgs/msg/Nothing")
+    live.look()
+    live.until_shown(
+        lambda shown: "nothing has come" in shown["topic:/silent/reason"].lower()
+    )
+    until(lambda: "/silent" in peer.subscribed(), WAIT)
+    peer.publish("/silent", "hello")
+    live.until_shown(
+        lambda shown: "nothing draws" in shown["topic:/silent/reason"].lower()
+    )
+    peer.advertise("/broken")
+    live.until_shown(lambda shown: "topic:/broken" in shown)
+    until(lambda: "/broken" in peer.subscribed(), WAIT)
+    peer.log("/broken", b"\0\1\0\0\xff\xff\xff\xff")
+    live.until_shown(lambda shown: "cannot be decoded" in shown["topic:/broken/reason"])
+    with live.session.lock:
+        live.session.document.set_option("Fixed Frame", "nowhere")
+    live.until_shown(lambda shown: "to [nowhere]" in shown["topic:/scan/reason"])
+
+
+def test_while_the_connection_is_lost_topics_are_not_to_blame(
+    live: LiveOpened, peer: BusyPeer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live_topics, "SILENT_AFTER", 0.0)
+    peer.advertise("/silent")
+    live.look()
+    live.until_shown(lambda shown: "has come yet" in shown["topic:/silent/reason"])
+    assert "Hz" not in live.values()["topic:/tf_static"]
+    peer.stop()
+    live.until_shown(lambda shown: "has come yet" not in shown["topic:/silent/reason"])
+
+
+def test_however_many_look_a_topic_is_looked_at_once_a_second(
+    live: LiveOpened, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    topics, asked = live.data.topics, list[str]()
+    live.look()
+    scene = live.session.scene
+    others = [TopicsPanel(topics, scene, lambda panel: None) for _ in range(2)]
+    with live.session.lock:
+        live.panel.rows()
+        for panel in others:
+            {one.id: one for one in panel.commands()}["topics/show"].run(True)
+            panel.rows()
+        status = topics.status
+        monkeypatch.setattr(topics, "status", lambda n: asked.append(n) or status(n))
+        topics._tick()  # pyright: ignore[reportPrivateUsage]
+        for panel in (live.panel, *others):
+            panel.values()
+        assert sorted(asked) == sorted(topics.names)
+        for panel in others:
+            panel.close()

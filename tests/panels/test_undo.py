@@ -114,21 +114,64 @@ def test_other_edits_and_other_browsers_name_nothing(
     assert touched(panel) is None
 
 
-def test_a_page_that_is_loaded_again_undoes_all_but_what_has_ended_with_it(
+def edits_of(session: Session, client: Client) -> None:
+    """Two steps: one of the view alone, one of it and the document."""
+    with session.history.acting(client.client_id):
+        client.view.set("Distance", 6.0)
+    with session.history.acting(client.client_id):
+        client.view.set("Distance", 4.0)
+        session.document.set_option("Frame Rate", 12)
+
+
+def test_a_page_that_is_loaded_again_undoes_its_view_too(
     session: Session, join: Callable[[], Client], displays: DisplaysPanel
 ) -> None:
     before, after = join(), join()
-    with session.history.acting(before.client_id):
-        before.view.set("Distance", 3.0)
-    with session.history.acting(before.client_id):
-        before.view.set("Distance", 4.0)
-        session.document.set_option("Frame Rate", 12)
+    at_first = before.view.values["Distance"]
+    edits_of(session, before)
+    # As the page shows its view again.
+    with session.history.unrecorded():
+        after.view.set("Distance", 4.0)
     first, second = (
         panel_of(UndoPanel, session, client, displays=displays)
         for client in (before, after)
     )
     key = data_of(first)["edit/key"]
     assert key != data_of(second)["edit/key"]
+    session.leave(before.client_id)
+    edit(second, "edit/resume", [key])
+    assert after.view.values["Distance"] == 4.0
+    edit(second, "edit/undo", None)
+    assert session.document.config.global_options.get("Frame Rate") != 12
+    assert after.view.values["Distance"] == 6.0
+    edit(second, "edit/undo", None)
+    assert after.view.values["Distance"] == pytest.approx(at_first)
+    assert data_of(second)["edit/labels"]["undo"] == ""
+    for _ in range(2):
+        edit(second, "edit/redo", None)
+    assert after.view.values["Distance"] == 4.0
+    # And once more, with the edits of both pages.
+    third = join()
+    last = panel_of(UndoPanel, session, third, displays=displays)
+    key = data_of(second)["edit/key"]
+    session.leave(after.client_id)
+    edit(last, "edit/resume", [key])
+    edit(last, "edit/undo", None)
+    assert third.view.values["Distance"] == 6.0
+
+
+def test_a_page_that_shows_another_type_of_view_undoes_all_but_that(
+    session: Session, join: Callable[[], Client], displays: DisplaysPanel
+) -> None:
+    before, after = join(), join()
+    edits_of(session, before)
+    with session.history.unrecorded():
+        after.view.set_kind("rviz_default_plugins/FPS")
+    first, second = (
+        panel_of(UndoPanel, session, client, displays=displays)
+        for client in (before, after)
+    )
+    key = data_of(first)["edit/key"]
     session.leave(before.client_id)
     edit(second, "edit/resume", [key])
     assert data_of(second)["edit/labels"]["undo"] == "Global Options: Frame Rate"

@@ -6,51 +6,21 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import foxglove
 import numpy as np
 import pytest
 from inside import session_of
 from live_peers import WAIT, FoxglovePeer
 from patience import until
 from protocol_client import ProtocolClient
+from robot_peer import RobotPeer
 
-from sambot_viz import JointError, Visualizer
+from sambot_viz import JointError, UsageError, Visualizer
 from sambot_viz.panels.source import SourcePanel
-from sambot_viz.session.data.robot_data import LiveData
-from sambot_viz.sources.bag import Recording, open_recording
+from sambot_viz.session.data.live_clock import ClockState
+from sambot_viz.session.data.live_data import LiveData
+from sambot_viz.sources.bag import open_recording
 
-START = 1_750_000_000_000_000_000
 LEFT = "drivewhl_l_joint"
-
-
-class RobotPeer(FoxglovePeer):
-    """Publishes what a recording has."""
-
-    def __init__(self, recording: Recording, **options: Any) -> None:
-        self.recording = recording
-        super().__init__(**options)
-        for name, topic in recording.topics.items():
-            if topic.is_latched:
-                self._latched[name] = []
-            text = topic.schema.text
-            self._channels[name] = foxglove.Channel(
-                name,
-                schema=foxglove.Schema(
-                    name=topic.schema.name,
-                    encoding=topic.schema.encoding,
-                    data=text.encode() if isinstance(text, str) else text,
-                ),
-                message_encoding=topic.message_encoding,
-                context=self.context,
-            )
-        for message in recording.latched():
-            self._latched[message.topic].append(bytes(message.payload))
-
-    def play(self, until_s: float) -> None:
-        """Publish all that moves, up to a time [s]."""
-        end = START + round(until_s * 1e9)
-        for message in self.recording.messages(None, end, ("/tf", "/joint_states")):
-            self._channels[message.topic].log(bytes(message.payload))
 
 
 @pytest.fixture
@@ -109,7 +79,7 @@ def test_the_robot_stays_while_the_connection_is_lost(
     peer.play(4.05)
     eventually(lambda: place(viz) == (1.0, 0.0))
     peer.stop()
-    eventually(lambda: "connect" in sentence(viz).lower())
+    eventually(lambda: "Connected" not in sentence(viz))
     assert place(viz) == (1.0, 0.0)
     peer.start()
     eventually(lambda: "/tf" in peer.subscribed())
@@ -140,6 +110,30 @@ def test_all_browsers_share_one_subscription(
                     tree.lookup("odom", "base_link").translation[:2], 1.0, atol=0.01
                 )
             )
+
+
+def test_a_simulation_that_is_reset_begins_again(
+    viz: Visualizer, peer: RobotPeer
+) -> None:
+    """Its clock goes back: what moved is forgotten, as in RViz, and it is said."""
+    data = session_of(viz).data
+    assert isinstance(data, LiveData) and peer.server is not None
+    peer.server.broadcast_time(9_050_000_000)
+    eventually(lambda: data.time_s() == pytest.approx(9.05))
+    peer.play(9.05)
+    eventually(lambda: place(viz) == (1.0, 1.0))
+    eventually(lambda: data.clock.state.value.simulated)
+    eventually(lambda: "wrong use_sim_time" in sentence(viz))
+
+    peer.server.broadcast_time(1_000_000_000)
+    eventually(lambda: not viz.frames.can_lookup("odom", "base_link"))
+    (problem,) = data.problems.value
+    assert problem.code == "clock-back"
+    assert "time went back by 8.1 s" in problem.message
+    eventually(lambda: data.clock.state.value == ClockState(True, 1.0, 0.0))
+    # Stamps from before what was forgotten count again.
+    peer.play(4.05)
+    eventually(lambda: place(viz) == (1.0, 0.0))
 
 
 def test_without_a_robot_the_page_says_what_is_missing() -> None:
@@ -189,3 +183,32 @@ def test_meshes_come_through_the_connection() -> None:
         ]
     finally:
         peer.stop()
+
+
+def test_what_it_says_is_recorded_until_the_end(
+    peer: RobotPeer, tmp_path: Path
+) -> None:
+    path = tmp_path / "new.mcap"
+    with Visualizer(source=peer.uri, record=path, port=0) as viz:
+        eventually(lambda: session_of(viz).robot.model.name == "sam_bot")
+        eventually(lambda: "/scan" in peer.subscribed())
+        peer.play(4.05)
+        eventually(lambda: place(viz) == (1.0, 0.0))
+    with open_recording(path) as recording, Visualizer(path, port=0, at=99.0) as viz:
+        assert {"/tf", "/tf_static", "/robot_description"} <= set(recording.topics)
+        assert not recording.problems
+        assert session_of(viz).robot.model.name == "sam_bot"
+        eventually(lambda: place(viz) == (1.0, 0.0))
+
+
+def test_a_recording_needs_a_live_robot(peer: RobotPeer, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="--record needs a live robot"):
+        Visualizer(record=tmp_path / "new.mcap")
+    with pytest.raises(UsageError, match="--record-dir needs a live robot"):
+        Visualizer(source="bag:assets/square.mcap", record_dir=tmp_path)
+    there = tmp_path / "there.mcap"
+    there.touch()
+    with pytest.raises(UsageError, match="is there already"):
+        Visualizer(source=peer.uri, record=there)
+    with pytest.raises(UsageError, match="is not a folder for recordings"):
+        Visualizer(source=peer.uri, record_dir=tmp_path / "none")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -597,3 +599,30 @@ def test_only_a_trusted_header_names_a_viewer(
     named = [person.name for person in roles.people.values()]
     client.close()
     assert named == [name]
+
+
+def test_viewers_see_the_names_of_files_and_a_presenter_their_folders(
+    viz: Visualizer, guest: ProtocolClient, teacher: ProtocolClient, tmp_path: Path
+) -> None:
+    file = tmp_path / "other.urdf"
+    file.write_text("<robot name='r'><link name='a'/></robot>", "utf-8")
+    session = session_of(viz)
+    display = next(d for d in session.scene.displays if d.robot_display is not None)
+    with session.worker.lock:
+        # As of a config that names a file elsewhere.
+        display.config.set("Description Source", "File")
+        display.config.set("Description File", str(file))
+        display.property_changed("Description File")
+        display.status.set("URDF", "Error", f"URDF is empty: no file '{file}'")
+        session.scene.statuses.touch()
+    for client in (guest, teacher):
+        client.settle(viser_server(viz))
+    path = guest.id_of("displays", "RobotModel", "Description File")
+    status = f"{path.partition('/')[0]}/:status/URDF"
+    for client in (guest, teacher):
+        assert client.row(path)["value"] == "other.urdf"
+        assert str(tmp_path) not in json.dumps(client.row(status))
+    assert "displays/paths" not in guest.rows
+    whole = teacher.row("displays/paths")["value"]
+    assert whole[path] == str(file)
+    assert str(file) in whole[status]

@@ -101,7 +101,7 @@ def test_one_measures_while_the_other_selects(two: tuple[Person, Person]) -> Non
     assert a.browser.tools.status.startswith("[Length: 1m] ")
     assert b.browser.tools.status == ""
     assert (a.selected, b.selected) == ([], ["base_link"])
-    assert a.drawn() == {"/~measure.start", "/~measure", "/~measure.length"}
+    assert a.drawn() == {f"/~measure{of}" for of in (".start", ".rim", "", ".length")}
     assert b.drawn() == {"/~selected1"}
 
 
@@ -325,3 +325,16 @@ def test_a_private_session_has_one_browser(protocol: Protocol) -> None:
             client.settle(viser_server(viz))
             sessions = viz.server.sessions.all()
             assert [len(s.clients.all) for s in sessions] == [1] * count
+
+
+def test_who_leaves_after_the_session_was_closed_is_gone_already(
+    make_viz: Callable[..., Visualizer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    viz = make_viz()
+    session = viz.server.sessions.all()[0]
+    protocol(urlsplit(viz.url).port or 0).settle(viser_server(viz))
+    (client_id,) = session.clients.all
+    session.close()
+    assert not session.clients.all
+    session.leave(client_id)

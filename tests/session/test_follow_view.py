@@ -109,3 +109,28 @@ def test_a_program_that_drives_moves_no_camera(
     seen.follow(AWAY)
     seen.follow(None)
     assert looks_at(driver) == (0, 0)
+
+
+def test_no_part_of_a_robot_that_fits_is_cut_off(
+    seen: FollowView, driver: Client
+) -> None:
+    seen.follow(START)
+    window = driver.client.camera
+    size = max(1, window.image_width), max(1, window.image_height)
+    for step in range(1, 100):
+        place = vector(0.1 * step, 0.02 * step, 0.1)
+        seen.follow(place)
+        camera = driver.view.camera
+        for away in ((0.2, 0.15), (0.2, -0.15), (-0.2, 0.15), (-0.2, -0.15)):
+            assert camera.shows(place + vector(*away, 0.0), *size)
+    assert looks_at(driver)[0] > 5
+
+
+def test_a_robot_that_is_larger_than_the_picture_stays_with_its_root(
+    seen: FollowView, driver: Client
+) -> None:
+    driver.view.set("Distance", 0.2)
+    seen.begin()
+    seen.follow(START)
+    seen.follow(vector(0.001, 0, 0.1))
+    assert looks_at(driver) == (0, 0)

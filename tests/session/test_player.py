@@ -8,9 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from inside import session_of
+from made_recording import described, write_recording
+from patience import until
 from protocol_client import ProtocolClient
 
 from sambot_viz import JointError, UsageError, Visualizer
+from sambot_viz.displays.display import AHEAD
+from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.frames.robot_frames import explain
 from sambot_viz.session.data.player import Player
 
@@ -93,6 +97,46 @@ def test_frames_without_a_place_at_a_time_are_known_and_nothing_fails(
     assert session.problems.shown.value.listed == ()
     viz.player.jump(4.0)
     assert viz.frames.can_lookup("odom", WHEEL)
+
+
+def test_the_start_of_a_recording_is_drawn_with_what_comes_first(
+    viz: Visualizer, player: Player
+) -> None:
+    """Look-ups are those of tf2; the picture is whole, and the statuses say why."""
+    player.pause()
+    viz.player.jump(4.0)
+    viz.player.jump(0.0)
+    scene, frames = session_of(viz).scene, session_of(viz).frames
+    model = next(d for d in scene.displays if d.kind.endswith("RobotModel"))
+    assert not viz.frames.can_lookup("odom", WHEEL)
+    assert scene.context.nodes.connected(WHEEL)
+    assert model.status.level == "Ok"
+    assert model.status.rows[WHEEL].text == AHEAD
+    first = frames.tree.drawn("base_link", WHEEL).matrix
+    player.advance(0.3)
+    now = viz.frames.lookup("base_link", WHEEL).matrix
+    assert now[:3, 3] == pytest.approx(first[:3, 3])
+    assert model.status.rows[WHEEL].text == "Transform OK"
+
+
+def test_a_jump_to_before_the_first_transform_says_so(tmp_path: Path) -> None:
+    path = write_recording(
+        tmp_path / "late.mcap",
+        {"/robot_description": described("base", "arm")},
+        [("/tf", 3.0 + n / 10, {"base": "odom"}) for n in range(10)],
+        scans=[(0.0, 0.0), (1.0, 1.0), (3.5, 3.5)],
+    )
+    with Visualizer(path, port=0, at=3.6) as viz:
+        topics = session_of(viz).data.topics
+        assert topics is not None
+        topics.follow(None, ["/scan"])
+        until(lambda: topics.is_complete)
+        codes = list[str]()
+        for seconds in (3.6, 1.0, 3.6):
+            viz.player.jump(seconds)
+            reason = topics.status("/scan").reason
+            codes.append("" if reason is None else reason.code)
+        assert codes == ["no-display", "no-transform", "no-display"]
 
 
 def test_steps_go_from_message_to_message_of_a_topic(
@@ -183,3 +227,21 @@ def test_a_robot_without_a_recording_has_no_player(
     viz = make_viz()
     with pytest.raises(UsageError, match="no recording"):
         viz.player.jump(1.0)
+
+
+def test_distances_of_what_is_selected_follow_a_recording(
+    viz: Visualizer, player: Player, protocol: Callable[..., ProtocolClient]
+) -> None:
+    client = protocol(viz.viser.get_port())
+    client.settle(viz.viser)
+    player.pause()
+    viz.player.jump(4.0)
+    (browser,) = session_of(viz).clients.all.values()
+    chosen = {Selectable("frame", "odom"), Selectable("link", "base_link")}
+    browser.tools.select(chosen, None)
+    client.settle(viz.viser)
+    assert str(client.shown("selection", "Distance")).startswith("1.0")
+    player.advance(5.0)
+    client.wait_until(
+        lambda: str(client.shown("selection", "Distance")).startswith("1.4")
+    )

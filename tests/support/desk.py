@@ -27,8 +27,6 @@ MODELS: dict[str, Callable[[Path], str]] = {
 _START_TIME = 30.0
 """Until a page shows its robot; on a busy machine a large one takes long [s]."""
 _TOOLS = ("toolbar", "Tools")
-_NOTHING = (330.0, 60.0)
-"""A place of the page where the 3D view shows nothing of a robot."""
 
 
 class Desk:
@@ -142,43 +140,31 @@ class Desk:
         )
 
     def tidy(self) -> None:
-        """Put everything back as it was, by what the page offers for that.
-
-        The server knows what is not as it was; a page is slow to ask.
-        """
+        """Put everything back as it was, without the page: that takes too long."""
         user, browser = self.user, self.browser
-        tools, history = browser.tools, self.session.history
+        tools = browser.tools
         self.viewer.set_resolution(self._resolution)
         user.keys("Escape", "Escape")
+        # Keys of the next test are not for the field of this one.
+        self.page.evaluate("document.activeElement.blur()")
         self.settle()
         if tools.selection:
-            self.choose_tool("Select")
-            self.page.mouse.click(*_NOTHING)
-            user.until(lambda: not tools.selection)
+            tools.select((), None)
         if tools.current.label != self._tool:
             self.choose_tool(self._tool)
-        things = user.see()
-        if not things.one("tab", "Joints").state("selected"):
-            user.click_on(things.one("tab", "Joints"))
-        undo = things.one("button", "Undo")
-        state = history.state(browser.client_id)
-        while state.value.undo is not None:
-            times = state.value.times
-            user.click_on(undo)
-            user.until(lambda n=times: state.value.times > n)
-        # What another page has done cannot be undone on this one.
+        joints = user.see().one("tab", "Joints")
+        if not joints.state("selected"):
+            user.click_on(joints)
+        self.undo_of(browser.client_id)
+        # What another page has done cannot be undone by this one.
         if self.viz.joint_positions != self._joints:
             self.viz.set_joint_positions(self._joints)
-        if self._config is not None:
-            self._look_as_at_first()
-        elif browser.view.values != self._view:
-            user.click("button", "Zero", ("region", "Views"))
-            user.click("button", "Focus", _TOOLS)
+        self._look_as_at_first()
         # The next test finds the picture at rest.
         self.settle()
 
     def _look_as_at_first(self) -> None:
-        """Give the view of the config back, which no button does."""
+        """Give the view of the start back."""
         view = self.browser.view
         if view.view.kind != self._kind:
             view.set_kind(self._kind)
@@ -188,10 +174,15 @@ class Desk:
 
     def undo_of_others(self) -> None:
         """Undo what other pages have done, before they leave: nobody else can."""
-        first, undo = self.browser.client_id, self.session.history
+        first = self.browser.client_id
         for client in [n for n in self.session.clients.all if n != first]:
-            while undo.state(client).value.undo is not None:
-                undo.undo(client)
+            self.undo_of(client)
+
+    def undo_of(self, client: int) -> None:
+        """Undo all that a page has done."""
+        undo = self.session.history
+        while undo.state(client).value.undo is not None:
+            undo.undo(client)
 
     def settle(self) -> None:
         """Wait until all that was done is in the picture of the page."""

@@ -33,6 +33,7 @@ def panel_of(
         "arrow": JointArrow(session.scene, session.worker),
         "say": lambda sentence, level: None,
         "remake": lambda panel: None,
+        "folders": True,
         **more,
     }
     names = signature(kind).parameters

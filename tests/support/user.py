@@ -82,6 +82,9 @@ _HAS_OPTION = """function () {
   const fits = [...this.options].map(o => o.label.toLowerCase().startsWith(OPTION));
   return [fits.includes(true), fits[this.selectedIndex] === true];
 }"""
+_BEHIND = """function() {
+  return getComputedStyle(this.closest(".row")).backgroundColor;
+}"""
 _MARKED = """function () {
   return this.type === "number"
     ? false : this.selectionEnd - this.selectionStart === this.value.length;
@@ -386,6 +389,10 @@ class User:
         self.type(text)
         if end:
             self.keys(end)
+
+    def color_behind(self, thing: Thing) -> str:
+        """The background of a row, as CSS has it."""
+        return str(self._ask(thing, _BEHIND))
 
     def _ask(self, thing: Thing, function: str) -> Any:
         found = self.page.call("DOM.resolveNode", {"backendNodeId": thing.node})

@@ -231,7 +231,13 @@ def test_a_rectangle_selects_what_can_be_seen_in_it(browser: Browser) -> None:
     browser.choose("Select")
     browser.look_down()
     browser.rectangle((0.4, 0.4), (0.6, 0.6))
-    assert set(browser.selected) == {"base_link", "drivewhl_l_link", "drivewhl_r_link"}
+    wheels = {"drivewhl_l_link", "drivewhl_r_link"}
+    # The caster is seen through the base; nothing is seen through a solid one.
+    assert set(browser.selected) == {"base_link", "front_caster", *wheels}
+    model = browser.session.scene.displays[1]
+    browser.session.display_edits.set_property(model, "Alpha", 1.0)
+    browser.rectangle((0.4, 0.4), (0.6, 0.6))
+    assert set(browser.selected) == {"base_link", *wheels}
     # The same rectangle, from the other corner, around the left wheel alone.
     browser.rectangle((0.481, 0.459), (0.475, 0.454))
     assert browser.selected == ["drivewhl_l_link"]
@@ -397,6 +403,18 @@ def test_measure_shows_the_distance_of_two_points(browser: Browser) -> None:
     browser.act("tools/escape")
     assert browser.current == "Move Camera"
     assert tools.status == ""
+
+
+def test_a_measurement_that_was_left_half_begins_anew(browser: Browser) -> None:
+    tools = browser.tools
+    browser.choose("Measure")
+    browser.click_down(1.0, 1.0)
+    browser.choose("Move Camera")
+    browser.choose("Measure")
+    browser.click_down(3.0, 1.0)
+    assert tools.status == "Click on the second point."
+    browser.click_down(4.0, 1.0)
+    assert tools.status.startswith("[Length: 1m] ")
 
 
 def test_measure_is_the_same_with_and_without_a_grid_in_between(

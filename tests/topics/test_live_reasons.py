@@ -65,9 +65,3 @@ def test_what_was_dropped_is_counted() -> None:
     reason = live_reasons.lagging(1, "this program")
     assert reason is not None and "1 message was dropped" in reason.text
     assert reason.code in SEVERITIES
-
-
-def test_a_mesh_that_is_not_served_names_the_option() -> None:
-    reason = live_reasons.mesh_not_served("package://a/b.stl", "not allowed")
-    assert reason.code in SEVERITIES
-    assert "asset_uri_allowlist" in reason.text and "package://a/b.stl" in reason.text

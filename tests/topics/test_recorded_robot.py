@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import yaml
 
-from sambot_viz.errors import RobotError, UsageError
+from sambot_viz.errors import UsageError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
@@ -200,9 +200,12 @@ def test_what_a_description_has_of_xacro_reads_no_file(
         "<link name='base_${x[\"name\"]}'/></robot>"
     )
     path = write_recording([(0.0, {"odom": "base"})], text)
-    with Inputs(Options(path)) as inputs, pytest.raises(RobotError) as refused:
-        inputs.robot()
-    assert "taken" not in str(refused.value)
+    with Inputs(Options(path)) as inputs:
+        robot = inputs.robot()
+        refused = [p for p in inputs.problems() if p.severity == "error"]
+    assert refused
+    assert "taken" not in str((robot, refused))
+    assert list(robot.links) == ["odom"]
 
 
 @pytest.mark.parametrize("uri", ["square.mcap", "file:square.mcap", "bga:square.mcap"])
@@ -215,3 +218,11 @@ def test_a_source_that_is_none_is_refused_with_the_right_form(uri: str) -> None:
 def test_a_time_needs_a_recording(at: float) -> None:
     with pytest.raises(UsageError, match="needs a recording"):
         Options(at=at)
+
+
+def test_a_recording_without_a_robot_names_what_it_has(shared: Path) -> None:
+    bag = shared / "data" / "bags" / "real" / "out.bag"
+    with Inputs(Options(source=f"bag:{bag}")) as inputs:
+        (problem,) = inputs.problems()
+    assert "(it has rosout)" in problem.message
+    assert "no transforms either" in problem.message

@@ -135,7 +135,12 @@ def _text(node: Node | None) -> str:
 
 
 def _place(file: str | None, node: Node | None) -> Place | str | None:
-    """Return the place of a value; only the file when it is a default."""
+    """Return the place of a value; only the file when it is a default.
+
+    The file does not say what was typed in the page.
+    """
+    if isinstance(node, Scalar) and node.changed:
+        return None
     span = None if node is None else node.span
     if file is None or span is None:
         return file

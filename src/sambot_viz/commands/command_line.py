@@ -29,6 +29,10 @@ _ABOUT_MODELS = (
 )
 
 
+LISTEN, LONGEST_LISTEN = 2.0, 3600.0
+"""Commands that look once listen so long to a live robot, and at most so long [s]."""
+
+
 class Parser(argparse.ArgumentParser):
     """A command's parser; a bad command line is one line, not the whole usage.
 
@@ -79,6 +83,17 @@ class Parser(argparse.ArgumentParser):
             choices=("text", "json"),
             default="text",
             help="how to print it (default: %(default)s)",
+        )
+
+    def add_listen(self) -> None:
+        """Add ``--for``, for commands that look once."""
+        self.add_argument(
+            "--for",
+            dest="listen",
+            type=_seconds,
+            default=LISTEN,
+            metavar="SECONDS",
+            help="how long to listen to a live robot [s] (default: %(default)g)",
         )
 
     def error(self, message: str) -> NoReturn:
@@ -158,21 +173,13 @@ def parse(
     return given, options
 
 
-def parse_recorded(
-    parser: Parser, words: Sequence[str], **fixed: Any
-) -> tuple[argparse.Namespace, Options]:
-    """Read a command line of a command that takes recordings, but no live robot.
-
-    Raises:
-        UsageError: as `parse`, and a live source.
-    """
-    given, options = parse(parser, words, **fixed)
-    if options.live_sources:
-        raise UsageError(
-            f"--source {options.live_sources[0]}: {parser.prog} reads recordings only; "
-            "record the robot with ros2 bag record, or show it with sambot-viz --source"
+def _seconds(word: str) -> float:
+    seconds = float(word)
+    if not 0.0 < seconds <= LONGEST_LISTEN:
+        raise argparse.ArgumentTypeError(
+            f"{word} is not a time from above 0 to {LONGEST_LISTEN:g} seconds"
         )
-    return given, options
+    return seconds
 
 
 def model_path(options: Options) -> Path | None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os.path
+from collections.abc import Sequence
 
-from sambot_viz.commands.command_line import Parser, parse_recorded, posed_frames
+from sambot_viz.commands.command_line import Parser, parse, posed_frames
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.robot_frames import Explanation, explain
 from sambot_viz.frames.transform import Transform
@@ -16,15 +18,26 @@ from sambot_viz.problems import write_problems
 
 
 class _AnyOrder(Parser):
-    """Accepts options between MODEL, SOURCE and TARGET as well."""
+    """Accepts options between MODEL, SOURCE and TARGET as well, and MODEL behind them.
 
-    parse_args = argparse.ArgumentParser.parse_intermixed_args
+    Whoever has seen it without a MODEL adds one at the end.
+    """
+
+    def parse_args(  # pyright: ignore[reportIncompatibleMethodOverride]
+        self, args: Sequence[str] | None = None, namespace: None = None
+    ) -> argparse.Namespace:
+        """Return what the command line says."""
+        given = self.parse_intermixed_args(args, namespace)
+        words = (given.model, given.looker, given.seen)
+        if words[0] and not os.path.exists(words[0]) and os.path.exists(words[2]):
+            given.looker, given.seen, given.model = words
+        return given
 
 
 def run(words: list[str]) -> int:
     """Print the pose of TARGET in SOURCE; 0 when there is one."""
-    given, options = parse_recorded(parser(), words)
-    with Inputs(options) as inputs:
+    given, options = parse(parser(), words)
+    with Inputs(options, listen=given.listen) as inputs:
         robot = inputs.robot()
         found = [p for p in inputs.problems() if p.severity != "info"]
         write_problems(found, model=options.model)
@@ -58,6 +71,7 @@ def parser() -> Parser:
     )
     made.add_argument("looker", metavar="SOURCE", help="the frame to look from")
     made.add_argument("seen", metavar="TARGET", help="the frame to look at")
+    made.add_listen()
     made.add_format()
     return made
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sambot_viz.commands.command_line import (
     Parser,
     output_path,
-    parse_recorded,
+    parse,
     start_state,
 )
 from sambot_viz.errors import UsageError
@@ -15,9 +15,9 @@ from sambot_viz.problems import write_problems
 
 def run(words: list[str]) -> int:
     """Write a page of a model; 0 when the file is written."""
-    given, options = parse_recorded(parser(), words, panels=False, watch=False)
+    given, options = parse(parser(), words, panels=False, watch=False)
     output = output_path(given.output, "a page", ".html", ".htm")
-    inputs = Inputs(options)
+    inputs = Inputs(options, listen=given.listen)
     write_problems(inputs.problems(), model=options.model)
     start_state(inputs.robot(), options)
 
@@ -41,6 +41,7 @@ def parser() -> Parser:
         "which any browser opens from a disk, without a server and without a network. "
         "Exit status: 0 written, 1 errors found, 2 usage.",
     )
+    made.add_listen()
     add = made.add_argument
     add("-o", "--output", required=True, metavar="FILE.html", help="file to write")
     add(

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.commands.command_line import Parser, parse_recorded, posed_frames
+from sambot_viz.commands.command_line import Parser, parse, posed_frames
 from sambot_viz.errors import UsageError
 from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
@@ -26,10 +26,10 @@ FORMATS: dict[str, Draw] = {
 
 def run(words: list[str]) -> int:
     """Draw the frames of a model; returns 0."""
-    given, options = parse_recorded(parser(), words)
+    given, options = parse(parser(), words)
     output = Path(given.output) if given.output else None
     draw = tree_dot if output is None else _format(output)
-    with Inputs(options) as inputs:
+    with Inputs(options, listen=given.listen) as inputs:
         robot = inputs.robot()
         found = [p for p in inputs.problems() if p.severity != "info"]
         write_problems(found, model=options.model)
@@ -50,6 +50,7 @@ def parser() -> Parser:
         description="Draw the tree of frames with joint name and type, xyz [m] and "
         "rpy [rad]. Exit status: 0 drawn, 1 errors found, 2 usage.",
     )
+    made.add_listen()
     made.add_argument(
         "-o",
         "--output",

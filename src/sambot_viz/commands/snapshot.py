@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from sambot_viz.commands.command_line import (
     Parser,
     output_path,
-    parse_recorded,
+    parse,
     start_state,
     warn,
 )
@@ -31,10 +31,10 @@ if TYPE_CHECKING:
 
 def run(words: list[str]) -> int:
     """Write a picture of a model; 0 when the file is written."""
-    given, options = parse_recorded(parser(), words, panels=False)
+    given, options = parse(parser(), words, panels=False)
     width, height = _size(given.size)
     output = output_path(given.output, "PNG files", ".png")
-    inputs = Inputs(options)
+    inputs = Inputs(options, listen=given.listen)
     write_problems(inputs.problems(), model=options.model)
     start_state(inputs.robot(), options)
 
@@ -69,6 +69,7 @@ def parser() -> Parser:
         description="Write a PNG of the 3D view alone, drawn by a Chromium or Chrome "
         "of this machine. Exit status: 0 written, 1 errors found, 2 usage.",
     )
+    made.add_listen()
     add = made.add_argument
     add("-o", "--output", required=True, metavar="FILE.png", help="file to write")
     add(

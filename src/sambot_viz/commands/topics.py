@@ -1,16 +1,23 @@
-"""``sambot-viz topics``: what a recording has, and why nothing of a topic is seen."""
+"""``sambot-viz topics``: what there is, and why nothing of a topic is seen."""
 
 from __future__ import annotations
 
 import json
+import os.path
 from collections.abc import Iterable, Sequence
+from contextlib import closing
+from operator import attrgetter
 from typing import Any
 
-from sambot_viz.commands.command_line import Parser, parse_recorded
-from sambot_viz.errors import UsageError
-from sambot_viz.moved_by import open_recorded
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.errors import Problem, UsageError
+from sambot_viz.listened import Listened
+from sambot_viz.moved_by import open_live, open_recorded
+from sambot_viz.options import Options
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
+from sambot_viz.topics.live_reasons import silent_topics
+from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.report import TopicReport, TopicStatus
 from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
@@ -20,23 +27,9 @@ _WIDEST = 60
 
 
 def run(words: list[str]) -> int:
-    """Print the topics of recordings; returns 1 when errors were found."""
-    given, options = parse_recorded(parser(), words)
-    recorded = open_recorded(options)
-    if recorded is None:
-        raise UsageError(
-            "name a recording: sambot-viz topics FILE.mcap (or .db3, .bag, or a folder)"
-            if options.model is None
-            else f"'{options.model}' is not a recording: give an mcap, db3 or bag file"
-        )
-    with recorded.recording:
-        survey = Survey(recorded)
-        survey.finish()
-        statuses = list(TopicReport(survey).statuses(recorded.at_ns))
-        found = [
-            *recorded.problems,
-            *problems_of_transforms(survey.transforms, recorded.name),
-        ]
+    """Print the topics of recordings or of a live robot; 1 when errors were found."""
+    given, options = parse(parser(), words)
+    statuses, found = _looked_at(options, given.listen)
     if options.model is not None:
         found = [p for p in found if p.code != "no-description"]
     # That it has no messages says it all.
@@ -50,17 +43,64 @@ def run(words: list[str]) -> int:
     return int(any(problem.severity == "error" for problem in found))
 
 
+def _looked_at(
+    options: Options, seconds: float
+) -> tuple[list[TopicStatus], list[Problem]]:
+    """Return what is to be said of each topic, and what is wrong with all of it."""
+    live = open_live(options)
+    if live is not None:
+        with closing(Listened(live, seconds, None)) as listened:
+            return _of_live(listened)
+    recorded = open_recorded(options)
+    if recorded is None:
+        raise UsageError(
+            "name a recording: sambot-viz topics FILE.mcap (or .db3, .bag, or a "
+            "folder), or --source foxglove://HOST:8765 of a live robot"
+            if options.model is None
+            else f"'{options.model}' is not a recording: give an mcap, db3 or bag file"
+            if os.path.exists(str(options.model))
+            else f"'{options.model}' does not exist"
+        )
+    with recorded.recording:
+        return _of_recording(recorded, recorded.at_ns)
+
+
+def _of_recording(
+    recorded: RecordedRobot, at_ns: int | None
+) -> tuple[list[TopicStatus], list[Problem]]:
+    survey = Survey(recorded)
+    survey.finish()
+    statuses = list(TopicReport(survey).statuses(at_ns))
+    of_frames = problems_of_transforms(survey.transforms, recorded.name)
+    return statuses, [*recorded.problems, *of_frames]
+
+
+def _of_live(listened: Listened) -> tuple[list[TopicStatus], list[Problem]]:
+    """Return the same for a live robot: with topics of which no message came."""
+    came: dict[str, TopicStatus] = {}
+    found: list[Problem] = []
+    recorded = listened.recorded
+    if recorded is not None:
+        # At its end nothing is still to come.
+        rows, found = _of_recording(recorded, recorded.recording.end_ns)
+        came = {row.name: row for row in rows}
+    silent = silent_topics(listened.topics, came, listened.seconds)
+    return sorted([*came.values(), *silent], key=attrgetter("name")), found
+
+
 def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz topics",
         groups=("model", "source"),
-        description="List the topics of a recording: type, number and rate [Hz] of the "
-        "messages, and why nothing of a topic is seen. Some of the first messages are "
-        "decoded. Exit status: 0 listed, 1 errors found, 2 usage.",
+        description="List the topics of a recording or of a live robot: type, number "
+        "and rate [Hz] of the messages, and why nothing of a topic is seen. Some of "
+        "the first messages are decoded. Exit status: 0 listed, 1 errors found, "
+        "2 usage.",
         epilog="MODEL is a recording: an mcap, db3 or ROS 1 bag file, or a folder that "
         "ros2 bag record made.",
     )
+    made.add_listen()
     made.add_format()
     return made
 

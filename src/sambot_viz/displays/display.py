@@ -17,8 +17,12 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Corners, PickGeometry, Selectable
-from sambot_viz.displays.robot_display import ModelReader, RobotDisplay
+from sambot_viz.displays.picking.pick_geometry import Part, PickGeometry, Selectable
+from sambot_viz.displays.robot_display import (
+    Descriptions,
+    ModelReader,
+    RobotDisplay,
+)
 from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb
@@ -29,6 +33,7 @@ from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, EntryItem, Property
 
 HIGHLIGHT: Rgb = (255, 224, 0)
 Level = Literal["Ok", "Warn", "Error"]
+AHEAD = "No transform at this time yet: shown where the recording has it first"
 _ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
 
 
@@ -123,12 +128,14 @@ class DisplayContext:
         background: colour behind the scene, 0 to 255.
         robot: the robot that was opened, or None.
         moving: child frame → the joint type that moves it.
-        models: reads other models, for a RobotModel from a file.
+        models: reads other models, for a RobotModel with one of its own.
+        descriptions: the robots of topics; None where no messages come.
         config_file: the .rviz file that the command line opened, or None.
         trusted_files: the models that it named before a browser could change it.
         link_colors: link of that robot → the colour that a program has given it, 0 to
             255.
         highlighted: links of that robot that a program highlights.
+        now: the time of messages [s since 1970]; None where no messages come.
         apply: runs a function that draws, from any thread, and sends what it draws.
     """
 
@@ -141,10 +148,12 @@ class DisplayContext:
     robot: Robot | None = None
     moving: Mapping[str, str] = field(default_factory=dict[str, str])
     models: ModelReader | None = None
+    descriptions: Descriptions | None = None
     config_file: Path | None = None
     trusted_files: frozenset[str] = frozenset()
     link_colors: dict[str, Rgb] = field(default_factory=dict[str, Rgb])
     highlighted: set[str] = field(default_factory=set[str])
+    now: Callable[[], float] | None = None
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
 
     def color_of(self, link: str) -> Rgb | None:
@@ -171,9 +180,25 @@ class DisplayContext:
         """
         if frame is None or frame == self.fixed_frame:
             return np.eye(4)
-        if not self.tree.can_lookup(self.fixed_frame, frame):
+        try:
+            return self.tree.drawn(self.fixed_frame, frame).matrix
+        except LookupRefused:
             return None
-        return self.tree.lookup(self.fixed_frame, frame).matrix
+
+    def transform_status(self, frame: str, without: Level) -> Status:
+        """Return what RViz says of the transform of a frame to the fixed frame.
+
+        Args:
+            frame: where something is drawn.
+            without: the level where there is none.
+        """
+        if not self.nodes.connected(frame):
+            return Status(
+                without, f"No transform from [{frame}] to [{self.fixed_frame}]"
+            )
+        if self.tree.is_ahead(frame):
+            return Status("Ok", AHEAD)
+        return Status("Ok", "Transform OK")
 
     def lookup_problem(self, frame: str) -> str | None:
         """RViz's long text when the frame cannot be placed, None when it can."""
@@ -256,10 +281,10 @@ class Display:
         """Return what it shows now, for rays; only called while it is shown."""
         return PickGeometry()
 
-    def boxes(
+    def parts(
         self, of: Callable[[Selectable | None], bool]
-    ) -> Iterator[tuple[Selectable | None, Corners]]:
-        """Yield boxes around what it shows of some items, in the fixed frame.
+    ) -> Iterator[tuple[Selectable | None, Part]]:
+        """Yield what it shows of some items.
 
         Args:
             of: whether something is asked for; None is what cannot be selected.
@@ -273,6 +298,9 @@ class Display:
     def frames_moved(self, frames: Iterable[str]) -> None:
         """Some frames have a new pose in their parents; the nodes are moved already."""
         del frames
+
+    def time_passed(self) -> None:
+        """Look at the time; called twice a second where messages come."""
 
 
 def robot_displays(displays: Iterable[Display]) -> Iterator[RobotDisplay]:

@@ -26,7 +26,7 @@ class GroupDisplay(Display):
         """A group has no picture of its own."""
 
 
-REASON = "needs live ROS data, which this version does not receive"
+REASON = "draws sensor data, which this version does not do yet"
 
 NOT_SHOWN: dict[str, str] = {
     f"rviz_default_plugins/{name}": sentence

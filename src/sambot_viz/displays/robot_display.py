@@ -7,10 +7,10 @@ of that robot, and waits for mesh files; the rest of the program reaches these t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, TypeAlias
+from typing import Literal, Protocol, TypeAlias
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
@@ -20,18 +20,85 @@ ModelResult: TypeAlias = "Robot | RobotError"
 
 
 @dataclass(frozen=True, slots=True)
+class Description:
+    """What messages of a topic say of a robot.
+
+    Attributes:
+        topic: its name.
+        text: the URDF; None for the opened robot, and as long as there is none.
+        label: what problems name as its file.
+        is_opened: the robot is the one that was opened.
+        level: of the status of the topic.
+        sentence: why there is no robot, or what is doubtful, with the remedy.
+        instead: a topic to use in place of this one; empty when none is meant.
+    """
+
+    topic: str
+    text: str | None = None
+    label: str = ""
+    is_opened: bool = False
+    level: Literal["Ok", "Warn", "Error"] = "Ok"
+    sentence: str = "OK"
+    instead: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class WantedQos:
+    """The QoS that a display asks for, in RViz's words.
+
+    Attributes:
+        reliability: "Reliable", "Best Effort" or "System Default".
+        durability: "Transient Local", "Volatile" or "System Default".
+    """
+
+    reliability: str
+    durability: str
+
+
+class Descriptions(Protocol):
+    """The robots that the topics of a recording or of a live robot describe."""
+
+    def of(self, topic: str, qos: WantedQos) -> Description:
+        """Return what a topic says; displays draw again when that changes."""
+        ...
+
+    def topics(self) -> Sequence[str]:
+        """Return the topics that describe robots."""
+        ...
+
+    def transform_doubts(self) -> Mapping[str, str]:
+        """Return what is wrong with topics of transforms, by their names."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """A value that would make a status go away, for a button beside it.
+
+    Attributes:
+        label: of the button.
+        path: the property.
+        value: what to set it to.
+    """
+
+    label: str
+    path: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
 class ModelRequest:
     """A display's wish for a model to be read.
 
     Attributes:
         owner: the display; a new request replaces what it asked for before.
-        path: the file.
+        path: the file, or what a topic has sent instead.
         trusted: whether its code may run.
         done: takes the result; called in another thread.
     """
 
     owner: object
-    path: Path
+    path: Path | Description
     trusted: bool
     done: Callable[[ModelResult], None]
 
@@ -53,7 +120,7 @@ class RobotDisplay(Protocol):
 
     @property
     def own_robot(self) -> Robot | None:
-        """The robot that the display has read from a file; None for the opened one."""
+        """The robot of a file or a topic of the display; None for the opened one."""
         ...
 
     @property
@@ -80,6 +147,14 @@ class RobotDisplay(Protocol):
 
     def notes(self) -> Mapping[str, str]:
         """Return what is worth knowing about values, by paths of properties."""
+        ...
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return values that may be meant, by paths of properties."""
+        ...
+
+    def repairs(self) -> Mapping[str, Repair]:
+        """Return what would make a status go away, by keys of the status."""
         ...
 
     def assets_read(self) -> None:

@@ -12,9 +12,10 @@ import numpy.typing as npt
 from sambot_viz.displays.display import Display, DisplayContext
 from sambot_viz.displays.picking.pick_geometry import (
     Array,
-    Corners,
+    Part,
     PickBuffer,
     PickGeometry,
+    RayGrid,
     Selectable,
     TriangleMesh,
 )
@@ -49,6 +50,7 @@ class DrawnTriangles:
         item: what a click on them selects; None when that is nothing.
         solid: False for lines, which can be seen through.
         color: of its material, 0 to 255; None for what is no shape of a robot.
+        clear: whether what is behind them can be seen through them.
     """
 
     triangles: Triangles
@@ -57,6 +59,7 @@ class DrawnTriangles:
     item: Selectable | None = None
     solid: bool = True
     color: Rgb | None = None
+    clear: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,12 +71,14 @@ class PlacedMesh:
         mesh: the triangles.
         T: (4, 4) from them to the fixed frame; it may scale.
         color: as of `DrawnTriangles`.
+        clear: likewise.
     """
 
     item: Selectable | None
     mesh: TriangleMesh
     T: Matrix
     color: Rgb | None = None
+    clear: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +96,25 @@ class TriangleGeometry(PickGeometry):
         """The number of triangles."""
         return sum(len(placed.mesh.faces) for placed in self.placed)
 
+    @property
+    def clear(self) -> bool:
+        """Whether something can be seen through some of the meshes."""
+        return any(placed.clear for placed in self.placed)
+
+    def cut_off(self, pixels: RayGrid) -> Iterator[Selectable | None]:
+        """Yield the items with a mesh whose box lies beside the pixels in part."""
+        if not self.placed:
+            return
+        corners = pixels.seen(self._corners(), np.eye(4))
+        x, y, z = (corners[..., axis] for axis in range(3))
+        # A pixel reaches half its size beyond its ray.
+        right, bottom = pixels.columns - 0.5, pixels.rows - 0.5
+        inside = (z > 0.0) & (np.minimum(x, y) >= -0.5 * z)
+        inside &= (x <= right * z) & (y <= bottom * z)
+        for placed, corners_inside in zip(self.placed, inside, strict=True):
+            if not np.all(corners_inside):
+                yield placed.item
+
     def draw(self, buffer: PickBuffer) -> None:
         """Draw each mesh into the pixels that the box around it covers."""
         if not self.placed:
@@ -99,6 +123,8 @@ class TriangleGeometry(PickGeometry):
         boxes = covered(pixels, pixels.seen(self._corners(), np.eye(4)))
         for number, left, right, top, bottom in boxes:
             placed = self.placed[number]
+            if not buffer.takes(placed.clear):
+                continue
             part = pixels.part(left, top, right - left + 1, bottom - top + 1)
             near = nearness(part, placed.mesh, placed.T)
             buffer.cover(left, top, near, placed.item)
@@ -131,23 +157,31 @@ class TriangleDisplay(Display):
             del self._meshes[key]
         return TriangleGeometry(tuple(self._placed(shapes)))
 
-    def boxes(
+    def parts(
         self, of: Callable[[Selectable | None], bool]
-    ) -> Iterator[tuple[Selectable | None, Corners]]:
-        """Yield the box around each shape that belongs to some items."""
-        for one in self._placed(shape for shape in self.drawn() if of(shape.item)):
-            yield one.item, one.mesh.box(one.T)
+    ) -> Iterator[tuple[Selectable | None, Part]]:
+        """Yield the shapes that belong to some items."""
+        shapes = (shape for shape in self.drawn() if of(shape.item))
+        for shape, T_fixed_frame in self._with_poses(shapes):
+            mesh = self._mesh(shape.triangles)
+            yield shape.item, Part(mesh, T_fixed_frame, shape.T_frame_shape)
 
     def _placed(self, shapes: Iterable[DrawnTriangles]) -> Iterator[PlacedMesh]:
+        for shape, T_fixed_frame in self._with_poses(shapes):
+            T = T_fixed_frame @ shape.T_frame_shape
+            mesh = self._mesh(shape.triangles)
+            yield PlacedMesh(shape.item, mesh, T, shape.color, shape.clear)
+
+    def _with_poses(
+        self, shapes: Iterable[DrawnTriangles]
+    ) -> Iterator[tuple[DrawnTriangles, Matrix]]:
         poses: dict[str | None, Matrix | None] = {}
         for shape in shapes:
             if shape.frame not in poses:
                 poses[shape.frame] = self.context.pose(shape.frame)
             T_fixed_frame = poses[shape.frame]
             if T_fixed_frame is not None:
-                T = T_fixed_frame @ shape.T_frame_shape
-                mesh = self._mesh(shape.triangles)
-                yield PlacedMesh(shape.item, mesh, T, shape.color)
+                yield shape, T_fixed_frame
 
     def _mesh(self, triangles: Triangles) -> TriangleMesh:
         """Return the same triangles with what is computed of them once."""

@@ -29,6 +29,7 @@ from sambot_viz.session.robot.motion_recorder import MotionSample, Past
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
+from sambot_viz.views.view import View
 
 Motion = Literal["sweep", "past", "none", "recording"]
 REST = 0.5
@@ -57,24 +58,26 @@ class ViewState:
         size: width and height of the picture [pixels]; in a narrower one the camera
             is farther away.
         mouse: what the page has to know of the view (see `mouse_facts`).
+        target: the frame that the view follows, or that which all is drawn in.
     """
 
     camera: Camera
     size: Size
     mouse: Mapping[str, Any]
+    target: str
 
     @classmethod
     def of(cls, client: Client) -> ViewState:
         """Return the view of a client now."""
         view, size = client.view, window_of(client.client)
-        return cls(view.camera, size, mouse_facts(view.view))
+        return cls(view.camera, size, mouse_facts(view.view), _target(view.view))
 
     @classmethod
     def at_first(cls, first: DocumentView, has_robot: bool) -> ViewState:
         """Return the view of a page that was just opened."""
         view = first.view
         if view.gives_nearness or not has_robot:
-            return cls(first.camera, USUAL_SIZE, mouse_facts(view))
+            return cls(first.camera, USUAL_SIZE, mouse_facts(view), _target(view))
         width, height = USUAL_SIZE
         camera = first.camera_on_robot(width, height)
         # How narrow a picture may be until the robot is cut at its sides.
@@ -83,7 +86,11 @@ class ViewState:
             if nearer.distance > camera.distance + 1e-6:
                 break
             width -= STEP
-        return cls(camera, (width, height), mouse_facts(view))
+        return cls(camera, (width, height), mouse_facts(view), _target(view))
+
+
+def _target(view: View) -> str:
+    return str(view.config.get("Target Frame"))
 
 
 def page_file(
@@ -109,19 +116,20 @@ def page_file(
     elif motion == "past" and past is not None:
         before, since = past
         scene, steps = scene.before(before), lambda joints: _with_rest(since)
-    first, tracks, duration = recorded(
-        scene, view.camera, view.size[1], steps, _played(scene, motion)
+    made = recorded(
+        scene, view.camera, view.size[1], steps, _played(scene, motion), view.target
     )
     robot = "no robot" if scene.robot is None else scene.robot.name
     title = text(robot, LONGEST_NAME) or "robot"
     about = {
         "title": title,
-        "duration": duration,
+        "duration": made.duration,
         "size": view.size,
         "view": dict(view.mouse),
+        "way": made.way,
     }
     return page.standing_alone(
-        page_of_viser(), title, first, about, tracks.packed(), look
+        page_of_viser(), title, made.first, about, made.tracks.packed(), look
     )
 
 

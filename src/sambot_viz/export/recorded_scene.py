@@ -11,7 +11,7 @@ import gzip
 import json
 import threading
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -25,7 +25,7 @@ from sambot_viz.session.robot.drive import ODOM
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Action, Worker
-from sambot_viz.views.camera import Camera
+from sambot_viz.views.camera import Camera, Vector
 from sambot_viz.viser_private import Recorder
 
 PERIOD = 1.0 / 30.0
@@ -34,13 +34,32 @@ LONGEST_READ = 30.0
 """A robot of a display's own file gets this long to be read [s]."""
 
 
+@dataclass(frozen=True, slots=True)
+class MadeScene:
+    """A first picture, and what changes afterwards.
+
+    Attributes:
+        first: the first picture as viser's page reads it.
+        tracks: all that changes.
+        duration: how long the motion is [s].
+        way: of the camera, with the frame that the view follows: time [ms], x, y and z
+            of that frame in the fixed frame [m]; the last one before a time holds.
+    """
+
+    first: bytes
+    tracks: Tracks
+    duration: float
+    way: Sequence[Sequence[float]] = ()
+
+
 def recorded(
     scene: SessionCopy,
     camera: Camera,
     height: int,
     motion: Callable[[JointState], Iterable[MotionSample]],
     played: tuple[int, int] | None = None,
-) -> tuple[bytes, Tracks, float]:
+    target: str = "",
+) -> MadeScene:
     """Draw what was shown, then move it.
 
     Args:
@@ -50,18 +69,20 @@ def recorded(
         motion: what is to move, given the joints where they are.
         played: the log times of a recording between which it moves the robot [ns],
             instead of the motion.
-
-    Returns:
-        The first picture as viser's page reads it, all that changes afterwards, and
-        how long the motion is [s].
+        target: the frame that the view follows while a recording is played; "" for
+            none.
     """
     recorder, tracks = Recorder(height), Tracks()
     recorder.listen(tracks.take)
     prepare_scene(recorder.scene)
     session = _drawn(scene, recorder)
     player = None if session.data is None else session.data.player
+    way = _FollowedFrame(session, target)
     if played is not None and player is not None:
+        before = way.place()
         player.jump(played[0])
+        camera = _moved(camera, before, way.place())
+        way.note(0.0)
     ClientCamera(cast(Any, recorder)).point(camera)
     first = recorder.bytes()
     duration = 0.0
@@ -70,6 +91,7 @@ def recorded(
             left = (played[1] - player.time_ns) * 1e-9
             tracks.time = duration = duration + min(PERIOD, left)
             player.advance(min(PERIOD, left))
+            way.note(duration)
     elif session.robot.joints is not None:
         if session.data is not None:
             session.data.follow(False)
@@ -79,7 +101,38 @@ def recorded(
             session.robot.move(step.positions, there)
             session.robot.draw_moved()
     session.close()
-    return first, tracks, duration
+    return MadeScene(first, tracks, duration, way.steps if len(way.steps) > 1 else ())
+
+
+class _FollowedFrame:
+    """Notes where the frame is that a view follows."""
+
+    def __init__(self, session: Session, target: str) -> None:
+        self.steps: list[list[float]] = []
+        self._context = session.scene.context
+        self._target = self._context.frame(target) if target else None
+
+    def place(self) -> Vector | None:
+        """Return where it is in the fixed frame [m]; None while it has no place."""
+        T = self._context.pose(self._target)
+        return None if T is None else T[:3, 3]
+
+    def note(self, time: float) -> None:
+        """Note where it is at a time [s], if it has moved."""
+        place = self.place()
+        if place is None:
+            return
+        rounded = [round(float(part), 4) for part in place]
+        if not self.steps or self.steps[-1][1:] != rounded:
+            self.steps.append([round(1000 * time), *rounded])
+
+
+def _moved(camera: Camera, before: Vector | None, after: Vector | None) -> Camera:
+    """Return a camera that has gone as far as the frame that it follows."""
+    if before is None or after is None:
+        return camera
+    by = after - before
+    return replace(camera, position=camera.position + by, look_at=camera.look_at + by)
 
 
 def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:

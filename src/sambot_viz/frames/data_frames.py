@@ -6,12 +6,14 @@ frame is now, so that it can be drawn.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
+from contextlib import suppress
 
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import FrameTree
-from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
 from sambot_viz.frames.history import transform_of
+from sambot_viz.frames.samples import Sample
 from sambot_viz.robot.model import Robot
 
 
@@ -23,9 +25,11 @@ class DataFrames:
             session that owns it holds the lock.
 
     Attributes:
+        tree: as given.
         changed: the frames that were told of since it was called last.
         waiting: whether there may be some.
         pairs: gives the (parent, child) that messages are known to join.
+        ahead: gives the first sample of each frame whose messages are still to come.
         refused: frame → why it cannot be set, such as a ring.
     """
 
@@ -35,8 +39,9 @@ class DataFrames:
         self.pairs: Callable[[], Iterable[tuple[str, str]]] = tuple[
             tuple[str, str], ...
         ]
+        self.ahead: Callable[[], Mapping[str, Sample]] = dict[str, Sample]
         self.refused: dict[str, str] = {}
-        self._tree = tree
+        self.tree = tree
         self._history = tree.history
         self._left_out = frozenset[str]()
         self._known: dict[str, None] = {}
@@ -55,9 +60,10 @@ class DataFrames:
         The tree is to be built again. Frames are then looked up where they are now, and
         at no other time. None ends it.
         """
-        joints = () if robot is None else robot.joints.values()
-        self._left_out = frozenset(plain_name(joint.child) for joint in joints)
-        self._tree.history = self._history if robot is None else None
+        prefix = "" if robot is None else self.prefix_of(robot)
+        joints = () if robot is None else joints_of(robot)
+        self._left_out = frozenset(prefix + child for _, child in joints)
+        self.tree.history = self._history if robot is None else None
         for frame in self._left_out:
             self._known.pop(frame, None)
 
@@ -75,19 +81,29 @@ class DataFrames:
     def set_again(self) -> None:
         """Set all of them in a tree that was cleared.
 
-        Frames that have no place at present are known all the same, as in tf2.
+        Frames that have no place at present are known all the same, as in tf2. Those
+        whose first message is still to come are drawn where that has them.
         """
         for frame in self._history.frames if self._history is not None else ():
-            self._tree.declare(frame)
+            self.tree.declare(frame)
         self._set(tuple(self._known))
+        # Without a history a look-up would take them for known.
+        ahead = dict[str, Sample]() if self.tree.history is None else self.ahead()
+        for child, first in ahead.items():
+            with suppress(FrameError):
+                self.tree.set_ahead(first.parent, child, transform_of(first.pose))
 
     def places_links(self, robot: Robot) -> bool:
         """Return whether messages say where the links of a robot are."""
         if self._left_out:
             return False
-        joints = robot.joints.values()
-        pairs = {(plain_name(j.parent), plain_name(j.child)) for j in joints}
-        return not pairs.isdisjoint(self.pairs())
+        if not frozenset(joints_of(robot)).isdisjoint(self.pairs()):
+            return True
+        return bool(self.prefix_of(robot))
+
+    def prefix_of(self, robot: Robot) -> str:
+        """Return what messages put before the links of a robot, such as "robot1/"."""
+        return frame_prefix(joints_of(robot), self.pairs())
 
     def after_jump(self) -> bool:
         """Return whether frames have gone that were there before a jump in time."""
@@ -100,7 +116,7 @@ class DataFrames:
         return bool(gone)
 
     def _set(self, frames: Collection[str]) -> None:
-        history, tree = self._history, self._tree
+        history, tree = self._history, self.tree
         if history is None:
             return
         for child in frames:

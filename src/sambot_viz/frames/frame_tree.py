@@ -75,6 +75,9 @@ class FrameTree(FrameHierarchy):
         version: grows when a frame of the tree appears, disappears or gets another
             parent.
         history: as given; None for a robot that only sliders move.
+
+    Frames may be set ahead of their first message, so that a picture of the very start
+    of a recording is whole. Look-ups know nothing of them.
     """
 
     def __init__(self, history: FrameHistory | None = None) -> None:
@@ -82,6 +85,7 @@ class FrameTree(FrameHierarchy):
         self.history = history
         # The answers since the last change: asking twice costs once.
         self._seen: dict[tuple[str, str], Transform] = {}
+        self._ahead: set[str] = set()
 
     # Setting
 
@@ -99,7 +103,7 @@ class FrameTree(FrameHierarchy):
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, True, 0.0
-        self._seen.clear()
+        self._arrived(edge)
 
     def set(
         self, parent: str, child: str, transform: Transform, stamp: float = 0.0
@@ -118,7 +122,25 @@ class FrameTree(FrameHierarchy):
         """
         edge = self._edge_for(parent, child)
         edge.transform, edge.static, edge.stamp = transform, False, stamp
-        self._seen.clear()
+        self._arrived(edge)
+
+    def set_ahead(self, parent: str, child: str, transform: Transform) -> None:
+        """Set where a frame will be first, to be drawn there until it is set.
+
+        Args:
+            parent: the frame in which the pose is given.
+            child: the frame whose pose it is; one that has a parent stays where it is.
+            transform: T_parent_child.
+
+        Raises:
+            TransformRefused: an empty name, or parent and child are the same.
+            FrameCycleError: the parent is a descendant of the child.
+        """
+        if self.parent(child) is None:
+            edge = self._edge_for(parent, child)
+            edge.transform = transform
+            self._ahead.add(edge.child)
+            self._seen.clear()
 
     def update(self, transforms: Mapping[str, Matrix], stamp: float = 0.0) -> None:
         """Set new values of transforms that exist already: the fast way for joints.
@@ -157,6 +179,7 @@ class FrameTree(FrameHierarchy):
         """
         edge = self._edge_of(child)
         self._detach(edge)
+        self._ahead.discard(edge.child)
         self._seen.clear()
 
     def clear(self) -> None:
@@ -164,6 +187,7 @@ class FrameTree(FrameHierarchy):
         self._edges.clear()
         self._children.clear()
         self._declared.clear()
+        self._ahead.clear()
         self._restructured()
         self._seen.clear()
 
@@ -214,6 +238,32 @@ class FrameTree(FrameHierarchy):
             return False
         return True
 
+    def is_ahead(self, frame: str) -> bool:
+        """Return whether a frame is only drawn where it will be first."""
+        return plain_name(frame) in self._ahead
+
+    def drawn(self, target: str, source: str) -> Transform:
+        """Return T_target_source as it is drawn, with frames that are set ahead.
+
+        Raises:
+            LookupRefused: as `lookup`.
+        """
+        if self._ahead:
+            return self._look(target, source)
+        return self.lookup(target, source)
+
+    def root_of(self, frame: str) -> str:
+        """Return the root of the tree of a frame, without what is set ahead.
+
+        Raises:
+            LookupRefused: the frame does not exist.
+        """
+        name = plain_name(frame)
+        self._require(name, name)
+        while name in self._edges and name not in self._ahead:
+            name = self._edges[name].parent
+        return name
+
     def latest_common_time(self, target: str, source: str) -> float:
         """Return the oldest of the latest stamps of a chain [s]; 0.0 for static ones.
 
@@ -237,7 +287,7 @@ class FrameTree(FrameHierarchy):
     def held(self, child: str) -> Sample | None:
         """Return where a frame of the tree is now; None for a root."""
         edge = self._edges.get(plain_name(child))
-        if edge is None:
+        if edge is None or edge.child in self._ahead:
             return None
         x, y, z = edge.transform.translation.tolist()
         qx, qy, qz, qw = edge.transform.rotation_xyzw.tolist()
@@ -245,6 +295,13 @@ class FrameTree(FrameHierarchy):
         return Sample(stamp, edge.parent, ((x, y, z), (qx, qy, qz, qw)))
 
     # Inside
+
+    def _arrived(self, edge: Edge) -> None:
+        self._seen.clear()
+        if edge.child in self._ahead:
+            self._ahead.remove(edge.child)
+            # What is said of the frame is otherwise now.
+            self._restructured()
 
     def _look(self, target: str, source: str) -> Transform:
         below, above = self._path(target, source)

@@ -82,18 +82,6 @@ class FrameHierarchy:
         """Return the children of a frame in the order in which they became known."""
         return tuple(self._children.get(plain_name(frame), ()))
 
-    def root_of(self, frame: str) -> str:
-        """Return the root of the tree that a frame belongs to.
-
-        Raises:
-            LookupRefused: the frame does not exist.
-        """
-        name = plain_name(frame)
-        self._require(name, name)
-        while name in self._edges:
-            name = self._edges[name].parent
-        return name
-
     def _edge_for(self, parent: str, child: str) -> Edge:
         parent, child = plain_name(parent), plain_name(child)
         edge = self._edges.get(child)

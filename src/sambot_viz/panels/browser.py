@@ -22,6 +22,9 @@ from sambot_viz.panels.undo import UndoPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.text import capitalized
 
 
 class BrowserPanels:
@@ -76,10 +79,14 @@ class BrowserPanels:
         views = ViewsPanel(client, document, scene, clients, roles, history, self.say)
         data = session.data
         topics: list[Panel] = []
-        if data is not None and data.topics is not None and data.player is not None:
-            topics.append(TopicsPanel(data.topics, data.player, scene, remake))
+        if data is not None:
+            topics.append(TopicsPanel(data.topics, scene, remake))
+        person = roles.people.get(client.client_id)
+        presents = roles.presented and person is not None and person.presenter
+        paths = [PathsPanel(displays, document, scene)] if presents else []
         return [
             *topics,
+            *paths,
             OwnRolePanel(roles, client.client_id, self.say),
             ToolsPanel(client, scene, clients, robot),
             UndoPanel(client.client_id, history, document, displays, roles),
@@ -134,7 +141,7 @@ class BrowserPanels:
         sentences, but for those that begin with a name.
         """
         begin = re.match(r"[a-z]+[ ,]", sentence)
-        said = sentence[:1].upper() + sentence[1:] if begin else sentence
+        said = capitalized(sentence) if begin else sentence
         self._notices.say(said, "error", item_id)
         self._remake(self._notices)
 
@@ -142,6 +149,27 @@ class BrowserPanels:
         """Say something to the browser's user, and fill the clipboard."""
         self._notices.say(answer.say, answer.level, copy=answer.copy)
         self._remake(self._notices)
+
+
+class PathsPanel(Panel):
+    """The paths of which viewers see only the last part, for a presenter.
+
+    Args:
+        displays: the rows of the displays, for everyone.
+    """
+
+    name = "paths"
+
+    def __init__(
+        self, displays: DisplaysPanel, document: ShownDocument, scene: Scene
+    ) -> None:
+        facts = (document.replaced, document.displays, document.values)
+        self.remade_by = (*facts, scene.statuses)
+        self._displays = displays
+
+    def data(self) -> Sequence[Data]:
+        """Return the texts of the rows of displays, by their ids."""
+        return [Data("displays/paths", {**self._displays.whole_texts()})]
 
 
 class NoticePanel(Panel):

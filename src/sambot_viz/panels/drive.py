@@ -34,7 +34,7 @@ class DrivePanel(Panel):
     """Drives a robot with two wheels; without them the panel is empty.
 
     Args:
-        follow_view: shows the motion, and puts the view back at Reset.
+        follow_view: shows the motion, and puts the view back at Back to start.
     """
 
     name = "drive"

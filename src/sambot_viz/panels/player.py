@@ -13,6 +13,7 @@ from sambot_viz.session.signals import Signal
 
 PERIOD = 1.0
 """A playing page goes on by itself; it is told the time this often [s]."""
+TIME, PLAYING = "player/time", "player/playing"
 ANY = "any"
 """Instead of a topic: messages of all topics that are shown."""
 
@@ -53,11 +54,11 @@ class PlayerPanel(Panel):
     def rows(self) -> Sequence[Row]:
         """Return what can be set: the time from the begin [s], playing, rate, loop."""
         player, playback = self._player, self._player.playback.value
-        duration = (player.end_ns - player.start_ns) * 1e-9
+        duration = (player.end_ns - player.start_ns) / 1e9
         topics = [ANY, *sorted(player.recording.topics)[:MOST_TOPICS]]
         return [
             Row(
-                "player/time",
+                TIME,
                 "",
                 "slider",
                 "Time",
@@ -69,7 +70,7 @@ class PlayerPanel(Panel):
                 set=self._jump,
             ),
             Row(
-                "player/playing",
+                PLAYING,
                 "",
                 "bool",
                 "Playing",
@@ -115,10 +116,11 @@ class PlayerPanel(Panel):
 
     def values(self) -> dict[str, Any]:
         """Return the time."""
-        return {"player/time": self._time()}
+        return {TIME: self._time()}
 
     def _time(self) -> float:
-        return round((self._player.time_ns - self._player.start_ns) * 1e-9, 4)
+        # As exact as it was set, for permalinks of single messages.
+        return (self._player.time_ns - self._player.start_ns) / 1e9
 
     # What a hand does
 

@@ -65,7 +65,7 @@ class ProblemsPanel(Panel):
         made = [*([banner] if note else ()), *self._group_rows(groups)]
         if self._folders:
             return made
-        return [replace(row, value=_without_folders(row.value)) for row in made]
+        return [replace(row, value=without_folders(row.value)) for row in made]
 
     def data(self) -> Sequence[Data]:
         """Return how many causes there are of each severity."""
@@ -132,11 +132,11 @@ def place_of(problem: Problem) -> str:
     return name if problem.line is None else f"{name}:{problem.line}"
 
 
-def _without_folders(value: Json) -> Json:
+def without_folders(value: Json) -> Json:
     """Leave out the folders of this computer in a sentence, or in lines of a file."""
     if isinstance(value, list):
         return [
-            (number, _without_folders(line))
+            (number, without_folders(line))
             for number, line in cast("list[tuple[int, str]]", value)
         ]
     if not isinstance(value, str):

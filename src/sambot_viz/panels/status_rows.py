@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from sambot_viz.displays.display import Display
+from sambot_viz.displays.robot_display import Repair
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.panels.problems import place_of, rows_by_place
 from sambot_viz.panels.row import Json, Level, Row
@@ -15,6 +16,8 @@ from sambot_viz.session.scene.scene import Scene
 
 LEVELS: dict[str, Level] = {"Ok": "ok", "Warn": "warn", "Error": "error"}
 MOST_NAMES = 12
+FEW_FRAMES = 4
+"""A wall of names would hide what follows it; the field of the frame lists them all."""
 FIXED_FRAME = "options/Fixed Frame"
 """The id of the row that sets it."""
 _STATUS, _TRANSFORM = "status", "Transform"
@@ -85,11 +88,15 @@ def status_rows(
     if own_robot is None and status.level != "Ok":
         yield from _why_no_robot(mistakes, row_id, rows)
     frame = _other_frame(display, parent, scene)
+    robot_display = display.robot_display
+    repairs = robot_display.repairs() if robot_display else dict[str, Repair]()
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]
         extra = None
         if row.level != "Ok":
             extra = frame if key == _TRANSFORM else _lines_of(row.text, rows)
+            if key in repairs:
+                extra = _button(repairs[key], parent)
         yield Row(
             f"{row_id}/{key}", row_id, "status", key, row.text, level=level, extra=extra
         )
@@ -135,7 +142,8 @@ def fixed_frame_missing(scene: Scene) -> str:
     fixed, frames = scene.context.fixed_frame, scene.context.tree.frames
     if fixed in frames or not frames:
         return ""
-    return f"Frame [{fixed}] does not exist. There are: {listed(sorted(frames))}"
+    names = listed(sorted(frames), FEW_FRAMES)
+    return f"Frame [{fixed}] does not exist. There are: {names}"
 
 
 def _other_fixed_frame(scene: Scene) -> dict[str, Json]:
@@ -177,6 +185,11 @@ def use_other_frame(
     if frame in (other, scene.context.fixed_frame) or frame in frames:
         return None
     return _use(_nearest(frame, scene) or other, row_id)
+
+
+def _button(repair: Repair, parent: str) -> dict[str, Json]:
+    row_id = f"{parent}/{repair.path}"
+    return {"repair": [repair.label, row_id, repair.value]}
 
 
 def _nearest(frame: str, scene: Scene) -> str | None:

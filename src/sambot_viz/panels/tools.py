@@ -75,7 +75,10 @@ class ToolsPanel(Panel):
             "key": tool.key.lower(),
             "help": tool.help,
             "current": current,
+            "first": tool is self._client.tools.default,
             "hover": current and tool.wants_hover,
+            "clicks": tool.clicks,
+            "rectangles": tool.rectangles,
         }
 
     def _kind(self, label: str) -> str:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 from sambot_viz.errors import Severity
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json, Level, Row
-from sambot_viz.session.data.player import Player
+from sambot_viz.session.data.live_topics import LiveTopics
 from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal
+from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.report import TopicStatus
@@ -25,14 +26,13 @@ _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "
 
 
 class TopicsPanel(Panel):
-    """The topics of a recording that a search finds, and what is wrong with them.
+    """The topics that a search finds, and what is wrong with them.
 
     Nothing is looked at before somebody opens the panel, and no age while it is not on
     the screen.
 
     Args:
         topics: what is shown.
-        player: its time is that of the ages.
         scene: has the displays that draw topics.
         remake: called when other topics are shown.
     """
@@ -42,23 +42,22 @@ class TopicsPanel(Panel):
 
     def __init__(
         self,
-        topics: RecordedTopics,
-        player: Player,
+        topics: RecordedTopics | LiveTopics,
         scene: Scene,
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (topics.looked, player.playback, scene.statuses)
+        self.remade_by = (*topics.remade_by, scene.statuses)
         self._topics = topics
-        self._player = player
         self._scene = scene
         self._remake = remake
         self._shown = False
         self._words = ""
+        self._chosen = ""
         self._names: list[str] = []
         self._next = 0
-        # What stands beside the names, until it is their turn again.
+        # What stands beside the names, and their numbers, until it is their turn again.
         self._beside: dict[str, str] = {}
-        self._begins: list[int] = []
+        self._counts: dict[str, str] = {}
         self._rows: Sequence[Row] = (
             Row("topics/wait", "", "note", value="Looking at the messages …"),
         )
@@ -66,8 +65,7 @@ class TopicsPanel(Panel):
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
         """The time, while the panel is on the screen."""
-        player = self._player
-        return (player.stepped, player.playback) if self._shown else ()
+        return self._topics.moved_by if self._shown else ()
 
     def rows(self) -> Sequence[Row]:
         """Return a row for each topic, and below it what is to be said."""
@@ -82,17 +80,25 @@ class TopicsPanel(Panel):
     def values(self) -> dict[str, Json]:
         """Return what some topics show beside their names; the others have their turn.
 
-        The ages come from the index, nothing is decoded.
+        The ages come from an index, or from when messages came: nothing is decoded.
         """
         if not self._shown or not self._names:
             return {}
         first, self._next = self._next, (self._next + AGES) % len(self._names)
         names = (self._names * 2)[first : first + min(AGES, len(self._names))]
-        self._beside.update((name, self._rate_and_age(name)) for name in names)
-        if any(begin <= self._player.time_ns for begin in self._begins):
-            # What was not there yet has come.
-            self._remake(self)
-        return {_row_id(name): self._beside[name] for name in names}
+        self._measure(names)
+        counts: dict[str, Json] = {_count_id(n): self._counts[n] for n in names}
+        return counts | {_row_id(name): self._beside[name] for name in names}
+
+    def close(self) -> None:
+        """Look at nothing more."""
+        self._topics.follow(self, None)
+
+    def _measure(self, names: Iterable[str]) -> None:
+        for name in names:
+            self._beside[name] = self._rate_and_age(name)
+            count = self._topics.count(name)
+            self._counts[name] = "not known yet" if count is None else f"{count:,}"
 
     def _made(self) -> Iterator[Row]:
         words = self._words.lower().split()
@@ -103,27 +109,24 @@ class TopicsPanel(Panel):
         ]
         if self._names != found[:MOST_SHOWN]:
             self._names, self._next = found[:MOST_SHOWN], 0
-            first = self._names[:AGES]
-            self._beside = {name: self._rate_and_age(name) for name in first}
-        self._begins = []
+            self._beside.clear()
+            self._counts.clear()
+            self._topics.follow(self, self._names, self._chosen)
+            self._measure(self._names[:AGES])
         for name in self._names:
             yield from self._rows_of(name)
         if len(found) > MOST_SHOWN:
             more = f"{len(found) - MOST_SHOWN:,} more: use the search"
             yield Row("topics/more", "", "note", value=more)
         elif not found:
-            none = "No name has this in it" if words else "The recording has no topic"
+            none = "No name has this in it" if words else self._topics.nothing
             yield Row("topics/none", "", "note", value=none)
 
     def _rows_of(self, name: str) -> Iterator[Row]:
         row_id = _row_id(name)
-        at_ns = self._player.time_ns
-        status = self._topics.report.status(name, at_ns, ages=False)
+        status = self._topics.status(name)
         display = reasons.display_of(name, status.type_name)
-        reason = status.reason or self._of_displays(display)
-        begin = self._topics.report.first_ns(name)
-        if reason is not None and reason.code == "not-here-yet" and begin is not None:
-            self._begins.append(begin)
+        reason = status.reason or self._of_displays(status, display)
         level = None if reason is None else _LEVELS[reason.severity]
         yield Row(
             row_id,
@@ -136,12 +139,25 @@ class TopicsPanel(Panel):
             extra={"display": display} if display else None,
         )
         if reason is not None:
-            text = f"{reason.text[:1].upper()}{reason.text[1:]}."
+            text = f"{capitalized(reason.text)}."
             yield Row(f"{row_id}/reason", row_id, "note", value=text, level=level)
-        yield from _facts(row_id, status)
+        yield from self._facts(status)
 
-    def _of_displays(self, kind: str | None) -> TopicReason | None:
+    def _facts(self, status: TopicStatus) -> Iterator[Row]:
+        """Yield the type and the number of the messages, and what else is known."""
+        name, row_id = status.name, _row_id(status.name)
+        kind = status.type_name or "not known"
+        yield Row(f"{row_id}/type", row_id, "readonly", "Type", value=kind)
+        count = self._counts.get(name, "not known yet")
+        yield Row(_count_id(name), row_id, "readonly", "Messages", value=count)
+        for label, words in self._topics.facts(name).items():
+            fact_id = f"{row_id}/{label.lower()}"
+            yield Row(fact_id, row_id, "readonly", label, value=words)
+
+    def _of_displays(self, status: TopicStatus, kind: str | None) -> TopicReason | None:
         """Say that what draws a topic is not there, or off."""
+        if kind is None and status.readable:
+            return reasons.no_display(status.type_name, ())
         drawn = [d.config for d in self._scene.displays if d.config.kind == kind]
         if kind is None or any(config.enabled for config in drawn):
             return None
@@ -151,11 +167,10 @@ class TopicsPanel(Panel):
         return TopicReason("no-display", f"no display {short} is there: add one")
 
     def _rate_and_age(self, name: str) -> str:
-        report, now = self._topics.report, self._player.time_ns
-        rate, last = report.rate(name), report.last_ns(name, now)
+        rate, age = self._topics.rate(name), self._topics.age(name)
         parts = [] if rate is None else [f"{rate:.3g} Hz"]
-        if last is not None:
-            parts.append(f"{max(0, now - last) * 1e-9:.1f} s ago")
+        if age is not None:
+            parts.append(f"{age:.1f} s ago")
         return ", ".join(parts)
 
     # What the page asks for
@@ -165,7 +180,7 @@ class TopicsPanel(Panel):
         """Follow the time, or do not: the panel is on the screen, or is not."""
         if self._shown != shown:
             self._shown = shown
-            self._topics.begin()
+            self._topics.follow(self, self._names if shown else None, self._chosen)
             self._remake(self)
 
     @command("topics/find", TEXT, client_local=True)
@@ -174,14 +189,19 @@ class TopicsPanel(Panel):
         self._words = words
         self._remake(self)
 
+    @command("topics/choose", TEXT, client_local=True)
+    def _choose(self, name: str) -> None:
+        """Listen to one topic though its messages are large; "" for none."""
+        if self._chosen != name:
+            self._chosen = name
+            if self._shown:
+                self._topics.follow(self, self._names, name)
+                self._remake(self)
+
 
 def _row_id(name: str) -> str:
     return f"topic:{name}"
 
 
-def _facts(row_id: str, status: TopicStatus) -> Iterator[Row]:
-    """Yield the type of the messages, and how many there are."""
-    kind = status.type_name or "not in the file"
-    yield Row(f"{row_id}/type", row_id, "readonly", "Type", value=kind)
-    count = "not known yet" if status.count is None else f"{status.count:,}"
-    yield Row(f"{row_id}/count", row_id, "readonly", "Messages", value=count)
+def _count_id(name: str) -> str:
+    return f"topic:{name}/count"

@@ -25,7 +25,7 @@ from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.panels.source import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.data.robot_data import LiveData
+from sambot_viz.session.data.live_data import LiveData
 from sambot_viz.session.scene.joint_arrow import JointArrow
 
 _NUMBERS = ("int", "float", "slider")
@@ -55,6 +55,8 @@ class Window:
         self._ask_page = ask_page
         self._invite = invite
         self._browsers: dict[int, BrowserPanels] = {}
+        # Others than those at the disk of the server see only the names of its files.
+        self._folders = files is not None and not session.roles.presented
         self._displays = DisplaysPanel(
             session.document,
             session.display_edits,
@@ -62,6 +64,7 @@ class Window:
             session.robot,
             session.problems,
             self._remake,
+            self._folders,
         )
         self._shared = RowSync(session.worker, self._panels(joints), "session")
         session.problems.tell_client = self._tell_error
@@ -73,20 +76,19 @@ class Window:
         session, remake = self._session, self._remake
         robot, scene, history = session.robot, session.scene, session.history
         is_copy = session.private and session.options.session == "shared"
-        folders = self._files is not None and not session.roles.presented
         panels: list[Panel] = [
             SessionInfoPanel(session.document, scene, session.private),
             StatusBarPanel(scene),
             PeoplePanel(session.roles, is_copy),
             self._displays,
-            ProblemsPanel(session.problems, remake, folders),
+            ProblemsPanel(session.problems, remake, self._folders),
             DisplayCommands(session.display_edits, self._displays, remake),
         ]
         data = session.data
         if data is not None and data.player is not None:
             panels.append(PlayerPanel(data.player, data.name))
         if isinstance(data, LiveData):
-            panels.append(SourcePanel(data))
+            panels.append(SourcePanel(data, not session.private))
         if joints:
             arrow = JointArrow(scene, session.worker)
             panels += [

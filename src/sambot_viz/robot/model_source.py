@@ -58,28 +58,47 @@ class OpenedModel:
     document: Element
 
 
-def open_model(model: PathLike, label: str | None = None) -> OpenedModel:
+def open_model(model: PathLike) -> OpenedModel:
     """Read the text of a model as XML, for `load_robot`.
 
     Args:
         model: the file, or the XML text itself.
-        label: what problems call a text; by default `TEXT_LABEL`.
 
     Raises:
         RobotError: it cannot be read, or it is not well-formed.
     """
-    given, label = label, os.fspath(model)
     try:
-        source = read_source(model)
-        if given is not None:
-            source = replace(source, label=given)
-        label = source.label
-        return OpenedModel(source, parse_xml(source.text, label))
+        return _parsed(read_source(model))
     except XmlFault as fault:
-        # Only a model that is not XML needs the rules that explain why.
-        from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+        raise _explained(fault, os.fspath(model)) from None
 
-        raise RobotError(explain_xml(fault.text, label, fault)) from None
+
+def open_text(text: str, label: str) -> OpenedModel:
+    """Read a text that others have sent as XML; it is never the name of a file.
+
+    Args:
+        text: the model.
+        label: what problems call it.
+
+    Raises:
+        RobotError: it is not well-formed.
+    """
+    return _parsed(replace(_with_good_prolog(TEXT_LABEL, text, None), label=label))
+
+
+def _parsed(source: ModelSource) -> OpenedModel:
+    try:
+        return OpenedModel(source, parse_xml(source.text, source.label))
+    except XmlFault as fault:
+        raise _explained(fault, source.label) from None
+
+
+def _explained(fault: XmlFault, label: str) -> RobotError:
+    """Return what is wrong with a text that is not XML."""
+    # Only a model that is not XML needs the rules that explain why.
+    from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+
+    return RobotError(explain_xml(fault.text, label, fault))
 
 
 def read_source(model: PathLike) -> ModelSource:

@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import re
 import tempfile
 import threading
 from collections.abc import Callable
-from concurrent.futures import Future, wait
-from dataclasses import replace
 from pathlib import Path
 
-from sambot_viz.errors import Problem, RobotError, SourceError
-from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.model_source import OpenedModel, open_model
+from sambot_viz.robot.model_source import OpenedModel, open_text
+from sambot_viz.topics.live_files import fetch_files
 from sambot_viz.topics.live_robot import LiveRobot
 
 FRAMES_WITHIN = 2.0
 """The fixed frame is chosen when transforms hold the robot, or after this time [s]."""
-FILES_WITHIN = 60.0
-"""All files of a robot are to be there after this time [s]."""
-MOST_FILES = 500
-_FILE = re.compile(r"""filename\s*=\s*["'](package://([^"'/]+)/([^"']+))["']""")
 
 Load = Callable[[OpenedModel, Path], Robot]
 """Load a model, with a folder of packages of its own."""
@@ -36,7 +29,9 @@ class LiveModel:
     Args:
         live: the robot.
         load: loads it; called in a thread.
-        show: shows it with the frame at its top, and problems of its files.
+        show: shows it with the frame of its root link, the one at the top, and
+            problems of its files; None where another robot was opened, and only
+            displays ask for this one.
         refuse: shows why it cannot be shown.
     """
 
@@ -44,7 +39,7 @@ class LiveModel:
         self,
         live: LiveRobot,
         load: Load,
-        show: Callable[[Robot, str, tuple[Problem, ...]], object],
+        show: Callable[[Robot, str, str, tuple[Problem, ...]], object] | None,
         refuse: Callable[[RobotError], object],
     ) -> None:
         self._live = live
@@ -55,7 +50,17 @@ class LiveModel:
         # One after the other: the last description is the one that is shown.
         self._turn = threading.Lock()
         self._latest = ""
-        live.on_description = self._take
+        if show is not None:
+            live.on_description = self._take
+
+    def load(self, text: str, label: str) -> Robot:
+        """Load what a topic has described, for a display that shows it.
+
+        Raises:
+            RobotError: the model cannot be shown.
+        """
+        with self._turn:
+            return self._loaded(text, label)[0]
 
     def close(self) -> None:
         """Forget the files."""
@@ -74,40 +79,23 @@ class LiveModel:
             if text != self._latest or not Path(self._folder.name).is_dir():
                 return
             try:
-                opened = open_model(text, self._live.label)
-                missing = self._fetch(text)
-                robot = self._load(opened, Path(self._folder.name))
+                robot, missing = self._loaded(text, self._live.label)
             except RobotError as error:
+                self._live.refusal = f"URDF failed Model parse: {_first(error)}"
+                self._live.tell_status()
                 self._refuse(error)
                 return
-            top = self._live.top_frame(plain_name(robot.root), FRAMES_WITHIN)
-            self._show(robot, top, missing)
+            self._live.refusal = ""
+            if self._show is not None:
+                root, top = self._live.root_and_top(robot, FRAMES_WITHIN)
+                self._show(robot, root, top, missing)
 
-    def _fetch(self, text: str) -> tuple[Problem, ...]:
-        """Write the files of a description, and say which the source does not have."""
-        source = self._live.source
-        if "assets" not in source.capabilities:
-            return ()
-        asked: dict[str, tuple[Path, Future[bytes]]] = {}
-        for uri, package, rest in _FILE.findall(text):
-            path = Path(self._folder.name, package, rest)
-            inside = ".." not in Path(rest).parts and package not in (".", "..")
-            if inside and uri not in asked and len(asked) < MOST_FILES:
-                asked[uri] = (path, source.fetch_asset(uri))
-        wait([future for _, future in asked.values()], FILES_WITHIN)
-        missing: list[Problem] = []
-        for uri, (path, future) in asked.items():
-            try:
-                data = future.result(0)
-            except SourceError as error:
-                # It says what would allow it; the rest of the robot is shown.
-                missing += [replace(p, severity="warning") for p in error.problems]
-                continue
-            except TimeoutError:
-                continue
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
-            manifest = Path(self._folder.name, uri.split("/")[2], "package.xml")
-            if not manifest.exists():
-                manifest.write_text("<package/>", encoding="utf-8")
-        return tuple(missing)
+    def _loaded(self, text: str, label: str) -> tuple[Robot, tuple[Problem, ...]]:
+        opened, folder = open_text(text, label), Path(self._folder.name)
+        missing = fetch_files(self._live.source, text, folder)
+        return self._load(opened, folder), missing
+
+
+def _first(error: RobotError) -> str:
+    problem = error.problems[0]
+    return f"{problem.message}; {problem.hint}" if problem.hint else problem.message

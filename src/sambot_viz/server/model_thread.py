@@ -6,9 +6,14 @@ import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from sambot_viz.displays.robot_display import ModelRequest, ModelResult
+from sambot_viz.displays.robot_display import (
+    Description,
+    ModelRequest,
+    ModelResult,
+)
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model_source import open_text
 
 
 class ModelThread:
@@ -21,15 +26,18 @@ class ModelThread:
         load: reads a model; its second argument is False for a file that a browser
             named, which must be expanded without running its code.
         package_path: the folders in which packages are looked for.
+        load_described: reads what a topic has sent.
     """
 
     def __init__(
         self,
         load: Callable[[Path, bool], Robot],
         package_path: Sequence[Path | str] = (),
+        load_described: Callable[[Description], Robot] | None = None,
     ) -> None:
         self.package_path = tuple(package_path)
         self._load = load
+        self._load_described = load_described or _load_text
         self._changed = threading.Condition()
         self._requests: dict[int, Callable[[], None]] = {}
         self._running = False
@@ -39,7 +47,7 @@ class ModelThread:
 
         def work() -> None:
             try:
-                result: ModelResult = self._load(request.path, request.trusted)
+                result: ModelResult = self._result(request)
             except RobotError as error:
                 result = error
             request.done(result)
@@ -50,6 +58,11 @@ class ModelThread:
                 self._running = True
                 name = "sambot-viz-models"
                 threading.Thread(target=self._run, name=name, daemon=True).start()
+
+    def _result(self, request: ModelRequest) -> Robot:
+        if isinstance(request.path, Description):
+            return self._load_described(request.path)
+        return self._load(request.path, request.trusted)
 
     def wait(self, timeout: float) -> bool:
         """Wait until nothing is being read; False when that takes longer [s]."""
@@ -77,3 +90,10 @@ class ModelThread:
     def _stopped(self) -> None:
         self._running = False
         self._changed.notify_all()
+
+
+def _load_text(described: Description) -> Robot:
+    from sambot_viz.robot.model import load_robot
+
+    opened = open_text(described.text or "", described.label)
+    return load_robot(opened, trusted=False)

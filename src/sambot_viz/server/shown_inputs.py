@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
 
+from sambot_viz.displays.robot_display import Description
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.inputs import Inputs
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.model_source import open_text
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
@@ -18,7 +20,7 @@ from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.config_file import take_root
 from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.robot_topics import STAND_IN_LINK
+from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
 
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
@@ -58,7 +60,8 @@ class ShownInputs:
         self._stand_in = document if fits_any else None
         self._stand_in_frame = document.global_options.get("Fixed Frame")
         self._reloader: Reloader | None = None
-        models = ModelThread(inputs.load, options.package_path)
+        self._live_model: LiveModel | None = None
+        models = ModelThread(inputs.load, options.package_path, self._load_described)
         self.server = Server(
             options,
             self.configs,
@@ -69,7 +72,6 @@ class ShownInputs:
             ask_page,
             inputs.recorded or inputs.live,
         )
-        self._live_model: LiveModel | None = None
 
     def start(self) -> None:
         """Show the robot, and follow the files if the options say so.
@@ -114,20 +116,34 @@ class ShownInputs:
 
     def _follow_live(self, live: LiveRobot) -> None:
         """Connect to a live robot, and show it as it describes itself."""
-        if self._inputs.model is None:
-            self._live_model = LiveModel(
-                live, self._inputs.load_described, self._show_live, self._refuse_live
-            )
+        show = self._show_live if self._inputs.options.model is None else None
+        load, refuse = self._inputs.load_described, self._refuse_live
+        self._live_model = LiveModel(live, load, show, refuse)
+        if self._inputs.options.record is not None:
+            live.recorder.start(Path(self._inputs.options.record))
         live.source.open()
 
-    def _show_live(self, robot: Robot, top: str, missing: tuple[Problem, ...]) -> None:
-        sessions, root = self.server.sessions, plain_name(robot.root)
+    def _load_described(self, described: Description) -> Robot:
+        """Load the robot of a topic that is not the opened one."""
+        text = described.text or ""
+        if self._live_model is not None:
+            return self._live_model.load(text, described.label)
+        return self._inputs.load(open_text(text, described.label), trusted=False)
+
+    def _show_live(
+        self, robot: Robot, root: str, top: str, missing: tuple[Problem, ...]
+    ) -> None:
+        sessions = self.server.sessions
+        live = self._inputs.live
+        topics = RobotTopics() if live is None else live.topics
         sessions.set_reload_problems("model", missing)
         if self._stand_in is self.configs.current:
             for session in sessions.all():
                 with session.change(session.document.options, session.document.views):
                     self._fit_view(session.document.config, top, root)
+                    _name_description(session.document.config, topics)
             self._fit_view(self.configs.current, top, root)
+            _name_description(self.configs.current, topics)
         sessions.show_robot(robot)
 
     def _refuse_live(self, error: RobotError) -> None:
@@ -144,7 +160,8 @@ class ShownInputs:
             take_root(document, robot)
             recorded = self._inputs.recorded
             if recorded is not None:
-                root = plain_name(robot.root)
+                _name_description(document, recorded.topics)
+                root = recorded.root_frame(robot)
                 _show_motion(document, recorded.top_frame(root), root)
 
     def _follow(self, refusal: RobotError | None) -> None:
@@ -167,6 +184,18 @@ def _show_motion(document: RvizConfig, top: str, root: str) -> None:
     document.global_options.set("Fixed Frame", top)
     if top != root:
         document.view.set("Target Frame", root)
+
+
+def _name_description(document: RvizConfig, topics: RobotTopics) -> None:
+    """Name the topic of a robot in a config that was made for one without a namespace.
+
+    Where that robot is there too, or a user has chosen a topic, nothing changes.
+    """
+    name = topics.description
+    for display in document.displays:
+        if name is not None and "Description Topic" in display.declared:
+            if display.get("Description Topic") == "/robot_description":
+                display.set("Description Topic", name)
 
 
 def _set_fixed_frame(document: RvizConfig, fixed_frame: str | None) -> None:

@@ -9,6 +9,7 @@ streams at the config's Frame Rate.
 from __future__ import annotations
 
 import threading
+from functools import partial
 
 import viser
 
@@ -26,7 +27,10 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.data.robot_data import LiveData, RecordedData, RobotData
+from sambot_viz.session.data.descriptions import LiveDescriptions, RecordedDescriptions
+from sambot_viz.session.data.live_data import LiveData
+from sambot_viz.session.data.recorded_data import RecordedData
+from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
@@ -116,11 +120,16 @@ class Session:
         self.robot = robot
         self.data: RobotData | None = None
         if isinstance(moved_by, LiveRobot) and frames is not None:
-            self.data = LiveData(moved_by, frames, data_frames, robot, change, worker)
+            self.data = LiveData(
+                moved_by, frames, data_frames, robot, change, worker, scene.fault_of
+            )
         elif isinstance(moved_by, RecordedRobot) and frames is not None:
             self.data = RecordedData(
                 moved_by, frames, data_frames, robot, change, worker, clock
             )
+        if self.data is not None:
+            scene.context.now = self.data.time_s
+        self._descriptions = self._describe(moved_by)
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
         self.motion = Motion(robot, self.drive, change, worker, clock)
@@ -135,7 +144,7 @@ class Session:
             document, scene, robot, picker, history, self.roles, change, worker
         )
         self.follow_view = FollowView(
-            self.drive, document, scene, self.clients, history, worker
+            self.drive, document, scene, self.clients, picker, history, worker
         )
 
         self._open = threading.Semaphore()
@@ -254,9 +263,25 @@ class Session:
         self.clients.close()
         self.picker.close()
         self.robot.close()
+        if self._descriptions is not None:
+            self._descriptions.close()
         if self.data is not None:
             self.data.close()
         self.worker.close()
+
+    def _describe(
+        self, moved_by: RecordedRobot | LiveRobot | None
+    ) -> LiveDescriptions | None:
+        """Let displays ask for the robots of topics; return what is to be closed."""
+        is_given, context = self.options.model is not None, self.scene.context
+        if isinstance(moved_by, RecordedRobot):
+            context.descriptions = RecordedDescriptions(moved_by, is_given)
+        elif isinstance(moved_by, LiveRobot):
+            redraw = partial(context.apply, self.scene.redraw)
+            live = LiveDescriptions(moved_by, is_given, self.worker, redraw)
+            context.descriptions = live
+            return live
+        return None
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)

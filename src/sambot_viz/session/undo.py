@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.rviz.undo_log import Restore, record_changes
@@ -52,11 +53,14 @@ class History:
         modified: whether the document has edits that are not saved.
         is_as_saved: tells if the document says what its file says; it looks at all of
             it, so it is asked after single edits only, and not in a drag.
+        take_page: gives a client what was another page's (see `Edit`), and tells
+            whether that can be.
     """
 
     def __init__(self, change: Change) -> None:
         self.modified = Signal(change, False)
         self.is_as_saved: Callable[[], bool] = _never
+        self.take_page: Callable[[int, object], bool] = lambda client, page: False
         self._change = change
         self._steps: dict[int, ClientSteps] = {}
         self._left = LeftSteps()
@@ -112,7 +116,7 @@ class History:
         *,
         touched: object = None,
         of_document: bool = True,
-        of_page: bool = False,
+        page: object = None,
     ) -> None:
         """Keep a change that has been made.
 
@@ -124,14 +128,14 @@ class History:
                 row are one edit.
             touched: see `Edit`.
             of_document: whether it is lost unless the document is saved.
-            of_page: see `Edit`.
+            page: see `Edit`.
         """
         with self._change.lock:
             if self._undoing:
                 return
             action = self._action
             if action is not None:
-                action.edits.append(Edit(label, undo, redo, touched, of_page))
+                action.edits.append(Edit(label, undo, redo, touched, page))
                 action.merge_keys.append(merge)
                 action.of_document |= of_document
             elif of_document:
@@ -307,7 +311,8 @@ class History:
             there = [s for s in self._steps.values() if s.key == key and s is not steps]
             before = there[0] if there else self._left.take(key)
             if before is not None:
-                steps.take_over(before)
+                take = partial(self.take_page, client_id)
+                steps.take_over(before, take)
 
     def _steps_of(self, client_id: int) -> ClientSteps:
         if client_id not in self._steps:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from sambot_viz.session.signals import Change, Signal
@@ -24,14 +24,14 @@ class Edit:
         undo: undoes it, or raises SambotVizError when that is not possible any more.
         redo: does it again, or raises SambotVizError.
         touched: what was added, removed, moved or named; None for other changes.
-        of_page: whether it changed what ends with the page, such as its view.
+        page: what has changed it for the page, such as its view, and ends with it.
     """
 
     label: str
     undo: Callable[[], None]
     redo: Callable[[], None]
     touched: object = None
-    of_page: bool = False
+    page: object = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,11 +104,21 @@ class ClientSteps:
             UndoState(_label(self.done), _label(self.undone), times, touched)
         )
 
-    def take_over(self, before: ClientSteps) -> None:
-        """Put the steps of the page that was loaded again before those since."""
+    def take_over(
+        self, before: ClientSteps, take_page: Callable[[object], bool]
+    ) -> None:
+        """Put the steps of the page that was loaded again before those since.
+
+        Args:
+            before: those steps.
+            take_page: gives the client what was a page's, if that can be gone on with.
+        """
+        steps = (*before.done, *before.undone)
+        pages = {id(edit.page): edit.page for step in steps for edit in step.edits}
+        taken = {key for key, one in pages.items() if one is None or take_page(one)}
         if not self.undone and not self.done:
-            self.undone[:] = _without_page(before.undone)
-        done = [*_without_page(before.done), *self.done]
+            self.undone[:] = _taken_over(before.undone, taken)
+        done = [*_taken_over(before.done, taken), *self.done]
         before.clear()
         self.done.clear()
         self.done.extend(done)
@@ -125,10 +135,15 @@ def _label(steps: Sequence[Step]) -> str | None:
     return steps[-1].edits[0].label if steps else None
 
 
-def _without_page(steps: Iterable[Step]) -> Iterator[Step]:
-    """Leave out what has ended with a page; its gestures have ended, too."""
+def _taken_over(steps: Iterable[Step], pages: Container[int]) -> Iterator[Step]:
+    """Leave out what has ended with a page; its gestures have ended, too.
+
+    Args:
+        steps: of the page.
+        pages: the ids of what has not ended.
+    """
     for step in steps:
-        stay = [n for n, edit in enumerate(step.edits) if not edit.of_page]
+        stay = [n for n, edit in enumerate(step.edits) if id(edit.page) in pages]
         if stay:
             edits = tuple(step.edits[n] for n in stay)
             keys = tuple(step.merge_keys[n] for n in stay)

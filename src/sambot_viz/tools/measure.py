@@ -11,13 +11,17 @@ from sambot_viz.tools.tool import Click, Tool, ToolContext
 from sambot_viz.views.camera import components
 
 COLOR = (128, 128, 0)
+THICKNESS, RIM_THICKNESS = 3.0, 6.0
+"""Of the line, and of the white one below it, which dark backgrounds need [pixels]."""
+RIM = (255, 255, 255)
 
 
 class MeasureTool(Tool):
     """First click: start; second: end; third: a new start.
 
     Between the first two, the line ends under the mouse. Esc or a right click removes
-    it. The length is also written at the line, which RViz does not.
+    it. The length is also written at the line, which RViz does not; and its line of one
+    pixel can hardly be seen on a dark background: this one is thicker, with a rim.
     """
 
     kind = "rviz_default_plugins/Measure"
@@ -37,7 +41,7 @@ class MeasureTool(Tool):
         self._end: Array | None = None
         self._finished = False
         self._dot: viser.PointCloudHandle | None = None
-        self._line: viser.LineSegmentsHandle | None = None
+        self._lines: tuple[viser.LineSegmentsHandle, ...] = ()
         self._text: viser.LabelHandle | None = None
 
     @property
@@ -60,6 +64,11 @@ class MeasureTool(Tool):
         if self.wants_hover and hit.point is not None:
             self._end = hit.point
             self._draw()
+
+    def left(self) -> None:
+        """Forget a start without an end, as RViz begins anew; a whole line stays."""
+        if self.wants_hover:
+            self.cancel()
 
     def cancel(self) -> None:
         """Forget the points and remove the line."""
@@ -94,18 +103,24 @@ class MeasureTool(Tool):
     def _draw_line(self, start: Array, end: Array) -> None:
         points = np.array([[start, end]], np.float32)
         length, middle = f"{self.length:.6g} m", components((start + end) / 2)
-        if self._line is not None and self._text is not None:
-            self._line.points = points
+        if self._lines and self._text is not None:
+            for line in self._lines:
+                line.points = points
             self._text.text, self._text.position = length, middle
             return
         self._clear()
         scene = self.context.scene
-        self._line = scene.add_line_segments(
-            "/~measure",
-            points,
-            colors=self._color,
-            thickness=2.0,
-            thickness_units="screen",
+        # What is as near and was added later is drawn over it.
+        looks = (".rim", RIM, RIM_THICKNESS), ("", self._color, THICKNESS)
+        self._lines = tuple(
+            scene.add_line_segments(
+                f"/~measure{name}",
+                points,
+                colors=color,
+                thickness=thickness,
+                thickness_units="screen",
+            )
+            for name, color, thickness in looks
         )
         # A label of a size on the screen has a box behind it, other than RViz's names.
         self._text = scene.add_label(
@@ -121,17 +136,18 @@ class MeasureTool(Tool):
             "/~measure.start",
             start[None].astype(np.float32),
             self._color,
-            point_size=0.01,
+            point_size=0.015,
             point_shape="circle",
             point_shading="flat",
             precision="float32",
         )
 
     def _clear(self) -> None:
-        for node in (self._dot, self._line, self._text):
+        for node in (self._dot, *self._lines, self._text):
             if node is not None:
                 node.remove()
-        self._dot = self._line = self._text = None
+        self._dot = self._text = None
+        self._lines = ()
 
     @property
     def _color(self) -> tuple[int, int, int]:

@@ -28,7 +28,7 @@ class InteractTool(Tool):
         BoolProperty(
             "Hide Inactive Objects",
             default=True,
-            help="For interactive markers, which need live ROS data.",
+            help="For interactive markers, which are not drawn yet.",
             support="none",
         ),
     )

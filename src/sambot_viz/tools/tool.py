@@ -106,6 +106,9 @@ class Tool:
         """The mouse has moved over the 3D view; only called while `wants_hover`."""
         del click, hit
 
+    def left(self) -> None:
+        """A user chose another tool."""
+
     def cancel(self) -> None:
         """A user pressed Esc or clicked with the right button."""
 

@@ -35,6 +35,14 @@ class Decoding:
             raise DecodeError(decoder.reason.text)
         return decoder.decode(message.payload)
 
+    def text(self, message: Recorded) -> str:
+        """Return the text of a std_msgs/String; empty when it cannot be read."""
+        try:
+            data = self.decode(message).data
+        except (DecodeError, AttributeError):
+            return ""
+        return str(data) if data else ""
+
     def transforms(self, message: Recorded) -> Transforms:
         """Return the transforms of a message of /tf.
 

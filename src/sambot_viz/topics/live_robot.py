@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
-from sambot_viz.errors import DecodeError
 from sambot_viz.frames import FrameHistory
+from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.messages import MessageTypes
+from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.source import Source
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.robot_topics import (
@@ -32,22 +35,31 @@ class LiveRobot:
     Args:
         source: its connection.
         types: decodes its messages.
+        recordings: the folder of recordings that users of the page start; None: they
+            may not.
 
     Attributes:
         source: as given.
         name: the address of the source.
         decoding: decodes its messages.
+        named: descriptions that a config asks for.
         topics: those that are the robot's, as far as they are known.
+        recorder: records what the source gives.
+        refusal: why the last description cannot be shown; empty when it can.
         on_description: called with the text of a robot, again when it changes.
-        on_topics: called when `topics` has changed.
+        on_topics: called when the source has other topics.
         on_status: called when the source is doing otherwise.
     """
 
-    def __init__(self, source: Source, types: MessageTypes) -> None:
+    def __init__(
+        self, source: Source, types: MessageTypes, recordings: Path | None = None
+    ) -> None:
         self.source = source
         self.name = source.uri
         self.decoding = Decoding(types)
+        self.named: Sequence[str] = ()
         self.topics = RobotTopics()
+        self.refusal = ""
         self._framed = threading.Condition()
         self.on_description: Callable[[str], object] = lambda text: None
         self.on_topics: list[Callable[[], object]] = []
@@ -56,7 +68,15 @@ class LiveRobot:
         self._seen = 0
         self._frames = TransformTopics(FrameHistory(), (), (), self.decoding.transforms)
         source.on_topics = self._look
-        source.on_status = self._tell_status
+        source.on_status = self.tell_status
+        # After `_look` is set: the recorder is told of topics first, and passes it on.
+        self.recorder = SourceRecorder(source, recordings, self.tell_status)
+
+    def close(self) -> None:
+        """End the recording and the connection; a second call does nothing."""
+        # What has come is still written.
+        self.recorder.close()
+        self.source.close()
 
     @property
     def model(self) -> str:
@@ -67,6 +87,11 @@ class LiveRobot:
     def label(self) -> str:
         """What problems of the model name as its file."""
         return f"{self.name} {self.topics.description or '/robot_description'}"
+
+    @property
+    def has_description(self) -> bool:
+        """Whether a robot was described."""
+        return self._description is not None
 
     @property
     def sentence(self) -> str:
@@ -81,19 +106,26 @@ class LiveRobot:
             )
         return f"{status.sentence}; waiting for {self.topics.description}"
 
-    def top_frame(self, root: str, timeout: float) -> str:
-        """Return the frame at the top of the tree of a root link, such as odom.
+    def root_and_top(self, robot: Robot, timeout: float) -> tuple[str, str]:
+        """Return the frame of a robot's root link, and the one at the top of its tree.
 
         Args:
-            root: the link; itself when nothing is known to hold it.
+            robot: the robot; its root is the top when nothing is known to hold it.
             timeout: how long to wait for transforms that do [s].
         """
-        with self._framed:
-            self._framed.wait_for(lambda: self._top(root) != root, timeout)
-            return self._top(root)
 
-    def _top(self, root: str) -> str:
-        return top_frame(root, self._frames.pairs())
+        def is_held() -> bool:
+            root, top = self._root_and_top(robot)
+            return root != top
+
+        with self._framed:
+            self._framed.wait_for(is_held, timeout)
+            return self._root_and_top(robot)
+
+    def _root_and_top(self, robot: Robot) -> tuple[str, str]:
+        pairs = list(self._frames.pairs())
+        root = frame_prefix(joints_of(robot), pairs) + plain_name(robot.root)
+        return root, top_frame(root, pairs)
 
     def _look(self) -> None:
         types = self.decoding.types
@@ -102,9 +134,7 @@ class LiveRobot:
             for name, topic in self.source.topics().items()
             if topic.reason is None
         }
-        before, self.topics = self.topics, robot_topics(known)
-        if self.topics == before:
-            return
+        before, self.topics = self.topics, robot_topics(known, self.named)
         if self.topics.description not in (None, before.description):
             self.source.subscribe(self.topics.description or "", self._describe)
         for topic in (*self.topics.moving, *self.topics.static):
@@ -112,17 +142,15 @@ class LiveRobot:
                 self.source.subscribe(topic, self._expect)
         for listener in list(self.on_topics):
             listener()
-        self._tell_status()
+        if self.topics != before:
+            self.tell_status()
 
     def _describe(self, message: Recorded) -> None:
-        try:
-            text: Any = self.decoding.decode(message).data
-        except (DecodeError, AttributeError):
-            return
+        text = self.decoding.text(message)
         if text and text != self._description:
-            self._description = str(text)
-            self.on_description(self._description)
-            self._tell_status()
+            self._description = text
+            self.on_description(text)
+            self.tell_status()
 
     def _expect(self, message: Recorded) -> None:
         with self._framed:
@@ -133,6 +161,7 @@ class LiveRobot:
             for topic in (*self.topics.moving, *self.topics.static):
                 self.source.unsubscribe(topic, self._expect)
 
-    def _tell_status(self) -> None:
+    def tell_status(self) -> None:
+        """Say that the source or its recording is doing otherwise; in any thread."""
         for listener in list(self.on_status):
             listener()

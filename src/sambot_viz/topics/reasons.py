@@ -22,6 +22,7 @@ SEVERITIES: Mapping[str, Severity] = {
     "no-such-topic": "warning",
     "no-publisher": "warning",
     "no-message": "warning",
+    "not-listened": "info",
     "qos": "warning",
     "encoding": "warning",
     "type-unknown": "warning",
@@ -36,7 +37,6 @@ SEVERITIES: Mapping[str, Severity] = {
     "off": "info",
     "stale": "warning",
     "lagging": "warning",
-    "mesh-not-served": "warning",
 }
 """All reasons of topics."""
 
@@ -162,7 +162,12 @@ def are_two_clocks(stamp: float, others: tuple[float, float]) -> bool:
 
 
 def no_transform(
-    frame: str, fixed_frame: str, refused: LookupRefused, lacks_static: bool
+    frame: str,
+    fixed_frame: str,
+    refused: LookupRefused,
+    *,
+    lacks_static: bool = False,
+    remedy: str = "",
 ) -> TopicReason:
     """Say that the frame of the messages has no place.
 
@@ -171,6 +176,7 @@ def no_transform(
         fixed_frame: where it was looked for.
         refused: tf2's answer.
         lacks_static: there are transforms, but the recording has no /tf_static.
+        remedy: what to do about the transforms, where that is known already.
     """
     if lacks_static and refused.times is None:
         why = (
@@ -178,21 +184,68 @@ def no_transform(
             "or name it)"
         )
     else:
-        why = f"{refused.tf2_text} {_remedy(refused)}"
+        why = f"{refused.tf2_text} ({remedy or _remedy(refused)})"
     return TopicReason(
         "no-transform", f"no transform from [{frame}] to [{fixed_frame}]: {why}"
     )
 
 
+def transforms_begin(seconds: float, is_later: bool) -> str:
+    """Say what to do about a time before the first transform.
+
+    Args:
+        seconds: when that comes [s from the first message].
+        is_later: it is still to come.
+    """
+    begin = f"transforms begin at {seconds:.1f} s"
+    if is_later:
+        return f"{begin}: go there with the time bar or --at {seconds:.1f}"
+    return f"{begin}, and this message is from before: go on to the next one"
+
+
+def older_than_buffer(seconds: float, duration: float) -> str:
+    """Say what to do about a message that is older than all that tf2 keeps.
+
+    Args:
+        seconds: by how much [s].
+        duration: so much is kept [s].
+    """
+    return (
+        f"tf2 keeps {duration:.0f} s, and the message is {seconds:.1f} s older: what "
+        "publishes it is too slow, or stamps it with another clock"
+    )
+
+
+def behind(seconds: float, is_last: bool) -> str:
+    """Say what to do about a message after the last transform.
+
+    Args:
+        seconds: by how much [s].
+        is_last: no transform comes after that.
+    """
+    if is_last:
+        return (
+            f"the last transform is {seconds:.1f} s older than the message: what "
+            "publishes it had stopped, go back in time"
+        )
+    return (
+        f"the newest transform is {seconds:.1f} s older than the message: what "
+        "publishes it is late, or the clocks of the two nodes differ"
+    )
+
+
 def _remedy(refused: LookupRefused) -> str:
     if refused.times is not None:
-        return "(both times are from stamps: compare the clocks of the two nodes)"
+        return (
+            "the transforms on the way have no time in common: one of their nodes had "
+            "stopped before another began, or their clocks differ"
+        )
     if refused.reason == "ring":
-        return "(two nodes publish against each other: see the Problems)"
+        return "two nodes publish against each other: see the Problems"
     between = f"{refused.target} {refused.source}"
     return (
-        "(add it: --static-transform, or ros2 run tf2_ros static_transform_publisher "
-        f"0 0 0 0 0 0 {between})"
+        "add it: --static-transform, or ros2 run tf2_ros static_transform_publisher "
+        f"0 0 0 0 0 0 {between}"
     )
 
 

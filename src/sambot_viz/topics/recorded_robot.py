@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from sambot_viz.errors import DecodeError, Problem
+from sambot_viz.errors import Problem
 from sambot_viz.frames import FrameHistory, FrameTree
 from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.joints import JointState
 from sambot_viz.messages import Decoder, MessageTypes
@@ -36,6 +38,9 @@ if TYPE_CHECKING:
 FIRST_SECONDS = 2.0
 """The frames that move are learnt from the begin of a recording [s]."""
 
+_NAMED = 5
+"""So many topics are named where one is missing."""
+
 
 class RecordedRobot:
     """What a recording says of a robot; many sessions may play it at their own times.
@@ -53,6 +58,7 @@ class RecordedRobot:
         at_ns: the log time to begin with [ns]; None as `at`.
         topics: those that are the robot's.
         description: the URDF, the last one that was sent; None when there is none.
+        refusal: why that cannot be shown; empty when it can.
     """
 
     def __init__(
@@ -64,16 +70,32 @@ class RecordedRobot:
     ) -> None:
         self.recording = recording
         self.name = name
+        self.refusal = ""
         self.at_ns: int | None = None
         if at is not None and recording.start_ns is not None:
             self.at_ns = recording.start_ns + round(at * 1e9)
         self.decoding = Decoding(types)
-        known = {
-            name: self.decoder(topic).type_name
-            for name, topic in recording.topics.items()
-        }
-        self.topics: RobotTopics = robot_topics(known)
-        self.description = self._read_description()
+        self._take_topics(self._topics_of(()))
+
+    def choose(self, named: Sequence[str]) -> None:
+        """Take the robot of the first of some topics that is there.
+
+        Args:
+            named: descriptions that a config asks for.
+        """
+        topics = self._topics_of(named) if named else self.topics
+        if topics != self.topics:
+            self._take_topics(topics)
+
+    def _topics_of(self, named: Sequence[str]) -> RobotTopics:
+        topics = self.recording.topics
+        known = {name: self.decoder(topic).type_name for name, topic in topics.items()}
+        return robot_topics(known, named)
+
+    def _take_topics(self, topics: RobotTopics) -> None:
+        self.topics = topics
+        self._descriptions = self._read_descriptions()
+        self.description = self.description_of(self.topics.description or "")
         # What the begin tells of frames; every session starts from it.
         self._told = self._make_transforms(FrameHistory())
         self._told.expect(self._first_transforms())
@@ -82,24 +104,47 @@ class RecordedRobot:
     def problems(self) -> tuple[Problem, ...]:
         """What is wrong with the recording, and what it says of no robot."""
         of_frames = problems_of_transforms(self._told, self.name)
-        found = (*self.recording.problems, *of_frames)
+        found = (*self.recording.problems, *of_frames, *self._problems_of_time())
         if self.description is not None:
             return found
-        told = ", ".join(sorted(self.recording.topics)[:5]) or "nothing"
+        topics = sorted(self.recording.topics)
+        more = ", …" if len(topics) > _NAMED else ""
+        told = f"{', '.join(topics[:_NAMED])}{more}" or "no topic"
+        frames = any(True for _ in self._told.pairs())
+        shown = "its frames are shown" if frames else "it has no transforms either"
         missing = Problem(
             "warning",
             "no-description",
-            f"{self.name} has no /robot_description (it has {told}, …), so there is no "
-            "robot to draw; its frames are shown",
+            f"{self.name} has no /robot_description (it has {told}), so there is no "
+            f"robot to draw; {shown}",
             "give the robot beside it: --model ROBOT.urdf.xacro",
         )
         return (*found, missing)
 
+    def _problems_of_time(self) -> Iterator[Problem]:
+        """Yield that the time to look at is not in the recording."""
+        recording, at_ns = self.recording, self.at_ns
+        start, end = recording.start_ns, recording.end_ns
+        if at_ns is None or start is None or end is None or start <= at_ns <= end:
+            return
+        length, asked = (end - start) * 1e-9, (at_ns - start) * 1e-9
+        nearest = "its end" if asked > 0 else "its begin"
+        yield Problem(
+            "warning",
+            "at-outside",
+            f"{self.name} is {length:.3f} s long, so there is nothing at {asked:g} s; "
+            f"{nearest} is shown",
+            f"give a time from 0 to {length:.3f} with --at",
+        )
+
     @property
     def model(self) -> str:
         """The XML text of the robot; of a single link where the recording has none."""
-        if self.description is not None:
-            return self.description
+        return self.stand_in if self.description is None else self.description
+
+    @property
+    def stand_in(self) -> str:
+        """The XML text of a robot of a single link, at the top of the frames."""
         pairs = list(self._told.pairs())
         children = {child for _, child in pairs}
         roots = (parent for parent, _ in pairs if parent not in children)
@@ -111,8 +156,13 @@ class RecordedRobot:
         topic = self.topics.description
         return self.name if topic is None else f"{self.name}:{topic}"
 
+    def root_frame(self, robot: Robot) -> str:
+        """Return the frame of a robot's root link, with the prefix of its frames."""
+        prefix = frame_prefix(joints_of(robot), self._told.pairs())
+        return prefix + plain_name(robot.root)
+
     def top_frame(self, root: str) -> str:
-        """Return the frame at the top of the tree of a root link, such as odom."""
+        """Return the frame at the top of the tree of a root frame, such as odom."""
         return top_frame(root, self._told.pairs())
 
     def frames(self, robot: Robot, joints: JointState) -> FrameTree:
@@ -135,8 +185,8 @@ class RecordedRobot:
         by_joints = not frames.places_links(robot)
         robot_joints = robot.joints.values() if by_joints else ()
         fixed = [joint.name for joint in robot_joints if joint.type != "floating"]
-        kinematics = joints.kinematics
-        hang_robot(tree, robot, kinematics, joints.all_positions(), fixed)
+        kinematics, prefix = joints.kinematics, frames.prefix_of(robot)
+        hang_robot(tree, robot, kinematics, joints.all_positions(), fixed, prefix)
         frames.settle()
         return tree
 
@@ -183,13 +233,21 @@ class RecordedRobot:
             yield from recording.messages(start, end, moving)
         yield from (m for m in recording.latched() if m.topic in self._told.always)
 
-    def _read_description(self) -> str | None:
-        name = self.topics.description
-        found: str | None = None
+    def description_of(self, topic: str) -> str | None:
+        """Return the last text that a topic has sent; None when there is none."""
+        if topic not in self._descriptions:
+            # Not every topic of strings is latched, or has the name of one that is.
+            last = self.recording.last(topic, self.recording.end_ns or 0)
+            decoding = Decoding(self.decoding.types)
+            text = "" if last is None else decoding.text(last)
+            self._descriptions[topic] = text
+        return self._descriptions[topic] or None
+
+    def _read_descriptions(self) -> dict[str, str]:
+        topics = (self.topics.description, *self.topics.others)
+        found: dict[str, str] = {}
         for message in self.recording.latched():
-            if message.topic == name:
-                try:
-                    found = str(self.decode(message).data) or found
-                except DecodeError:
-                    continue
+            if message.topic in topics:
+                text = self.decoding.text(message)
+                found[message.topic] = text or found.get(message.topic, "")
         return found

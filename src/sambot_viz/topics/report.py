@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from sambot_viz.frames import FrameTree
 from sambot_viz.topics import reasons
+from sambot_viz.topics.at_a_time import PlaceInTime
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.survey import Survey
+from sambot_viz.topics.transforms import problems_of_transforms
 
 SOON_NS = 1_000_000_000
 """What begins so soon after a recording was there when it began [ns]."""
@@ -40,10 +43,13 @@ class TopicReport:
 
     Args:
         survey: of its messages; what it has not met yet is not said.
+        tree: the frames of a session at the time that is looked at; without it those
+            of any time are read.
     """
 
-    def __init__(self, survey: Survey) -> None:
+    def __init__(self, survey: Survey, tree: FrameTree | None = None) -> None:
         self._survey = survey
+        self._place = PlaceInTime(survey, tree)
         self._recorded: RecordedRobot = survey.recorded
         self._topics = survey.recorded.recording.topics
 
@@ -117,7 +123,7 @@ class TopicReport:
         if decoder.note is not None:
             return TopicReason(decoder.note.code, decoder.note.text)
         return (
-            self._of_frame(name)
+            self._of_frame(name, at_ns)
             or (reasons.empty(looked.empty) if looked.empty else None)
             or self._of_display(name, decoder.type_name)
         )
@@ -131,7 +137,7 @@ class TopicReport:
         latched = self._topics[name].is_latched
         return reasons.not_here_yet((first - start) * 1e-9, latched)
 
-    def _of_frame(self, name: str) -> TopicReason | None:
+    def _of_frame(self, name: str, at_ns: int | None) -> TopicReason | None:
         """Say why the frame of the messages has no place, where they are placed."""
         survey, looked = self._survey, self._survey.of(name)
         if not looked.frame or name in self._recorded.topics.all:
@@ -143,9 +149,15 @@ class TopicReport:
                 return reasons.two_clocks(name, stamp, (first, last))
         refused = survey.lookup_fault(looked.frame)
         if refused is None:
-            return None
+            return None if at_ns is None else self._place.fault(name, at_ns)
         fixed, lacks = survey.fixed_frame, survey.lacks_static
-        return reasons.no_transform(looked.frame, fixed, refused, lacks)
+        # What parts the frames says itself what to do.
+        found = problems_of_transforms(survey.transforms, "")
+        parted = [p.hint for p in found if p.code == "two-parents" and p.hint]
+        remedy = "; ".join(parted)
+        return reasons.no_transform(
+            looked.frame, fixed, refused, lacks_static=lacks, remedy=remedy
+        )
 
     def _of_display(self, name: str, type_name: str) -> TopicReason | None:
         if reasons.display_of(name, type_name) is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from xml.sax.saxutils import quoteattr
 
@@ -24,7 +24,7 @@ class RobotTopics:
         moving: of the transforms that hold at their stamps.
         static: of the transforms that hold at all times.
         joint_states: of the positions of joints.
-        others: descriptions of further robots, which are not shown.
+        others: descriptions of further robots, for displays that ask for them.
     """
 
     description: str | None = None
@@ -40,9 +40,7 @@ class RobotTopics:
         return (*own, *self.moving, *self.static, *self.joint_states)
 
 
-def robot_topics(
-    types: Mapping[str, str], descriptions: Iterable[str] = ()
-) -> RobotTopics:
+def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTopics:
     """Choose the topics of a robot.
 
     Without a namespace where there is such a robot, else those of the first namespace
@@ -50,15 +48,17 @@ def robot_topics(
 
     Args:
         types: topic → the name of its type, as ``std_msgs/msg/String``.
-        descriptions: topics that are a description by their name and type; by default
-            those whose name ends in robot_description.
+        named: descriptions that a config asks for; the first that is there comes
+            before all others.
     """
-    found = list(descriptions) or [
+    found = [
         name
         for name, kind in types.items()
-        if kind in DESCRIPTION_TYPES and _last(name) == "robot_description"
+        if kind in DESCRIPTION_TYPES
+        and (name in named or _last(name) == "robot_description")
     ]
-    found.sort(key=lambda name: (name.count("/"), name))
+    wanted = next((name for name in named if name in found), "")
+    found.sort(key=lambda name: (name != wanted, name.count("/"), name))
     description = found[0] if found else None
     space = "" if description is None else description.rpartition("/")[0]
     transforms = _of(types, TRANSFORM_TYPES, space)

@@ -6,12 +6,13 @@ topic so many are decoded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
 
 from sambot_viz.errors import DecodeError, FrameError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
+from sambot_viz.frames.frame_prefix import frame_prefix
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform
 from sambot_viz.robot.xml.decode import XmlFault
@@ -231,14 +232,30 @@ class Survey:
         tree = FrameTree(self.transforms.history)
         root, joints = _robot_of(self.recorded.description)
         pairs = list(self.transforms.pairs())
-        if set(joints).isdisjoint(pairs):
+        self._hang(tree, joints, pairs)
+        if root:
+            root = frame_prefix(joints, pairs) + root
+        first = root or next((parent for parent, _ in pairs), "")
+        return tree, top_frame(first, (*joints, *pairs))
+
+    def with_joints(self, tree: FrameTree) -> FrameTree:
+        """Hang the links in a tree where messages do not say where they are."""
+        _, joints = _robot_of(self.recorded.description)
+        self._hang(tree, joints, list(self.transforms.pairs()))
+        return tree
+
+    def _hang(
+        self,
+        tree: FrameTree,
+        joints: Sequence[tuple[str, str]],
+        pairs: Sequence[tuple[str, str]],
+    ) -> None:
+        if set(joints).isdisjoint(pairs) and not frame_prefix(joints, pairs):
             for parent, child in joints:
                 try:
                     tree.set_static(parent, child, Transform.identity())
                 except FrameError:
                     continue
-        first = root or next((parent for parent, _ in pairs), "")
-        return tree, top_frame(first, (*joints, *pairs))
 
 
 def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:

@@ -60,8 +60,19 @@ class Topic:
         if self._times and message.log_ns < self._times[-1]:
             self._times.clear()
         self._times.append(message.log_ns)
+        self.keep(message)
+
+    def keep(self, message: Recorded) -> None:
+        """Take a message that came before anybody listened: it has no part in rates."""
         self.count += 1
         self.last = message
+
+    @property
+    def period(self) -> float | None:
+        """The mean time between the last messages [s]; None with less than two."""
+        if len(self._times) < 2:
+            return None
+        return (self._times[-1] - self._times[0]) / (len(self._times) - 1) / 1e9
 
     def clear(self) -> None:
         """Forget the messages: the time has jumped. Their number stays."""

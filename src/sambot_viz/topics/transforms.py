@@ -13,10 +13,18 @@ from collections.abc import (
 )
 from dataclasses import dataclass
 
+import numpy as np
+
 from sambot_viz.errors import DecodeError, Problem
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import DURATION, FrameHistory
-from sambot_viz.frames.samples import FramePair, Poses
+from sambot_viz.frames.samples import (
+    FramePair,
+    Poses,
+    Sample,
+    name_fault,
+    number_faults,
+)
 from sambot_viz.sources.message import Recorded
 
 Transforms = Sequence[tuple[int, tuple[FramePair, ...], Poses]]
@@ -52,6 +60,8 @@ class TransformTopics:
         faults: topic and tf2's name of a fault → how often a transform was ignored.
         undecoded: topic → how many messages could not be decoded.
         parents: child → its parents, and the topic that names each.
+        first: child → its first sample in the messages that were expected, stamped
+            with the log time [ns].
         turned_back_by: by how much the stamps went back the last time [ns]; 0: never.
     """
 
@@ -70,6 +80,7 @@ class TransformTopics:
         self.faults: Counter[tuple[str, str]] = Counter()
         self.undecoded: Counter[str] = Counter()
         self.parents: dict[str, dict[str, str]] = {}
+        self.first: dict[str, Sample] = {}
         self.turned_back_by = 0
         self._decode = decode
         # All that has ever moved, and what has a place since the last jump.
@@ -102,6 +113,16 @@ class TransformTopics:
                     pair = ((parent, child),)
                     self._take_moving(message.topic, stamp, pair, poses[row : row + 1])
 
+    @property
+    def newest_ns(self) -> int:
+        """The newest stamp of what moves [ns]; 0 without any."""
+        return max((group.newest for group in self._groups.values()), default=0)
+
+    def go_back(self, by_ns: int) -> None:
+        """Forget what moves: the time has gone back [ns]."""
+        self.turned_back_by = by_ns
+        self.clear()
+
     def clear(self) -> None:
         """Forget what moves; static transforms stay."""
         self.history.clear()
@@ -115,9 +136,10 @@ class TransformTopics:
     def expect(self, messages: Iterable[Recorded]) -> None:
         """Learn from messages, without taking them, which frames there will be."""
         for message in messages:
-            for _, edges, _ in self._transforms_of(message):
+            for _, edges, poses in self._transforms_of(message):
                 for parent, child in edges:
                     self._note_parent(message.topic, parent, child)
+                self._note_first(message.log_ns, edges, poses)
                 if message.topic not in self.always:
                     self._moving.update((plain_name(c), None) for _, c in edges)
 
@@ -126,6 +148,11 @@ class TransformTopics:
         for child, parents in other.parents.items():
             self.parents.setdefault(child, {}).update(parents)
         self._moving.update(other._moving)
+        self.first.update(other.first)
+
+    def to_come(self, time_ns: int) -> dict[str, Sample]:
+        """Return the first samples that are later than a log time [ns]."""
+        return {c: one for c, one in self.first.items() if one.stamp > time_ns}
 
     def pairs(self) -> Iterator[tuple[str, str]]:
         """Yield (parent, child) of all transforms that were told of."""
@@ -189,6 +216,21 @@ class TransformTopics:
             self._placed.update(names)
         self._changed_groups[id(edges)] = group
 
+    def _note_first(
+        self, log_ns: int, edges: Sequence[FramePair], poses: Poses
+    ) -> None:
+        for row, (parent, child) in enumerate(edges):
+            name = plain_name(child)
+            known = self.first.get(name)
+            if known is not None and known.stamp <= log_ns:
+                continue
+            pose = np.array([poses[row]], dtype=np.float64)
+            if name_fault(plain_name(parent), name) or number_faults(pose):
+                continue
+            x, y, z, qx, qy, qz, qw = pose[0].tolist()
+            at = ((x, y, z), (qx, qy, qz, qw))
+            self.first[name] = Sample(log_ns, plain_name(parent), at)
+
     def _note_parent(self, topic: str, parent: str, child: str) -> None:
         self.parents.setdefault(plain_name(child), {}).setdefault(
             plain_name(parent), topic
@@ -196,13 +238,14 @@ class TransformTopics:
 
 
 def problems_of_transforms(
-    transforms: TransformTopics, name: str
+    transforms: TransformTopics, name: str, *, is_live: bool = False
 ) -> tuple[Problem, ...]:
     """Say what is wrong with the transforms of a recording.
 
     Args:
         transforms: what they have told up to now.
-        name: of the recording.
+        name: of the recording, or of the live robot.
+        is_live: whether it is one.
     """
     found = [
         _two_parents(child, parents, transforms.always)
@@ -217,7 +260,10 @@ def problems_of_transforms(
                 "clock-back",
                 f"time went back by {back:.1f} s in {name} (was a simulation reset?): "
                 "transforms from before were dropped",
-                "record again after the reset, or jump behind it with the time bar",
+                "what comes after it is shown"
+                if is_live
+                else "record again after the reset, or jump behind it with the time "
+                "bar",
             )
         )
     return tuple(found)

@@ -59,6 +59,13 @@ def number(desk: Desk, name: str) -> float:
 def choose_view(desk: Desk, kind: str) -> None:
     desk.user.choose(desk.user.find("combobox", "Type", VIEWS), kind)
     desk.user.until(lambda: kind in desk.user.row("Views", "Current View").text)
+    # The package of RViz's own types would cut the name off.
+    desk.user.until(
+        lambda: (
+            desk.user.find("combobox", "Type", VIEWS).value == kind
+            and "plugins" not in desk.user.row("Views", "Current View").text
+        )
+    )
     desk.settle()
 
 

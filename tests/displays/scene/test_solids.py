@@ -26,7 +26,7 @@ def test_arrows_are_shown_in_their_colours_to_four_steps() -> None:
         server = listener.viser
         arrow = Arrow((0, 0, 0), (1, 0, 0), (0.4, 0.01), (0.1, 0.04))
         shafts, heads = add_arrows(
-            server.scene, "/a", [arrow], (204, 204, 76), (255, 25, 153)
+            server.scene, "/a", [arrow], [(204, 204, 76)], [(255, 25, 153)]
         )
         for node, color in ((shafts, (204, 204, 76)), (heads, (255, 25, 153))):
             shown = [encoded(c / 255) for c in node.batched_colors[0]]

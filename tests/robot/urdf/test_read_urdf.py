@@ -370,3 +370,25 @@ def test_a_material_with_only_a_texture_has_no_colour():
     found = robot.links["a"].visuals[0].material
     assert found == Material("m", None, "t.png")
     assert codes(robot.problems) == ["texture-not-found"]
+
+
+@pytest.mark.parametrize(
+    ("inside", "adds"),
+    [
+        (edge("k", "b", "c") + edge("m", "c", "z"), True),
+        (edge("k", "z", "c"), False),  # a and z would be roots
+        (edge("k", "b", "z") + edge("m", "z", "c"), True),
+    ],
+    ids=["child", "parent", "in the middle"],
+)
+def test_a_missing_link_is_to_be_added_only_where_this_helps(inside: str, adds: bool):
+    text = links("abc") + edge("j", "a", "b") + inside
+    hints = {problem.hint for problem in refused(text)}
+
+    assert hints == (
+        {'correct the name, or add <link name="z"/>'}
+        if adds
+        else {"name a link of this robot as the parent"}
+    )
+    if adds:
+        assert len(load(text + links("z")).links) == 4

@@ -11,9 +11,11 @@ import pytest
 from sambot_viz.displays.grid import GridLines
 from sambot_viz.displays.picking.pick_geometry import (
     Array,
+    Part,
     RayGrid,
     Selectable,
     TriangleMesh,
+    TurnedBox,
 )
 from sambot_viz.displays.triangle_display import PlacedMesh, TriangleGeometry
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
@@ -147,3 +149,32 @@ def test_ribbons_of_a_grid_are_hit_in_all_their_width() -> None:
     grid = GridLines(np.eye(4), z, np.zeros(3), cells=2, cell=1.0, thickness=0.4)
     hit = PickSnapshot((grid,)).first_hit(np.array((0.19, 0.5, 5.0)), -z, 1e-6)
     assert hit.point == pytest.approx((0.19, 0.5, 0.0))
+
+
+def test_a_box_turns_with_shapes_that_share_their_axes() -> None:
+    T_fixed_link = np.array(Origin((1.0, 2.0, 3.0), (0.3, -0.4, 0.9)).matrix)
+    T_link_shape = np.array(Origin((0.1, 0.0, 0.0), (0.0, 0.7, 0.2)).matrix)
+    turned = T_link_shape.copy()
+    turned[:3, :3] *= (2.0, 0.4, 0.1)
+    found = TurnedBox.around([Part(BOX, T_fixed_link, turned)])
+    assert found.high - found.low == pytest.approx((2.0, 0.4, 0.1))
+    middle = found.T @ (*(found.low + found.high) / 2, 1.0)
+    assert middle[:3] == pytest.approx((T_fixed_link @ (0.1, 0.0, 0.0, 1.0))[:3])
+    assert found.T[:3, :3] == pytest.approx((T_fixed_link @ T_link_shape)[:3, :3])
+    # Two shapes with axes of their own: along the axes of their link.
+    two = TurnedBox.around(
+        [Part(BOX, T_fixed_link, turned), Part(BOX, T_fixed_link, np.eye(4))]
+    )
+    assert two.T[:3, :3] == pytest.approx(T_fixed_link[:3, :3])
+    assert (two.high - two.low >= 1.0 - 1e-9).all()
+
+
+def test_a_rectangle_takes_what_is_seen_through_others() -> None:
+    glass = replace(box("glass", (0.0, 0.0, 1.0), (1.0, 1.0, 0.1)), clear=True)
+    behind = box("behind", (0.0, 0.0, 0.5), (0.3, 0.3, 0.1))
+    wall = box("wall", (0.0, 0.0, 0.2), (2.0, 2.0, 0.1))
+    below = replace(box("below", (0.0, 0.0, 0.0), (0.3, 0.3, 0.1)), clear=True)
+    assert seen(glass, behind, wall, below) == {"glass", "behind", "wall"}
+    # What is cut off by the rectangle counts only where it is in front.
+    middle = pixels((0.49, 0.49), (0.51, 0.51))
+    assert seen(glass, behind, wall, below, grid=middle) == {"glass"}

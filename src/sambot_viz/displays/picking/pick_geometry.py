@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -152,6 +153,74 @@ Corners = tuple[Array, Array]
 """The lowest and the highest corner of a box along the axes, (3,) [m]."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """Triangles of a link or a frame, and where they are.
+
+    Attributes:
+        mesh: the triangles.
+        T_fixed_frame: (4, 4) the pose of the link or frame.
+        T_frame_shape: (4, 4) their own pose there; it may scale.
+    """
+
+    mesh: TriangleMesh
+    T_fixed_frame: Matrix
+    T_frame_shape: Matrix
+
+    def box(self) -> Corners:
+        """Return the box around them along the axes of the fixed frame."""
+        return self.mesh.box(self.T_fixed_frame @ self.T_frame_shape)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TurnedBox:
+    """A box along axes of its own.
+
+    Attributes:
+        T: (4, 4) from these axes to the fixed frame.
+        low: its lowest corner along them, (3,) [m].
+        high: its highest corner, (3,) [m].
+    """
+
+    T: Matrix
+    low: Array
+    high: Array
+
+    @classmethod
+    def around(cls, parts: Sequence[Part]) -> TurnedBox:
+        """Return the box around parts, along their axes if they share these.
+
+        Otherwise it is along the axes of the link or frame.
+        """
+        T_fixed_link = parts[0].T_fixed_frame
+        turns = [_rotation(part.T_frame_shape) for part in parts]
+        first = turns[0]
+        share = first is not None and all(
+            turn is not None and np.allclose(turn, first) for turn in turns
+        )
+        T: Matrix = T_fixed_link if first is None or not share else T_fixed_link @ first
+        to_box = np.linalg.inv(T)
+        ends = [
+            part.mesh.box(to_box @ part.T_fixed_frame @ part.T_frame_shape)
+            for part in parts
+        ]
+        low: Array = np.min([end[0] for end in ends], axis=0)
+        high: Array = np.max([end[1] for end in ends], axis=0)
+        return cls(T, low, high)
+
+
+def _rotation(T: Matrix) -> Matrix | None:
+    """Return how an affine map turns, (4, 4); None when it shears or flattens."""
+    sizes = np.linalg.norm(T[:3, :3], axis=0)
+    if not sizes.all():
+        return None
+    turn = np.eye(4)
+    turn[:3, :3] = T[:3, :3] / sizes
+    angles: Array = np.einsum("ki,kj->ij", turn[:3, :3], turn[:3, :3])
+    straight = np.allclose(angles, np.eye(3), atol=1e-6)
+    return turn if straight and np.linalg.det(turn) > 0.0 else None
+
+
 @dataclass(frozen=True, slots=True)
 class Selectable:
     """Something that can be selected: a link of the robot, or a TF frame."""
@@ -183,15 +252,23 @@ class PickBuffer:
         pixels: the rays through the pixels.
 
     Attributes:
+        clear: whether what can be seen through is drawn now, which hides nothing, or
+            what hides others; None draws all as if it hid others.
         near: (rows, columns), 1 by the distance along the ray, which is counted in
             multiples of its direction; 0 for the background.
     """
 
     def __init__(self, pixels: RayGrid) -> None:
         self.pixels = pixels
+        self.clear: bool | None = None
         self.near: Array = np.zeros((pixels.rows, pixels.columns))
         self._front = np.full(self.near.shape, -1, np.int64)
         self._items: list[Selectable | None] = []
+        self._seen_too: set[Selectable | None] = set()
+
+    def takes(self, clear: bool) -> bool:
+        """Return whether something is drawn now that can be seen through, or cannot."""
+        return self.clear is None or self.clear == clear
 
     def cover(self, left: int, top: int, near: Array, item: Selectable | None) -> None:
         """Put something in front of what is farther away.
@@ -205,6 +282,10 @@ class PickBuffer:
         rows, columns = near.shape
         window = np.s_[top : top + rows, left : left + columns]
         nearer = near > self.near[window]
+        if self.clear:
+            if nearer.any():
+                self._seen_too.add(item)
+            return
         self.near[window][nearer] = near[nearer]
         self._front[window][nearer] = len(self._items)
         self._items.append(item)
@@ -214,6 +295,7 @@ class PickBuffer:
         """The links and frames that have at least one of the pixels."""
         numbers: list[int] = np.unique(self._front).tolist()
         items = {self._items[number] for number in numbers if number >= 0}
+        items |= self._seen_too
         return {item for item in items if item is not None}
 
 
@@ -228,6 +310,16 @@ class PickGeometry:
     def triangles(self) -> int:
         """The number of triangles, to judge how long a ray or a rectangle takes."""
         return 0
+
+    @property
+    def clear(self) -> bool:
+        """Whether something can be seen through some of it."""
+        return False
+
+    def cut_off(self, pixels: RayGrid) -> Iterable[Selectable | None]:
+        """Return whatever lies beside the pixels, at least in part."""
+        del pixels
+        return ()
 
     def draw(self, buffer: PickBuffer) -> None:
         """Draw all that hides what is behind it."""

@@ -144,7 +144,7 @@ class LinkOverlays:
         for name, trail in self._trails.items():
             frame = self._frame_of(name)
             if self._context.nodes.connected(frame):
-                trail.follow(position_of(tree.lookup(fixed, frame).matrix))
+                trail.follow(position_of(tree.drawn(fixed, frame).matrix))
 
     def drawn(self) -> Iterator[DrawnTriangles]:
         """Yield the overlays as triangles, without the trails, which are lines."""
@@ -250,7 +250,7 @@ class LinkOverlays:
         # RViz leaves the rotation of the joint out, which is a mistake of RViz.
         x, y, z = (float(c) for c in T_link_joint[:3, :3] @ joint.axis)
         arrow = Arrow(position_of(T_link_joint), (x, y, z), SHAFT, HEAD)
-        handles = add_arrows(scene, node, [arrow], GREEN, GREEN)
+        handles = add_arrows(scene, node, [arrow], [GREEN], [GREEN])
         return handles, arrow_triangles((arrow,)), np.eye(4)
 
 

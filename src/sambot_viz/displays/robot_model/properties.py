@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.displays.robot_model.robot_source import FILE
+from sambot_viz.displays.robot_model.robot_source import FILE, TOPIC
 from sambot_viz.rviz import (
     BoolProperty,
     EnumProperty,
@@ -136,7 +136,7 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         "Description Source",
         default="Topic",
         options=("Topic", "File"),
-        help="The robot that was opened, or a model file of its own.",
+        help="The robot of a topic, or a model file of its own.",
     ),
     FileProperty(
         FILE,
@@ -145,11 +145,11 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         hidden_unless=("Description Source", "File"),
     ),
     TopicProperty(
-        "Description Topic",
+        TOPIC,
         default="",
-        help="Kept for RViz; here the robot that was opened takes its place.",
+        help="Where the robot is described, with a recording or a live robot; the "
+        "robot that was opened when this is empty.",
         hidden_unless=("Description Source", "Topic"),
-        support="approximate",
     ),
     StringProperty(
         "TF Prefix",

@@ -259,7 +259,7 @@ def _pose(context: DisplayContext, frame: str) -> Matrix | None:
     fixed = context.fixed_frame
     if not context.nodes.connected(frame):
         return None
-    return context.tree.lookup(fixed, frame).matrix
+    return context.tree.drawn(fixed, frame).matrix
 
 
 def _link_facts(

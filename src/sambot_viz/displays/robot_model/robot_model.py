@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.displays.robot_display import RobotDisplay
+from sambot_viz.displays.robot_display import Repair, RobotDisplay
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
@@ -23,11 +23,19 @@ from sambot_viz.displays.robot_model.robot_entries import (
 )
 from sambot_viz.displays.robot_model.robot_source import (
     FILE,
+    TOPIC,
     RobotSource,
     publish_frames,
 )
 from sambot_viz.displays.robot_model.shape_nodes import ShapeNode
 from sambot_viz.displays.robot_model.shape_solids import ShapeLook
+from sambot_viz.displays.robot_model.status_repairs import (
+    PREFIX,
+    meant_prefix,
+    prefix_status,
+    repairs,
+    topic_status,
+)
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot, asset_of
@@ -59,7 +67,7 @@ class RobotModelDisplay(TriangleDisplay):
 
     def frame_of(self, link: str) -> str:
         """Return the TF frame of a link."""
-        prefix = str(self.config.get("TF Prefix"))
+        prefix = str(self.config.get(PREFIX))
         return f"{prefix}/{link}" if prefix else link
 
     def draw(self) -> None:
@@ -68,7 +76,9 @@ class RobotModelDisplay(TriangleDisplay):
         if robot is None:
             self._remove_shapes()
             missing = Status("Error", "There is no robot to show")
-            self.status.replace({"URDF": self._source.status or missing})
+            self.status.replace(
+                {**topic_status(self._source), "URDF": self._source.status or missing}
+            )
             return
         if self.publish():
             self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
@@ -160,8 +170,8 @@ class RobotModelDisplay(TriangleDisplay):
 
     @property
     def own_robot(self) -> Robot | None:
-        """The robot of "Description File"."""
-        return self._source.robot if self._source.from_file else None
+        """The robot of "Description File", or of a topic that is not the opened one."""
+        return None if self._source.is_opened else self._source.robot
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -174,16 +184,14 @@ class RobotModelDisplay(TriangleDisplay):
         self._write_source_status()
 
     def _report(self, robot: Robot) -> None:
-        rows: dict[str, Status] = {}
+        rows = topic_status(self._source)
+        prefix = self._meant_prefix()
+        if prefix is not None:
+            rows[PREFIX] = prefix_status(self.config, robot.root, prefix)
         rows["URDF"] = self._source.status or self._geometry_status()
-        fixed = self.context.fixed_frame
         for name in robot.links:
             frame = self.frame_of(name)
-            if self.context.nodes.connected(frame):
-                rows[frame] = Status("Ok", "Transform OK")
-            else:
-                text = f"No transform from [{frame}] to [{fixed}]"
-                rows[frame] = Status("Error", text)
+            rows[frame] = self.context.transform_status(frame, "Error")
         self.status.replace(rows)
 
     def _geometry_status(self) -> Status:
@@ -208,7 +216,28 @@ class RobotModelDisplay(TriangleDisplay):
         robot = self.own_robot
         if not self.shown or robot is None:
             return False
+        if self._source.described is not None:
+            # Messages hold its links; one of which they say nothing has no place.
+            if self._has_place(robot) or self._meant_prefix() is not None:
+                return False
         return bool(publish_frames(self.context.tree, robot, self.frame_of))
+
+    def _has_place(self, robot: Robot) -> bool:
+        tree = self.context.tree
+        children = (self.frame_of(joint.child) for joint in robot.joints.values())
+        return any(frame in tree and tree.parent(frame) for frame in children)
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return the topics that describe robots."""
+        descriptions = self.context.descriptions
+        return {} if descriptions is None else {TOPIC: descriptions.topics()}
+
+    def repairs(self) -> Mapping[str, Repair]:
+        """Offer the topic and the prefix that were probably meant."""
+        return repairs(self._meant_prefix(), self._source)
+
+    def _meant_prefix(self) -> str | None:
+        return meant_prefix(self.context, self.config, self._source)
 
     @property
     def problems(self) -> tuple[Problem, ...]:

@@ -1,4 +1,4 @@
-"""The robot that a RobotModel shows: the opened one, or that of "Description File".
+"""The robot that a RobotModel shows: the opened one, that of a topic, or of a file.
 
 In ROS a robot_state_publisher with a frame_prefix would say where the links of a second
 robot are. Here the display does, with all joints at their start values; frames that
@@ -12,7 +12,12 @@ from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext, Status
-from sambot_viz.displays.robot_display import ModelRequest, ModelResult
+from sambot_viz.displays.robot_display import (
+    Description,
+    ModelRequest,
+    ModelResult,
+    WantedQos,
+)
 from sambot_viz.displays.robot_model.description_file import (
     find_below,
     find_description,
@@ -25,12 +30,13 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig
 
 FILE = "Description File"
+TOPIC = "Description Topic"
 
 Change = Literal["none", "edited", "other"]
 
 
 class RobotSource:
-    """Chooses the robot of one display, and reads it when it has a file of its own.
+    """Chooses the robot of one display, and reads it when it is not the opened one.
 
     Args:
         context: the opened robot and the reader of models.
@@ -39,8 +45,10 @@ class RobotSource:
 
     Attributes:
         robot: the robot to draw, or None while there is none.
+        is_opened: it is the one that was opened.
         files: the files that a robot of its own comes from.
         status: why there is no robot, or not the latest one; None when all is well.
+        described: what "Description Topic" says; None where no messages come.
     """
 
     def __init__(
@@ -50,8 +58,10 @@ class RobotSource:
         on_read: Callable[[], None],
     ) -> None:
         self.robot: Robot | None = None
+        self.is_opened = False
         self.files: tuple[Path, ...] = ()
         self.status: Status | None = None
+        self.described: Description | None = None
         self._context = context
         self._config = config
         self._on_read = on_read
@@ -71,21 +81,46 @@ class RobotSource:
             "edited" when it is another version of the opened robot, "other" when it
             is another robot.
         """
-        source: tuple[object, ...]
-        if self._config.get("Description Source") == "File":
-            source = ("File", *self._named_file())
-        else:
-            source = ("Topic", id(self._context.robot))
+        source = self._wanted()
         if source == self._source:
             return "none"
-        kinds = (source[0], *self._source[:1])
-        self._source = source
-        self.robot, self.files, self.status = None, (), None
-        if self.from_file:
-            self._read_file()
-        else:
+        before, self._source = self._source, source
+        was_opened, self.status = self.is_opened, None
+        of_topic = before[:1] in (("Text",), ("Opened",), ("Gone",))
+        if of_topic and source[0] != "Opened" and not self.from_file:
+            # The last good robot stays, until the new one is read.
+            if source[0] == "Text":
+                self._read(self.described, trusted=False)
+            return "none"
+        self.robot, self.files = None, ()
+        self.is_opened = source[0] == "Opened"
+        if self.is_opened:
             self.robot = self._context.robot
-        return "edited" if kinds == ("Topic", "Topic") else "other"
+        elif source[0] == "Text":
+            self._read(self.described, trusted=False)
+        elif self.from_file:
+            self._read_file()
+        return "edited" if self.is_opened and was_opened else "other"
+
+    def _wanted(self) -> tuple[object, ...]:
+        """Return what the properties ask for."""
+        self.described = None
+        if self._config.get("Description Source") == "File":
+            return ("File", *self._named_file())
+        topic = str(self._config.get(TOPIC))
+        if self._context.descriptions is not None and topic:
+            # As ROS completes the name of a node without a namespace.
+            topic = f"/{topic.removeprefix('/')}"
+            qos = WantedQos(
+                str(self._config.get(f"{TOPIC}/Reliability Policy")),
+                str(self._config.get(f"{TOPIC}/Durability Policy")),
+            )
+            self.described = self._context.descriptions.of(topic, qos)
+            if self.described.text is not None:
+                return ("Text", topic, self.described.text)
+            if not self.described.is_opened:
+                return ("Gone",)
+        return ("Opened", id(self._context.robot))
 
     def forget(self) -> None:
         """Choose again from the start when the robot is next asked for."""
@@ -137,22 +172,29 @@ class RobotSource:
     def _read_file(self) -> None:
         """Start reading "Description File"; `_take` gets the result."""
         name, trusted, path = self._named_file()
-        models = self._context.models
-        if not name or models is None:
+        if not name or self._context.models is None:
             return
         if path is None:
             text = f"URDF is empty: no file '{name}'" if trusted else self.why_not()
             self.status = Status("Error", text)
             return
-        if self.robot is None:
-            self.status = Status("Warn", "The model file is still being read")
-        source = self._source
         self.files = tuple(dict.fromkeys((path, *self.files)))
+        self._read(path, trusted)
+
+    def _read(self, model: Path | Description | None, trusted: bool) -> None:
+        """Start reading a file, or what a topic has sent; `_take` gets the result."""
+        models = self._context.models
+        if model is None or models is None:
+            return
+        if self.robot is None:
+            what = "file" if isinstance(model, Path) else "of the topic"
+            self.status = Status("Warn", f"The model {what} is still being read")
+        source = self._source
 
         def done(result: ModelResult) -> None:
             self._context.apply(lambda: self._take(source, trusted, result))
 
-        models.read(ModelRequest(self, path, trusted, done))
+        models.read(ModelRequest(self, model, trusted, done))
 
     def _take(
         self, source: tuple[object, ...], trusted: bool, result: ModelResult
@@ -161,11 +203,14 @@ class RobotSource:
         if source != self._source:
             return
         if isinstance(result, Robot):
-            self.robot, self.status = result, None
-            self.files = tuple(dict.fromkeys((*self.files[:1], *result.files)))
+            self.robot, self.status, self.is_opened = result, None, False
+            if self.from_file:
+                self.files = tuple(dict.fromkeys((*self.files[:1], *result.files)))
         else:
-            # A browser could name any file here: its text is not quoted.
-            why = result.problems[0].message if trusted else "see `sambot-viz check`"
+            # A browser could name any file: its text is not quoted. That of a topic is
+            # no secret.
+            told = trusted or not self.from_file
+            why = result.problems[0].message if told else "see `sambot-viz check`"
             self.status = Status("Error", f"URDF failed Model parse: {why}")
         self._on_read()
 

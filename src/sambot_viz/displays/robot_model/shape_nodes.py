@@ -30,7 +30,7 @@ from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix, Rgba, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
-from sambot_viz.meshes.glb import shared_glb
+from sambot_viz.meshes.glb import OPAQUE_FROM, shared_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.robot.parts import Box, Capsule, Cylinder, MeshFile, Shape, Sphere
 
@@ -167,7 +167,8 @@ class ShapeNode:
             if look.error or look.alpha * piece.alpha > 0.0:
                 T = self._shape.origin.matrix @ T_shape_solid
                 color = look.color or piece.color
-                yield DrawnTriangles(triangles, T, frame, item, solid, color)
+                clear = not look.error and look.alpha * piece.alpha < OPAQUE_FROM
+                yield DrawnTriangles(triangles, T, frame, item, solid, color, clear)
 
     def remove(self) -> None:
         """Take the nodes out of the scene."""

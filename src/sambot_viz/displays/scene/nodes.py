@@ -75,9 +75,9 @@ class FrameNodes:
     def place(self, tree: FrameTree, fixed_frame: str, frames: Iterable[str]) -> None:
         """Send the poses of some frames (and of the roots, if they changed)."""
         for frame in frames:
-            parent = tree.parent(frame)
-            if parent is not None:
-                self._set(frame, tree.lookup(parent, frame).matrix)
+            if tree.parent(frame) is not None:
+                # The latest sample of a single step is what tf2 answers for it.
+                self._set(frame, tree.hop(frame).transform.matrix)
         self._place_roots(tree, fixed_frame)
 
     def _place_roots(self, tree: FrameTree, fixed_frame: str) -> None:
@@ -87,7 +87,7 @@ class FrameNodes:
             if connected:
                 T_root_fixed = np.eye(4)
                 if fixed_frame != root:
-                    T_root_fixed = tree.lookup(root, fixed_frame).matrix
+                    T_root_fixed = tree.drawn(root, fixed_frame).matrix
                 self._set(root, inverse_matrix(T_root_fixed))
 
     def _set(self, frame: str, T: Matrix) -> None:

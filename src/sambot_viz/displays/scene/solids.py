@@ -32,7 +32,7 @@ _AXIS_WXYZ: tuple[Wxyz, ...] = (
     (_HALF, -_HALF, 0.0, 0.0),
     (1.0, 0.0, 0.0, 0.0),
 )
-_AXIS_COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
+AXIS_COLORS: tuple[Rgb, ...] = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
 def linear(channel: int) -> float:
@@ -82,8 +82,11 @@ def add_batch(
     positions: Sequence[Vector3],
     scales: Sequence[Vector3],
     colors: Sequence[Rgb],
+    alphas: Sequence[float] = (),
 ) -> viser.BatchedMeshHandle:
     """One node for several copies of a unit shape (see the fields of viser).
+
+    Alphas are 0 to 1; none for opaque copies.
 
     Colours are sRGB as everywhere here; viser takes those of batches as linear.
     """
@@ -96,6 +99,9 @@ def add_batch(
         np.array(positions, dtype=np.float32),
         batched_scales=np.array(scales, dtype=np.float32),
         batched_colors=np.array(linear_colors, dtype=np.uint8),
+        batched_opacities=(
+            np.array(alphas, dtype=np.float32) if min(alphas, default=1.0) < 1 else None
+        ),
         lod="off",
         flat_shading=True,
         cast_shadow=False,
@@ -152,7 +158,12 @@ def _thick(part: tuple[float, float]) -> Vector3:
 
 
 def add_axes(
-    scene: viser.SceneApi, name: str, length: float, diameter: float
+    scene: viser.SceneApi,
+    name: str,
+    length: float,
+    diameter: float,
+    colors: Sequence[Rgb] = AXIS_COLORS,
+    alpha: float = 1.0,
 ) -> viser.BatchedMeshHandle:
     """Three cylinders from the origin along +x (red), +y (green) and +z (blue).
 
@@ -161,10 +172,19 @@ def add_axes(
         name: node name; the axes are drawn at the frame of its parent.
         length: [m].
         diameter: what RViz calls "radius" is the diameter of the cylinders [m].
+        colors: of the three.
+        alpha: 0 to 1.
     """
     scales = [(diameter, diameter, length)] * 3
     return add_batch(
-        scene, name, cylinder(), _AXIS_WXYZ, _middles(length), scales, _AXIS_COLORS
+        scene,
+        name,
+        cylinder(),
+        _AXIS_WXYZ,
+        _middles(length),
+        scales,
+        colors,
+        [alpha] * 3,
     )
 
 
@@ -207,17 +227,29 @@ def add_arrows(
     scene: viser.SceneApi,
     name: str,
     arrows: Sequence[Arrow],
-    shaft_color: Rgb,
-    head_color: Rgb,
+    shaft_colors: Sequence[Rgb],
+    head_colors: Sequence[Rgb],
+    alphas: Sequence[float] = (),
 ) -> tuple[viser.BatchedMeshHandle, viser.BatchedMeshHandle]:
-    """Several arrows in one frame: one node for the shafts, one for the heads."""
+    """Several arrows in one frame: one node for the shafts, one for the heads.
+
+    Colours and alphas are those of each arrow; without alphas all are opaque.
+    """
     turns, shafts_at, heads_at = zip(*(arrow.parts() for arrow in arrows), strict=True)
     shafts = [_thick(arrow.shaft) for arrow in arrows]
     heads = [_thick(arrow.head) for arrow in arrows]
-    shaft_colors, head_colors = [shaft_color] * len(arrows), [head_color] * len(arrows)
     return (
         add_batch(
-            scene, f"{name}s", cylinder(), turns, shafts_at, shafts, shaft_colors
+            scene,
+            f"{name}s",
+            cylinder(),
+            turns,
+            shafts_at,
+            shafts,
+            shaft_colors,
+            alphas,
         ),
-        add_batch(scene, f"{name}h", cone(), turns, heads_at, heads, head_colors),
+        add_batch(
+            scene, f"{name}h", cone(), turns, heads_at, heads, head_colors, alphas
+        ),
     )

@@ -47,9 +47,8 @@ TF_PROPERTIES: tuple[Property, ...] = (
         default=15.0,
         minimum=1.0,
         unit="s",
-        help="Seconds after which RViz takes a silent frame out; frames here "
-        "never grow old.",
-        support="approximate",
+        help="Seconds after which a frame that messages no longer move vanishes; it "
+        "fades from a third of them on. Frames without messages never grow old.",
     ),
     RegexProperty(
         "Filter (whitelist)",
@@ -136,7 +135,7 @@ def _facts(context: DisplayContext, frame: str) -> Mapping[str, str]:
     parent = tree.parent(frame)
     facts = {"Parent": parent or "none: it is a root"}
     if context.nodes.connected(frame):
-        facts |= _pose("", tree.lookup(fixed, frame).matrix)
+        facts |= _pose("", tree.drawn(fixed, frame).matrix)
     else:
         facts["Position"] = f"no transform to {fixed}"
     if parent is not None:

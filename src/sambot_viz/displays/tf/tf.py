@@ -19,12 +19,14 @@ from sambot_viz.displays.scene.nodes import (
     remove_all,
 )
 from sambot_viz.displays.scene.solids import (
+    AXIS_COLORS,
     Arrow,
     add_arrows,
     add_axes,
     arrow_triangles,
     axes_triangles,
 )
+from sambot_viz.displays.tf.ageing import FRESH, GONE, FrameAges, FrameLook
 from sambot_viz.displays.tf.frame_rows import (
     ALL_ENABLED,
     TF_PROPERTIES,
@@ -52,6 +54,7 @@ class _FrameOverlays:
     path: str
     axes: viser.BatchedMeshHandle | None = None
     name: viser.LabelHandle | None = None
+    look: FrameLook = FRESH
 
     @property
     def handles(self) -> tuple[Handle, ...]:
@@ -72,6 +75,13 @@ class TfDisplay(TriangleDisplay):
         self._entries = FrameEntries(config)
         self._overlays: dict[str, _FrameOverlays] = {}
         self._arrows: dict[str, NodeCache] = {}
+        self._ages = FrameAges(context)
+
+    def time_passed(self) -> None:
+        """Let frames that messages bring no more fade, and vanish."""
+        timeout = float(self.config.get("Frame Timeout"))
+        if self.shown and self._ages.look(self.context.tree.frames, timeout):
+            self.draw()
 
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
@@ -81,6 +91,7 @@ class TfDisplay(TriangleDisplay):
             frame: None
             for frame in tree.frames
             if nodes.connected(frame) and self._entries.is_on(frame) and passes(frame)
+            if self._look(frame) != GONE
         }
         for frame in [f for f in self._overlays if f not in frames]:
             self._drop(self._overlays.pop(frame))
@@ -93,6 +104,9 @@ class TfDisplay(TriangleDisplay):
             if parent is not None:
                 self._draw_arrows(parent)
         self._report()
+
+    def _look(self, frame: str) -> FrameLook:
+        return self._ages.looks.get(frame, FRESH)
 
     def _filter(self) -> Callable[[str], bool]:
         """Return a check whether the two filters let a frame through."""
@@ -119,10 +133,20 @@ class TfDisplay(TriangleDisplay):
         if overlays is None:
             overlays = self._overlays[frame] = _FrameOverlays(path)
         scene, scale = self.context.scene, float(self.config.get("Marker Scale"))
+        look = self._look(frame)
+        if overlays.axes is not None and overlays.look != look:
+            remove_all([overlays.axes])
+            overlays.axes = None
+        overlays.look = look
         if bool(self.config.get("Show Axes")):
             if overlays.axes is None:
                 overlays.axes = add_axes(
-                    scene, f"{path}/{self.key}a", AXES_LENGTH, AXES_DIAMETER
+                    scene,
+                    f"{path}/{self.key}a",
+                    AXES_LENGTH,
+                    AXES_DIAMETER,
+                    [look.of(color) for color in AXIS_COLORS],
+                    look.alpha,
                 )
             overlays.axes.scale = scale
         elif overlays.axes is not None:
@@ -147,29 +171,36 @@ class TfDisplay(TriangleDisplay):
     def _draw_arrows(self, parent: str) -> None:
         """The arrows of all children of a frame, as two nodes below it."""
         path = self.context.nodes.path(parent)
-        arrows = self._arrows_at(parent)
-        if path is None or not arrows:
+        at = self._arrows_at(parent)
+        if path is None or not at:
             self._arrows.pop(parent, NodeCache()).remove()
             return
         name = f"{path}/{self.key}"
+        arrows = tuple(at.values())
+        looks = tuple(self._look(child) for child in at)
         self._arrows.setdefault(parent, NodeCache()).show(
-            (name, arrows),
+            (name, arrows, looks),
             lambda: add_arrows(
-                self.context.scene, name, arrows, SHAFT_COLOR, HEAD_COLOR
+                self.context.scene,
+                name,
+                arrows,
+                [look.of(SHAFT_COLOR) for look in looks],
+                [look.of(HEAD_COLOR) for look in looks],
+                [look.alpha for look in looks],
             ),
         )
 
-    def _arrows_at(self, parent: str) -> tuple[Arrow, ...]:
+    def _arrows_at(self, parent: str) -> dict[str, Arrow]:
         """Return the arrows of all children of a frame, in its coordinates."""
         if not bool(self.config.get("Show Arrows")):
-            return ()
+            return {}
         tree, scale = self.context.tree, float(self.config.get("Marker Scale"))
-        arrows = (
-            frame_arrow(position_of(tree.hop(child).transform.matrix), scale)
+        arrows = {
+            child: frame_arrow(position_of(tree.hop(child).transform.matrix), scale)
             for child in tree.children(parent)
             if child in self._overlays
-        )
-        return tuple(arrow for arrow in arrows if arrow is not None)
+        }
+        return {child: arrow for child, arrow in arrows.items() if arrow is not None}
 
     def drawn(self) -> Iterator[DrawnTriangles]:
         """Yield axes, which select their frame, and arrows, which select nothing."""
@@ -180,7 +211,7 @@ class TfDisplay(TriangleDisplay):
             if overlays.axes is not None:
                 yield DrawnTriangles(axes, T, frame, Selectable("frame", frame))
         for parent in self._arrows:
-            arrows = self._arrows_at(parent)
+            arrows = tuple(self._arrows_at(parent).values())
             if arrows:
                 yield DrawnTriangles(arrow_triangles(arrows), np.eye(4), parent)
 
@@ -210,14 +241,13 @@ class TfDisplay(TriangleDisplay):
                     self._draw_arrows(parent)
 
     def _report(self) -> None:
-        fixed = self.context.fixed_frame
-        rows: dict[str, Status] = {}
-        for frame in self.context.tree.frames:
-            if self.context.nodes.connected(frame):
-                rows[frame] = Status("Ok", "Transform OK")
-            else:
-                sentence = f"No transform from [{frame}] to [{fixed}]"
-                rows[frame] = Status("Warn", sentence)
+        frames, said = self.context.tree.frames, self.context.transform_status
+        rows = {frame: said(frame, "Warn") for frame in frames}
+        descriptions = self.context.descriptions
+        if descriptions is not None:
+            doubts = descriptions.transform_doubts()
+            told = {topic: Status("Warn", why) for topic, why in doubts.items()}
+            rows = {**told, **rows}
         self.status.replace(rows)
 
     def clear(self) -> None:

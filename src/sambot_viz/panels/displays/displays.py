@@ -13,6 +13,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.problems import without_folders
 from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
 from sambot_viz.panels.row import Json, Row
 from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_rows
@@ -22,7 +23,7 @@ from sambot_viz.panels.unfolded import (
     listed_rows,
     mark_expanded,
 )
-from sambot_viz.rviz import DisplayConfig
+from sambot_viz.rviz import DisplayConfig, FileProperty
 from sambot_viz.rviz.declarations import GROUP, row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
@@ -42,6 +43,7 @@ class DisplaysPanel(Panel):
 
     Args:
         remake: called when a page has unfolded something.
+        folders: whether paths of files are whole in the rows of all.
     """
 
     name = "displays"
@@ -54,7 +56,9 @@ class DisplaysPanel(Panel):
         robot: RobotState,
         problems: Problems,
         remake: Callable[[Panel], None],
+        folders: bool = True,
     ) -> None:
+        self._folders = folders
         whole = (
             document.replaced,
             document.options,
@@ -197,9 +201,27 @@ class DisplaysPanel(Panel):
         self, config: DisplayConfig, display: Display | None, parent: str
     ) -> list[Row]:
         self._facts[config] = []
-        rows = [*self._rows_of(config, display, parent)]
+        rows = [self._for_all(row) for row in self._rows_of(config, display, parent)]
         self._made[config] = (0 if display is None else display.revision, rows)
         return rows
+
+    def _for_all(self, row: Row) -> Row:
+        """Leave out the folders of this computer, where viewers see the row."""
+        if self._folders or row.kind not in ("file", "status"):
+            return row
+        return replace(row, value=without_folders(row.value))
+
+    def whole_texts(self) -> dict[str, str]:
+        """Return the texts that the rows of all have without folders, by their ids."""
+        texts: dict[str, str] = {}
+        for display in () if self._folders else self._scene.displays:
+            row_id, config = self.id_of(display.config), display.config
+            for path, declared in config.declared.items():
+                if isinstance(declared.property, FileProperty):
+                    texts[f"{row_id}/{path}"] = str(config.get(path))
+            for key, status in display.status.rows.items():
+                texts[f"{row_id}/:status/{key}"] = status.text
+        return {key: one for key, one in texts.items() if without_folders(one) != one}
 
     def _rows_of(
         self, config: DisplayConfig, display: Display | None, parent: str
@@ -252,6 +274,7 @@ class DisplaysPanel(Panel):
         entries = {found.title: found for found in display.entries()}
         robot_display = display.robot_display
         notes = robot_display.notes() if robot_display else dict[str, str]()
+        options = robot_display.options() if robot_display else dict[str, list[str]]()
         of_list: dict[str, list[Row]] = {}
         for path, declared in item.declared.items():
             if not is_listed(item, declared):
@@ -260,6 +283,8 @@ class DisplaysPanel(Panel):
             if of.property.open_keys and of.path not in entries:
                 continue
             row = property_row(item, declared, parent, change)
+            if path in options:
+                row = replace(row, kind="enum", editable=True, options=options[path])
             # The links of a robot come after the properties of their list.
             for title in [t for t in of_list if not path.startswith(f"{t}/")]:
                 yield from of_list.pop(title)

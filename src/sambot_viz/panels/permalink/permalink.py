@@ -25,6 +25,7 @@ from sambot_viz.panels.permalink.permalink_parts import (
     short,
     written,
 )
+from sambot_viz.panels.player import PLAYING, TIME
 from sambot_viz.panels.property_rows import property_rows
 from sambot_viz.panels.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
@@ -102,6 +103,9 @@ class PermalinkPanel(Panel):
         fixed = self._scene.context.fixed_frame
         if fixed != self._document.first_fixed_frame:
             yield "fixed", fixed
+        time = self._row(TIME)
+        if time is not None:
+            yield "time", f"{time.value!r}"
         yield from self._moved()
         for name, toggle in self._toggles.all().items():
             if toggle.on != toggle.first:
@@ -112,7 +116,8 @@ class PermalinkPanel(Panel):
 
     def _moved(self) -> Iterator[Pair]:
         joints, first = self._robot.joints, self._robot.first
-        if joints is None:
+        if joints is None or self._robot.followed.value:
+            # The messages of a recording say at each time where the joints are.
             return
         for name, q in joints.positions.items():
             if q != first.get(name):
@@ -131,6 +136,7 @@ class PermalinkPanel(Panel):
         # The camera is in the fixed frame.
         self._fix(link)
         self._look(link)
+        self._go(link)
         self._move(link)
         self._switch(link)
         self._select(link)
@@ -178,7 +184,31 @@ class PermalinkPanel(Panel):
         self._views.look_as(kinds[link.kind], wanted)
         link.missing["property of the view"] += [p for p in link.view if p not in used]
 
+    def _go(self, link: PermalinkParts) -> None:
+        """Stop the player at the time of the link."""
+        time, playing = self._row(TIME), self._row(PLAYING)
+        if not link.time:
+            return
+        if time is None or playing is None or time.set is None or playing.set is None:
+            link.refuse("no recording is played here")
+        elif link.watching:
+            link.kept = True
+        else:
+            try:
+                seconds = validate(time, number(link.time))
+            except UsageError as error:
+                link.refuse(str(error))
+                return
+            playing.set(False)
+            time.set(seconds)
+
     def _move(self, link: PermalinkParts) -> None:
+        if self._robot.followed.value:
+            if link.joints:
+                link.refuse(
+                    f"joints are moved by {self._robot.followed.value}, not by the link"
+                )
+            return
         joints = self._robot.joints
         if joints is None:
             link.missing["joint"] += link.joints

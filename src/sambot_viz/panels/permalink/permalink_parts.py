@@ -26,6 +26,7 @@ class PermalinkParts:
     Attributes:
         kind: the type of the view, such as "Orbit".
         robot: the name of the robot.
+        time: that of a recording, from its first message [s].
         fixed: the fixed frame, if it is not that of the config.
         view: property of the view → value.
         joints: joint → position [rad or m].
@@ -40,6 +41,7 @@ class PermalinkParts:
 
     kind: str = ""
     robot: str | None = None
+    time: str = ""
     fixed: str | None = None
     view: dict[str, str] = field(default_factory=dict[str, str])
     joints: dict[str, str] = field(default_factory=dict[str, str])
@@ -84,7 +86,8 @@ class PermalinkParts:
         """Return what a user reads: all is as in the link, or what is not."""
         said = [self.missing.sentence(), *self.refused[:MOST_NAMED]]
         if self.kept:
-            said.append(f"joints and displays stay as they are: {VIEW_ONLY}")
+            kept = f"{'time, ' if self.time else ''}joints and displays"
+            said.append(f"{kept} stay as they are: {VIEW_ONLY}")
         trouble = "; ".join(part for part in said if part)
         if not trouble and not self.elsewhere:
             return Answer("Opened the link")
@@ -99,6 +102,8 @@ class PermalinkParts:
             self.kind = value
         elif name == "robot":
             self.robot = value
+        elif name == "time":
+            self.time = value
         elif name == "fixed":
             self.fixed = value
         elif name == "select":

@@ -148,32 +148,34 @@ QOS_PROPERTIES: tuple[Property, ...] = (
         "Depth",
         default=5,
         minimum=1,
-        help="How many messages wait in the queue.",
-        support="none",
+        help="How many messages wait in the queue; here the newest counts.",
+        support="approximate",
     ),
     EditableEnumProperty(
         "History Policy",
         default="Keep Last",
         options=("System Default", "Keep Last", "Keep All"),
-        help="Whether old messages are dropped from the queue.",
-        support="none",
+        help="Whether old messages are dropped from the queue; kept for RViz.",
+        support="approximate",
     ),
     EditableEnumProperty(
         "Reliability Policy",
         default="Reliable",
         options=("System Default", "Reliable", "Best Effort"),
-        help="Whether lost messages are sent again.",
-        support="none",
+        help="Whether lost messages are sent again; it is compared with the "
+        "publishers.",
+        support="approximate",
     ),
     EditableEnumProperty(
         "Durability Policy",
         default="Volatile",
         options=("System Default", "Transient Local", "Volatile"),
-        help="Whether messages sent before the start arrive.",
-        support="none",
+        help="Whether messages sent before the start arrive; it is compared with the "
+        "publishers.",
+        support="approximate",
     ),
 )
-"""The quality of service below a topic, in RViz's order; kept for RViz."""
+"""The quality of service below a topic, in RViz's order. The source subscribes."""
 
 FILTER_SIZE = IntProperty(
     "Filter size",

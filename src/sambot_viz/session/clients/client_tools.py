@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any
 
-import numpy as np
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Array, Hit, RayGrid, Selectable
@@ -196,11 +195,9 @@ class ClientTools:
         click = None if at is None else pointed_at(self._client, at)
         if click is None or isinstance(self.current, SelectTool):
             with self._change.lock:
-                boxes = self._picker.boxes_of(self.selection).values()
-            if boxes:
-                low = np.min([box[0] for box in boxes], axis=0)
-                high = np.max([box[1] for box in boxes], axis=0)
-                self._view.fit((low, high))
+                box = self._picker.box_of(self.selection)
+            if box is not None:
+                self._view.fit(box)
                 return
         if click is None:
             self._view.fit()
@@ -298,6 +295,7 @@ class ClientTools:
 
     def _switch(self, tool: Tool) -> None:
         if tool is not self.current:
+            self.current.left()
             self.current = tool
             self.status = ""
             self._listen()

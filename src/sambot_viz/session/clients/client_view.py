@@ -47,6 +47,21 @@ READ_PERIOD = 0.1
 """The numbers follow a moving camera this often [s]."""
 
 
+class ViewOwner:
+    """Whose view the edits of a page change: its own, or that of the page it is now.
+
+    Args:
+        view: that view.
+    """
+
+    def __init__(self, view: ClientView) -> None:
+        self.view = view
+
+    def restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:
+        """Undo an edit of the view, or do it again; see `ClientView.restore`."""
+        self.view.restore(shown, config, values)
+
+
 class ClientView:
     """Keeps the view and the camera of one client in agreement.
 
@@ -94,6 +109,7 @@ class ClientView:
         self._scene = scene
         self._picker = picker
         self._history = history
+        self._owner = ViewOwner(self)
         self._tell_others = lead
         self._camera = ClientCamera(client)
         self._target = WORLD
@@ -264,14 +280,41 @@ class ClientView:
         if before or after:
             self._history.record(
                 label,
-                partial(self._restore, self._config, config, before),
-                partial(self._restore, config, self._config, after),
+                partial(self._owner.restore, self._config, config, before),
+                partial(self._owner.restore, config, self._config, after),
                 merge,
                 of_document=False,
-                of_page=True,
+                page=self._owner,
             )
 
-    def _restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:
+    def go_on(self, owner: ViewOwner) -> bool:
+        """Take over the view of a page that was loaded again, for its edits.
+
+        Returns:
+            Whether both show a view of one type; otherwise nothing happens.
+        """
+        before = owner.view
+        if before.view.kind != self.view.kind:
+            return False
+        values = dict(self.values)
+        with self._change(self.changed):
+            # Its edits know it by that.
+            self._take(before.config)
+            self._apply(values)
+        owner.view = self
+        return True
+
+    @property
+    def config(self) -> ViewConfig:
+        """The view with its numbers, which no file has."""
+        return self._config
+
+    def restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:
+        """Show what was shown before an edit, or after it.
+
+        Raises:
+            UsageError: `shown` is not shown any more.
+        """
         if self._config is not shown:
             raise UsageError("another view was shown since")
         self._framing.stop()

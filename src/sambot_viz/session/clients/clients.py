@@ -10,7 +10,7 @@ import viser
 from sambot_viz.displays.picking.pick_geometry import Selectable
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.client_tools import ClientTools
-from sambot_viz.session.clients.client_view import ClientView
+from sambot_viz.session.clients.client_view import ClientView, ViewOwner
 from sambot_viz.session.clients.pointer import Pointer
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.saved_views import SavedViews
@@ -72,11 +72,21 @@ class Clients:
         self._saved_views = SavedViews(document, history, change)
         self._worker = worker
         self._clients: dict[int, Client] = {}
+        history.take_page = self._take_page
 
     @property
     def all(self) -> Mapping[int, Client]:
         """The clients that see the session, by their numbers; read-only."""
         return MappingProxyType(self._clients)
+
+    def _take_page(self, client_id: int, page: object) -> bool:
+        """Give a client the view of the page that it was before it was loaded again."""
+        client = self._clients.get(client_id)
+        return (
+            client is not None
+            and isinstance(page, ViewOwner)
+            and client.view.go_on(page)
+        )
 
     def join(self, handle: viser.ClientHandle) -> Client:
         """Make what belongs to a client that has opened the page."""
@@ -134,9 +144,10 @@ class Clients:
             first.view.store()
 
     def close(self) -> None:
-        """Follow nothing any more."""
+        """Follow nothing any more; who leaves after this is gone already."""
         self.pointer.hide()
-        for client in self._clients.values():
+        clients, self._clients = self._clients, {}
+        for client in clients.values():
             client.close()
 
     def lead(self, client_id: int, on: bool) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.drive import ODOM, Drive
+from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Listening
 from sambot_viz.session.undo import History
@@ -16,7 +19,7 @@ from sambot_viz.views.camera import Vector, vector
 PERIOD = 0.2
 """The robot is looked after at most this often [s]."""
 MIDDLE = 0.8
-"""A robot that leaves this part of the picture is brought back to its middle."""
+"""A robot whose root leaves this part of the picture is brought back to its middle."""
 _NOWHERE = vector(0.0, 0.0, 0.0)
 
 
@@ -31,6 +34,7 @@ class FollowView:
         document: has the fixed frame.
         scene: where the robot is.
         clients: one of them drives.
+        picker: finds how large the robot is.
         history: knows who acts.
         worker: looks after the robot.
     """
@@ -41,6 +45,7 @@ class FollowView:
         document: ShownDocument,
         scene: Scene,
         clients: Clients,
+        picker: Picker,
         history: History,
         worker: Worker,
     ) -> None:
@@ -48,6 +53,8 @@ class FollowView:
         self._document = document
         self._context = scene.context
         self._clients = clients
+        self._picker = picker
+        self._around: tuple[Vector, ...] = ()
         self._history = history
         self._driver: int | None = None
         self._before: Vector | None = None
@@ -99,6 +106,7 @@ class FollowView:
             self._panned = _NOWHERE
         self._driver = self._history.actor
         self._before = self._place()
+        self._around = self._robot_around()
         self._driving.to(self._drive.pose_changed, self._frames)
 
     def put_back(self) -> None:
@@ -126,7 +134,7 @@ class FollowView:
         client = self._client
         if client is None or before is None or place is None:
             return
-        if _shows(client, before, MIDDLE) and not _shows(client, place, MIDDLE):
+        if self._is_seen(client, before) and not self._is_seen(client, place):
             self._pan(place - client.view.camera.look_at)
 
     def _pan(self, away: Vector) -> None:
@@ -135,6 +143,25 @@ class FollowView:
         if client is not None and level.any():
             client.view.pan(level)
             self._panned = self._panned + level
+
+    def _robot_around(self) -> tuple[Vector, ...]:
+        """Return points around the robot however it turns, from its root link [m]."""
+        place, box = self._place(), self._picker.robot_box()
+        if place is None or box is None:
+            return ()
+        away = np.maximum(np.abs(box[0] - place), np.abs(box[1] - place))
+        reach = float(np.hypot(away[0], away[1]))
+        sides = ((reach, 0.0), (-reach, 0.0), (0.0, reach), (0.0, -reach))
+        heights = (float(box[0][2] - place[2]), float(box[1][2] - place[2]))
+        return tuple(vector(x, y, z) for x, y in sides for z in heights)
+
+    def _is_seen(self, client: Client, place: Vector) -> bool:
+        """Return whether the robot is in the picture; its root, if it is larger."""
+        middle = client.view.camera.look_at
+        level = vector(middle[0], middle[1], place[2])
+        fits = all(_shows(client, level + away) for away in self._around)
+        whole = not fits or all(_shows(client, place + away) for away in self._around)
+        return whole and _shows(client, place, MIDDLE)
 
     def _aside(self) -> Vector | None:
         """Return where the root link is, from what the driver's camera looks at [m]."""

@@ -75,6 +75,7 @@ class RobotState:
         self._change = change
         self._pacer = Throttle(worker, 0.0, self.draw_moved)
         self._is_placed = False
+        self._prefix = ""
         self._moved: dict[str, None] = {}
         self._new_poses: dict[str, Matrix] = {}
 
@@ -114,7 +115,8 @@ class RobotState:
         # A link of which messages say nothing then has no place, as in RViz.
         joints = () if self._is_placed else None
         kinematics, positions = self.joints.kinematics, self.joints.positions
-        hang_robot(self._tree, self.model, kinematics, positions, joints)
+        self._prefix = self._data.prefix_of(self.model)
+        hang_robot(self._tree, self.model, kinematics, positions, joints, self._prefix)
         refused = self._added.set_again()
         self._data.set_again()
         self._scene.publish()
@@ -285,6 +287,10 @@ class RobotState:
                 self.build_tree()
             self.draw_moved()
 
+    def time_passed(self) -> None:
+        """Let frames grow old that messages bring no more."""
+        self._scene.time_passed()
+
     def draw_moved(self) -> None:
         """Send the poses of all that moved since the last time; `move` does it soon."""
         with self._change.lock:
@@ -347,7 +353,8 @@ class RobotState:
         robot, joints = self.model, self.joints
         if robot is None or joints is None or self._is_placed:
             return {}
-        frames = {name: plain_name(robot.joints[name].child) for name in moved}
+        prefix = self._prefix
+        frames = {n: prefix + plain_name(robot.joints[n].child) for n in moved}
         # A frame that a user attached elsewhere no longer follows its joint, nor does
         # one of which messages say where it is.
         others = self._added, self._data

@@ -19,10 +19,15 @@ SHOWN_FOR = 1.5
 COLOR = (255, 170, 0)
 LENGTH = 0.25
 """Of the arrow along the axis [m]."""
-ARC, ARC_PIECES = 1.5 * math.pi, 4
-"""Angle of the arc about the axis [rad], and of how many arrows it is made."""
+ARC, ARC_PIECES = 1.5 * math.pi, 36
+"""Angle of the arc about the axis [rad], and of how many lines it is made."""
+HEADS = (0.5, 1.0)
+"""Where on the arc its heads end."""
+SHAFT, HEAD = 0.006, 0.04
+"""Radius of a shaft, and length of a head [m]."""
 
 Points = npt.NDArray[np.float32]
+Array = npt.NDArray[np.float64]
 
 
 class JointArrow:
@@ -41,7 +46,7 @@ class JointArrow:
         self._worker = worker
         self._joint = ""
         self._moved_at = float("-inf")
-        self._nodes: list[viser.ArrowsHandle] = []
+        self._nodes: list[viser.SceneNodeHandle] = []
         self._waiting = False
 
     def place(self, joint: Joint) -> list[str | float]:
@@ -80,31 +85,49 @@ class JointArrow:
         path = self._context.nodes.path(joint.child.lstrip("/"))
         if path is None or not any(joint.axis):
             return
-        arrows = self._context.scene.add_arrows(
+        scene = self._context.scene
+        ring = None if joint.type == "prismatic" else _arc(joint)
+        arrows = scene.add_arrows(
             f"{path}/~positive",
-            _arrows(joint),
+            _arrows(joint, ring),
             COLOR,
-            shaft_radius=0.006,
+            shaft_radius=SHAFT,
             head_radius=0.02,
-            head_length=0.04,
+            head_length=HEAD,
         )
         self._nodes = [arrows]
+        if ring is not None:
+            lines = np.stack([ring[:-1], ring[1:]], axis=1)
+            arc = scene.add_line_segments(
+                f"{path}/~turn", lines, COLOR, thickness=2 * SHAFT
+            )
+            self._nodes.append(arc)
 
 
-def _arrows(joint: Joint) -> Points:
+def _arrows(joint: Joint, ring: Points | None) -> Points:
     """Return (N, 2, 3) starts and ends in the child frame [m].
 
-    One along the axis; for a joint that turns also an arc about it (right-hand rule).
+    One along the axis; for a joint that turns also the heads of its arc.
     """
     axis = np.array(joint.axis, dtype=np.float64)
-    straight = np.array([[np.zeros(3), axis * LENGTH]])
-    if joint.type == "prismatic":
-        return straight.astype(np.float32)
+    arrows = [(np.zeros(3), axis * LENGTH)]
+    if ring is not None:
+        for last in (round(part * ARC_PIECES) for part in HEADS):
+            way: Array = np.subtract(ring[last], ring[last - 1], dtype=np.float64)
+            head = HEAD * way / np.linalg.norm(way)
+            tip = ring[last] + 0.5 * head
+            # All of it is a head, but for a shaft of 0.4 mm.
+            arrows.append((tip - 1.01 * head, tip))
+    return np.array(arrows, np.float32)
+
+
+def _arc(joint: Joint) -> Points:
+    """Return (N, 3) points of an arc about the axis (right-hand rule) [m]."""
+    axis = np.array(joint.axis, dtype=np.float64)
     across = np.cross(axis, (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0))
     across /= np.linalg.norm(across)
     third = np.cross(axis, across)
     angle = np.linspace(0.0, ARC, ARC_PIECES + 1)[:, None]
     ring = 0.6 * LENGTH * (np.cos(angle) * across + np.sin(angle) * third)
     ring += 0.5 * LENGTH * axis
-    turn = np.stack([ring[:-1], ring[1:]], axis=1)
-    return np.concatenate([straight, turn]).astype(np.float32)
+    return ring.astype(np.float32)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
-from sambot_viz.displays.picking.pick_geometry import Corners, Selectable
+from sambot_viz.displays.picking.pick_geometry import Corners, Selectable, TurnedBox
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
@@ -73,13 +73,17 @@ class Picker:
             work = self._waiting.pop(of)
         work()
 
-    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, Corners]:
-        """The boxes around the shapes of links and the axes of frames.
+    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, TurnedBox]:
+        """The boxes around the shapes of links and the axes of frames, turned as they.
 
         Args:
             items: which; one that is not drawn now has no box.
         """
         return self._scene.boxes_of(items)
+
+    def box_of(self, items: Iterable[Selectable]) -> Corners | None:
+        """The box around some links and frames; None when none is drawn."""
+        return self._scene.box_of(items)
 
     def robot_box(self) -> Corners | None:
         """The box around all links, or else around all that is drawn."""

@@ -12,7 +12,7 @@ from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_display import ModelReader
 from sambot_viz.displays.scene.nodes import FrameNodes, short_id
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
-from sambot_viz.frames import FrameTree
+from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import ConfigItem, DisplayConfig
@@ -141,10 +141,19 @@ class Scene:
 
     def place(self, frames: Set[str]) -> None:
         """Send the poses of frames that moved."""
+        if self.context.tree.version != self._tree_drawn:
+            # The end of the change draws all: some may be gone, or hang elsewhere.
+            return
         self.context.nodes.place(self.context.tree, self.context.fixed_frame, frames)
         self.anchors.place()
         for display in self.displays:
             display.frames_moved(frames)
+
+    def time_passed(self) -> None:
+        """Let what grows old grow older; nothing is sent where nothing changes."""
+        with self._change():
+            for display in self.displays:
+                display.time_passed()
 
     def publish(self) -> None:
         """Let the displays set their own frames in a tree that was cleared."""
@@ -169,6 +178,14 @@ class Scene:
         if frames:
             return Status("Error", text)
         return Status("Warn", f"No tf data.  Actual error: {text}")
+
+    def fault_of(self, frame: str) -> LookupRefused | None:
+        """Return why a frame has no place in the fixed frame; None when it has one."""
+        try:
+            self.context.tree.lookup(self.context.fixed_frame, frame)
+        except LookupRefused as refused:
+            return refused
+        return None
 
     def _apply(self, action: Callable[[], object]) -> None:
         with self._change(self.statuses):

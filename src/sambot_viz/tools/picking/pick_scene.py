@@ -12,10 +12,12 @@ from sambot_viz.displays.picking.pick_geometry import (
     Array,
     Corners,
     Hit,
+    Part,
     PickBuffer,
     PickGeometry,
     RayGrid,
     Selectable,
+    TurnedBox,
 )
 
 
@@ -56,8 +58,21 @@ class PickSnapshot:
         return Hit(origin + nearest * direction, None)
 
     def items_met(self, pixels: RayGrid) -> set[Selectable]:
-        """Return the links and frames that have at least one of some pixels."""
-        return self._drawn(pixels).items
+        """Return the links and frames that have at least one of some pixels.
+
+        As in RViz that is what is in front. Here it is also what is seen through other
+        shapes and lies in the rectangle as a whole; of what is cut off, such as the
+        body behind a wheel, nobody can say that it was meant.
+        """
+        front = self._drawn(pixels).items
+        if not any(geometry.clear for geometry in self.geometries):
+            return front
+        buffer = PickBuffer(pixels)
+        for buffer.clear in (False, True):
+            for geometry in self.geometries:
+                geometry.draw(buffer)
+        cut = {item for one in self.geometries for item in one.cut_off(pixels)}
+        return front | (buffer.items - cut)
 
     def _drawn(self, pixels: RayGrid) -> PickBuffer:
         buffer = PickBuffer(pixels)
@@ -80,19 +95,25 @@ class PickScene:
         """Return everything that is drawn now; files are not read for it."""
         return PickSnapshot(tuple(d.pick_geometry() for d in self._shown()))
 
-    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, Corners]:
+    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, TurnedBox]:
         """Return the boxes around the shapes of links and the axes of frames.
+
+        They turn with the shapes.
 
         Args:
             items: which; one that is not drawn now has no box.
         """
         wanted = set(items)
-        boxes: dict[Selectable, Corners] = {}
+        parts: dict[Selectable | None, list[Part]] = {}
         for display in self._shown() if wanted else ():
-            for item, box in display.boxes(lambda item: item in wanted):
-                if item is not None:
-                    boxes[item] = _union(box, boxes.get(item))
-        return {item: boxes[item] for item in wanted if item in boxes}
+            for item, part in display.parts(lambda item: item in wanted):
+                parts.setdefault(item, []).append(part)
+        return {i: TurnedBox.around(parts[i]) for i in wanted if i in parts}
+
+    def box_of(self, items: Iterable[Selectable]) -> Corners | None:
+        """Return the box around some links and frames; None when none is drawn."""
+        wanted = set(items)
+        return self._box(lambda item: item in wanted)
 
     def robot_box(self) -> Corners | None:
         """Return the box around all links, or else around all that is drawn.
@@ -107,8 +128,8 @@ class PickScene:
     def _box(self, of: Callable[[Selectable | None], bool]) -> Corners | None:
         box: Corners | None = None
         for display in self._shown():
-            for _, corners in display.boxes(of):
-                box = _union(corners, box)
+            for _, part in display.parts(of):
+                box = _union(part.box(), box)
         return box
 
     def _shown(self) -> Iterator[Display]:

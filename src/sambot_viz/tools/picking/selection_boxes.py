@@ -9,14 +9,16 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, Selectable
+from sambot_viz.displays.picking.pick_geometry import Array, Selectable, TurnedBox
 from sambot_viz.displays.scene.lines import box_lines
 
 CYAN = (0, 255, 255)
 
 
 class SelectionBoxes:
-    """One box of lines per selected item, along the axes of the fixed frame.
+    """One box of lines per selected item, which turns with it.
+
+    RViz's boxes are along the axes of the fixed frame, and up to twice as long.
 
     Args:
         scene: where they are drawn.
@@ -36,16 +38,18 @@ class SelectionBoxes:
         self._name, self._color, self._thickness = name, color, thickness
         self._drawn: dict[Selectable, tuple[bytes, viser.LineSegmentsHandle]] = {}
 
-    def draw(self, boxes: Mapping[Selectable, tuple[Array, Array]]) -> None:
+    def draw(self, boxes: Mapping[Selectable, TurnedBox]) -> None:
         """Draw these boxes and no others; a box that has not moved is not sent again.
 
         Args:
-            boxes: item → lowest and highest corner in the fixed frame, (3,) [m].
+            boxes: item → its box.
         """
         for item in [item for item in self._drawn if item not in boxes]:
             self._drawn.pop(item)[1].remove()
-        for item, (low, high) in boxes.items():
-            lines = box_lines(low, high)
+        for item, box in boxes.items():
+            straight = box_lines(box.low, box.high)
+            turned: Array = np.einsum("ij,nkj->nki", box.T[:3, :3], straight)
+            lines = (turned + box.T[:3, 3]).astype(np.float32)
             known = self._drawn.get(item)
             if known is None:
                 self._drawn[item] = (lines.tobytes(), self._add(lines))

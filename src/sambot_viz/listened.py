@@ -1,0 +1,102 @@
+"""What a robot on the network says within some seconds, for commands that look once."""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from sambot_viz.errors import Problem, SourceError
+from sambot_viz.sources.bag import open_recording
+from sambot_viz.sources.recorder import SourceRecorder
+from sambot_viz.sources.source import SourceTopic
+from sambot_viz.topics.live_files import fetch_files
+from sambot_viz.topics.live_robot import LiveRobot
+from sambot_viz.topics.recorded_robot import RecordedRobot
+
+CONNECTED_WITHIN = 10.0
+"""A robot that has told no topics after this time is not there [s]."""
+
+
+class Listened:
+    """Listens to all topics of a live robot: what came is a recording like any other.
+
+    Args:
+        live: the robot, not connected yet; its connection is closed afterwards.
+        seconds: how long to listen, from when its topics are known [s].
+        at: the time to look at [s from the first message]; None takes all.
+
+    Attributes:
+        topics: those that the source knows, by name.
+        recorded: what came; None when that was nothing.
+        packages: a folder with the files of the robot that its source hands out.
+        missing: what is wrong with these files.
+        seconds: as given.
+
+    Raises:
+        SourceError: there is no robot, or this computer cannot keep what it says.
+    """
+
+    def __init__(self, live: LiveRobot, seconds: float, at: float | None) -> None:
+        self.seconds = seconds
+        self.topics: Mapping[str, SourceTopic] = MappingProxyType({})
+        self.recorded: RecordedRobot | None = None
+        self.missing: tuple[Problem, ...] = ()
+        self._folder = tempfile.TemporaryDirectory(prefix="sambot-viz-live-")
+        self.packages = Path(self._folder.name, "packages")
+        try:
+            path = Path(self._folder.name, "messages.mcap")
+            if self._listen(live, path):
+                types = live.decoding.types
+                recording = open_recording(path)
+                self.recorded = RecordedRobot(recording, types, live.name, at)
+                text = self.recorded.description or ""
+                self.missing = fetch_files(live.source, text, self.packages)
+        except BaseException:
+            self.close()
+            raise
+        finally:
+            live.close()
+
+    def close(self) -> None:
+        """Forget what came; a second call does nothing."""
+        if self.recorded is not None:
+            self.recorded.recording.close()
+        self._folder.cleanup()
+
+    def _listen(self, live: LiveRobot, path: Path) -> bool:
+        """Write what comes to a file; False when that is nothing."""
+        source, changed = live.source, threading.Event()
+        live.on_status.append(changed.set)
+        live.on_topics.append(changed.set)
+        recorder = SourceRecorder(source, None, changed.set, lambda text: None)
+        # Before there are topics, so that nothing is missed.
+        recorder.start(path)
+        source.open()
+        try:
+            self._wait_for_topics(live, changed)
+            until = time.monotonic() + self.seconds
+            while (left := until - time.monotonic()) > 0:
+                changed.wait(left)
+                changed.clear()
+        finally:
+            recorder.close()
+        self.topics = source.topics()
+        status = recorder.status
+        assert status is not None
+        if status.messages and status.trouble:
+            raise SourceError(f"{live.name}: {status.trouble}")
+        return status.messages > 0
+
+    def _wait_for_topics(self, live: LiveRobot, changed: threading.Event) -> None:
+        source, until = live.source, time.monotonic() + CONNECTED_WITHIN
+        while not (source.status.is_connected and source.topics()):
+            left = until - time.monotonic()
+            if left <= 0:
+                none = "; it has no topic" if source.status.is_connected else ""
+                raise SourceError(f"{source.status.sentence}{none}")
+            changed.wait(left)
+            changed.clear()

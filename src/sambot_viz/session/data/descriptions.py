@@ -1,0 +1,255 @@
+"""The robots that topics describe, for displays whose "Description Topic" names one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Literal
+
+from sambot_viz.displays.robot_display import Description, WantedQos
+from sambot_viz.errors import nearest
+from sambot_viz.session.worker import Worker
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.qos import Qos
+from sambot_viz.text import capitalized
+from sambot_viz.topics import reasons
+from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.live_reasons import (
+    QOS_WORDS,
+    no_publisher,
+    qos_mismatch,
+    transforms_qos,
+)
+from sambot_viz.topics.live_robot import LiveRobot
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.robot_topics import DESCRIPTION_TYPES, RobotTopics
+
+Level = Literal["Warn", "Error"]
+STRING = "std_msgs/msg/String"
+_OFFERED = {word: offered for offered, word in QOS_WORDS.items()}
+"""RViz's word → that of ROS; System Default is not here: it adapts to publishers."""
+
+
+class RecordedDescriptions:
+    """The descriptions in a recording: the last one of each topic.
+
+    Args:
+        recorded: the recording.
+        is_given: the robot was named on the command line, and takes the place of the
+            recording's.
+    """
+
+    def __init__(self, recorded: RecordedRobot, is_given: bool) -> None:
+        self._recorded = recorded
+        self._is_given = is_given
+
+    def topics(self) -> Sequence[str]:
+        """Return the topics that describe robots."""
+        return descriptions_of(self._recorded.topics)
+
+    def transform_doubts(self) -> Mapping[str, str]:
+        """Return nothing: what was recorded has come."""
+        return {}
+
+    def of(self, topic: str, qos: WantedQos) -> Description:
+        """Return what a topic says; the QoS of a recording is a matter of the past."""
+        del qos
+        recorded = self._recorded
+        known = recorded.recording.topics
+        main = recorded.topics.description
+        if topic == main and (self._is_given or recorded.description is not None):
+            opened = Description(topic, is_opened=True)
+            why = recorded.refusal
+            return _with(opened, why, "Error") if why else opened
+        if topic not in known:
+            if self._is_given and stands_for_opened(topic, self.topics()):
+                return Description(topic, is_opened=True)
+            return not_there(topic, self.topics(), _missing_in(recorded.name, topic))
+        type_name = recorded.decoder(known[topic]).type_name
+        if type_name not in DESCRIPTION_TYPES:
+            return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
+        text = recorded.description_of(topic)
+        if text is not None:
+            return Description(topic, text, f"{recorded.name}:{topic}")
+        if known[topic].count == 0:
+            return _trouble(topic, reasons.no_message(topic).text)
+        return _trouble(topic, "none of its messages can be read: record it again")
+
+
+class LiveDescriptions:
+    """The descriptions of a live robot, which come when its publishers send them.
+
+    Args:
+        live: the robot.
+        is_given: as for `RecordedDescriptions`.
+        worker: runs `changed`.
+        changed: called when a topic says something else.
+    """
+
+    def __init__(
+        self,
+        live: LiveRobot,
+        is_given: bool,
+        worker: Worker,
+        changed: Callable[[], None],
+    ) -> None:
+        self._live = live
+        self._is_given = is_given
+        self._worker = worker
+        self._changed = changed
+        self._decoding = Decoding(live.decoding.types)
+        self._texts: dict[str, str] = {}
+        self._subscribed: dict[str, Callable[[Recorded], object]] = {}
+        self._doubts: Mapping[str, str] = {}
+        self._told: dict[tuple[str, WantedQos], Description] = {}
+        self._look = partial(worker.post, self._look_again)
+        live.on_topics.append(self._look)
+        live.on_status.append(self._look)
+
+    def topics(self) -> Sequence[str]:
+        """Return the topics that describe robots."""
+        return descriptions_of(self._live.topics)
+
+    def transform_doubts(self) -> Mapping[str, str]:
+        """Return the topics of transforms that RViz would get nothing from."""
+        topics, known = self._live.topics, self._live.source.topics()
+        doubts: dict[str, str] = {}
+        for name in (*topics.moving, *topics.static):
+            qos = known[name].qos if name in known else None
+            doubt = transforms_qos(qos, is_static=name in topics.static)
+            if doubt is not None:
+                doubts[name] = capitalized(doubt.text)
+        return doubts
+
+    def of(self, topic: str, qos: WantedQos) -> Description:
+        """Return what a topic says, and ask for its messages."""
+        told = self._told[topic, qos] = self._of(topic, qos)
+        return told
+
+    def _of(self, topic: str, qos: WantedQos) -> Description:
+        live, source = self._live, self._live.source
+        known = source.topics().get(topic)
+        main = live.topics.description
+        is_gone = known is None and stands_for_opened(topic, self.topics())
+        if self._is_given and (is_gone or topic == main):
+            return Description(topic, is_opened=True)
+        if known is None:
+            if not source.status.is_connected:
+                return _trouble(topic, source.status.sentence, "Warn")
+            missing = f"start the node that publishes it (ros2 topic info {topic})"
+            return not_there(topic, self.topics(), missing, "Warn")
+        if known.reason is not None:
+            return _trouble(topic, known.reason)
+        kind = live.decoding.types.decoder(known.schema, known.message_encoding)
+        if kind.type_name not in DESCRIPTION_TYPES:
+            return _trouble(topic, reasons.wrong_type(STRING, kind.type_name).text)
+        refused = qos_mismatch(known.qos, wanted_qos(qos))
+        if topic == main:
+            has_come = live.has_description
+            described = Description(topic, is_opened=has_come)
+        else:
+            self._subscribe(topic)
+            text = self._texts.get(topic)
+            has_come = text is not None
+            described = Description(topic, text, f"{live.name} {topic}")
+        if topic == main and live.refusal:
+            return _with(described, live.refusal, "Error")
+        if refused is not None:
+            return _with(described, refused.text)
+        if has_come:
+            return described
+        silent = no_publisher(topic, known.publishers)
+        why = "no message yet: wait for its publisher, or start it again"
+        return _with(described, why if silent is None else silent.text)
+
+    def close(self) -> None:
+        """Take nothing any more."""
+        self._live.on_topics.remove(self._look)
+        self._live.on_status.remove(self._look)
+        for topic, receive in self._subscribed.items():
+            self._live.source.unsubscribe(topic, receive)
+        self._subscribed.clear()
+
+    def _look_again(self) -> None:
+        """Let displays draw again when a topic that one asked for says otherwise."""
+        told = [(key, self._of(*key)) for key in self._told]
+        doubts, before = self.transform_doubts(), self._doubts
+        if doubts != before or any(self._told[key] != now for key, now in told):
+            self._doubts = doubts
+            self._told.clear()
+            self._changed()
+
+    def _subscribe(self, topic: str) -> None:
+        def receive(message: Recorded) -> None:
+            """Leave it to the worker; runs in the thread of the source."""
+            self._worker.post(partial(self._take, message))
+
+        if topic not in self._subscribed:
+            self._subscribed[topic] = receive
+            self._live.source.subscribe(topic, receive)
+
+    def _take(self, message: Recorded) -> None:
+        """Keep a description; runs in the worker."""
+        text = self._decoding.text(message)
+        if text and self._texts.get(message.topic) != text:
+            self._texts[message.topic] = text
+            self._look_again()
+
+
+def descriptions_of(topics: RobotTopics) -> tuple[str, ...]:
+    """Return the topics of descriptions, the robot's own first."""
+    own = () if topics.description is None else (topics.description,)
+    return (*own, *topics.others)
+
+
+def stands_for_opened(topic: str, known: Sequence[str]) -> bool:
+    """Tell whether a topic that does not exist means a robot that was given.
+
+    Args:
+        topic: its name.
+        known: the topics that describe robots.
+    """
+    return topic == "/robot_description" or not known
+
+
+def wanted_qos(qos: WantedQos) -> Qos:
+    """Return RViz's words as those of ROS; what adapts is empty."""
+    return Qos(_OFFERED.get(qos.reliability, ""), _OFFERED.get(qos.durability, ""))
+
+
+def not_there(
+    topic: str, known: Sequence[str], missing: str, level: Level = "Error"
+) -> Description:
+    """Say that there is no such topic, and which one was meant.
+
+    Args:
+        topic: its name.
+        known: the topics that describe robots.
+        missing: what to do when there are none.
+        level: of the status.
+    """
+    if not known:
+        return _trouble(topic, f"there is no topic {topic}: {missing}", level)
+    # One that is not like it is meant all the same where there is no other.
+    instead = nearest(topic, known) or (known[0] if len(known) == 1 else "")
+    text = reasons.no_such_topic(topic, known).text
+    return _trouble(topic, text, level, instead)
+
+
+def _missing_in(name: str, topic: str) -> str:
+    return (
+        f"{name} has no robot; give it beside it: --model ROBOT.urdf.xacro, or record "
+        f"{topic} too"
+    )
+
+
+def _trouble(
+    topic: str, text: str, level: Level = "Error", instead: str = ""
+) -> Description:
+    return Description(topic, level=level, sentence=capitalized(text), instead=instead)
+
+
+def _with(described: Description, text: str, level: Level = "Warn") -> Description:
+    """Return a description with a doubt about its topic."""
+    return replace(described, level=level, sentence=capitalized(text))

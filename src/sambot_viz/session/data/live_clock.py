@@ -1,0 +1,79 @@
+"""The clock of a live robot: its own time, or that of a simulation."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sambot_viz.session.signals import Change, Signal
+from sambot_viz.sources.source import Source
+
+SAME = 0.2
+"""The robot's clock is heard through the network: smaller changes are no news [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClockState:
+    """What a page needs to show the time of a robot by itself.
+
+    Attributes:
+        simulated: the robot tells its time, as a simulation does.
+        time: that time [s]; else how far the robot's clock is ahead of this one [s].
+        rate: how fast a simulated time goes on; 0 while it is paused.
+    """
+
+    simulated: bool = False
+    time: float = 0.0
+    rate: float = 1.0
+
+
+class LiveClock:
+    """Follows the clock of a source; not thread-safe.
+
+    Args:
+        source: has the clock.
+        change: tells the state.
+        wall: the time of this computer [s].
+
+    Attributes:
+        state: what a page is told; only when it could not know it by itself.
+    """
+
+    def __init__(
+        self, source: Source, change: Change, wall: Callable[[], float] = time.time
+    ) -> None:
+        self.state = Signal(change, ClockState())
+        self._source = source
+        self._change = change
+        self._wall = wall
+        self._newest = 0
+        self._last: tuple[float, float] | None = None
+
+    def went_back(self) -> float:
+        """Return by how much a simulation went back since the last call [s], or 0."""
+        if not self._source.has_clock:
+            return 0.0
+        before, self._newest = self._newest, self._source.clock_ns()
+        return max(0, before - self._newest) * 1e-9
+
+    def look(self) -> None:
+        """Tell the time, if it is another one than a page thinks."""
+        now, wall = self._source.clock_ns() * 1e-9, self._wall()
+        state = self.state.value
+        if not self._source.has_clock:
+            self._last = None
+            ahead = now - wall
+            if state.simulated or abs(ahead - state.time) > SAME:
+                self._tell(ClockState(time=round(ahead, 3)))
+            return
+        last, self._last = self._last, (now, wall)
+        rate = 1.0 if last is None else (now - last[0]) / max(wall - last[1], 1e-3)
+        told = ClockState(True, round(now, 3), round(max(0.0, rate), 2))
+        # A paused simulation is told once more, with its rate.
+        if told != state:
+            self._tell(told)
+
+    def _tell(self, state: ClockState) -> None:
+        with self._change():
+            self.state.set(state)

@@ -1,0 +1,74 @@
+"""The robot of a session, moved by the messages of a recording."""
+
+from __future__ import annotations
+
+from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.history import FrameHistory
+from sambot_viz.session.data.player import Player
+from sambot_viz.session.data.recorded_topics import RecordedTopics
+from sambot_viz.session.data.robot_data import RobotData
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.signals import Change
+from sambot_viz.session.worker import Clock, Worker
+from sambot_viz.topics.recorded_robot import RecordedRobot
+
+
+class RecordedData(RobotData):
+    """Moves a robot as a recording says, with a player.
+
+    Args:
+        recorded: the robot's messages.
+        history: of the session's frames.
+        frames: the same, as they are drawn.
+        robot: is moved.
+        change: tells what the player does.
+        worker: takes its steps.
+        clock: the time of the computer.
+    """
+
+    def __init__(
+        self,
+        recorded: RecordedRobot,
+        history: FrameHistory,
+        frames: DataFrames,
+        robot: RobotState,
+        change: Change,
+        worker: Worker,
+        clock: Clock,
+    ) -> None:
+        transforms, states = recorded.transforms(history), recorded.joint_states()
+        super().__init__(recorded.name, transforms, states, frames, robot, change)
+        self.recorded = recorded
+        topics = recorded.topics
+        if topics.moving or topics.joint_states:
+            robot.followed.set(recorded.name)
+        self.player = Player(
+            recorded.recording,
+            (transforms, states),
+            self._draw,
+            change,
+            worker,
+            clock,
+            recorded.at_ns,
+        )
+        self._player = self.player
+        self.topics = RecordedTopics(recorded, frames.tree, self.player, change, worker)
+        frames.ahead = lambda: transforms.to_come(self._player.time_ns)
+
+    def time_s(self) -> float:
+        """Return the log time of the player [s since 1970]."""
+        return self._player.time_ns * 1e-9
+
+    def begin(self) -> None:
+        """Play, unless somebody has stopped it before."""
+        self._player.period = self.period
+        self._player.begin()
+
+    def resume(self) -> None:
+        """Show the present time again."""
+        self._player.period = self.period
+        self._player.resume()
+
+    def close(self) -> None:
+        """Play nothing any more."""
+        self._player.close()

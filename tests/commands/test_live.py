@@ -1,0 +1,146 @@
+"""Commands that look once, and a robot on the network."""
+
+from __future__ import annotations
+
+import json
+import re
+import threading
+from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
+
+import pytest
+from live_peers import FoxglovePeer, free_port
+from patience import patience
+from robot_peer import BusyPeer, square_peer
+
+from sambot_viz import listened
+from sambot_viz.cli import main
+
+Capture = pytest.CaptureFixture[str]
+FOR = ["--for", str(patience(1.5))]
+
+
+@pytest.fixture
+def busy(repository: Path) -> Iterator[BusyPeer]:
+    with square_peer(repository) as peer:
+        yield peer
+
+
+@pytest.fixture
+def peer() -> Iterator[FoxglovePeer]:
+    peer = FoxglovePeer()
+    yield peer
+    peer.stop()
+
+
+def test_topics_lists_what_came_and_what_did_not(
+    busy: BusyPeer, capsys: Capture
+) -> None:
+    busy.advertise("/chatter")
+    assert main(["topics", "--source", busy.uri, *FOR, "--format", "json"]) == 0
+    rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)["topics"]}
+    assert sorted(rows) == list(rows)
+    assert rows["/joint_states"]["type"] == "sensor_msgs/msg/JointState"
+    assert rows["/joint_states"]["count"] > 100
+    assert rows["/robot_description"]["count"] == 1
+    assert rows["/scan"]["code"] == "no-display"
+    silent = rows["/chatter"]
+    assert (silent["count"], silent["rate"], silent["code"]) == (0, None, "no-message")
+    assert "--for" in silent["reason"]
+
+
+def test_echo_and_frames_look_at_the_last_that_came(
+    busy: BusyPeer, tmp_path: Path, capsys: Capture
+) -> None:
+    source = ["--source", busy.uri, *FOR]
+    assert main(["echo", *source, "--format", "json", "odom", "base_link"]) == 0
+    pose = json.loads(capsys.readouterr().out)
+    assert pose["translation"] == pytest.approx([1.0, 1.0, 0.15], abs=0.01)
+    drawn = tmp_path / "frames.json"
+    assert main(["frames", *source, "-o", str(drawn)]) == 0
+    assert '"odom"' in drawn.read_text("utf-8")
+    assert capsys.readouterr().err == ""
+    assert busy.subscribed() == []
+
+
+def test_a_page_has_the_motion_that_came(busy: BusyPeer, tmp_path: Path) -> None:
+    page, done = tmp_path / "robot.html", threading.Event()
+
+    def drive() -> None:
+        for seconds in count(10.0, 0.05):
+            if done.wait(0.01):
+                return
+            busy.play(seconds + 0.05, seconds)
+
+    driving = threading.Thread(target=drive)
+    driving.start()
+    try:
+        assert main(["export", "--source", busy.uri, *FOR, "-o", str(page)]) == 0
+    finally:
+        done.set()
+        driving.join()
+    found = re.search(r'id="sambot-about"[^>]*>(.*?)</script>', page.read_text("utf-8"))
+    assert found is not None
+    about = json.loads(found[1])
+    # Only a recording's robot drives.
+    assert about["duration"] > 0.0 and len(about["way"]) > 1
+
+
+def test_a_model_beside_it_is_the_robot(busy: BusyPeer, capsys: Capture) -> None:
+    words = ["echo", "--model", "assets/sam_bot.urdf.xacro", "--source", busy.uri, *FOR]
+    assert main([*words, "base_link", "drivewhl_l_link"]) == 0
+    assert "At time" in capsys.readouterr().out
+
+
+def test_the_files_of_the_robot_come_from_it(tmp_path: Path, capsys: Capture) -> None:
+    asked: list[str] = []
+
+    def refuse(uri: str) -> None:
+        asked.append(uri)
+
+    peer = FoxglovePeer(asset_handler=refuse)
+    try:
+        mesh = '<mesh filename="package://lab/meshes/a.stl"/>'
+        peer.advertise("/robot_description", latched=True)
+        peer.publish(
+            "/robot_description",
+            f'<robot name="lab"><link name="base"><visual><geometry>{mesh}'
+            "</geometry></visual></link></robot>",
+        )
+        page = str(tmp_path / "robot.html")
+        assert main(["export", "--source", peer.uri, *FOR, "-o", page]) == 0
+    finally:
+        peer.stop()
+    assert asked == ["package://lab/meshes/a.stl"]
+    assert "asset_uri_allowlist" in capsys.readouterr().err
+
+
+def test_a_robot_that_says_nothing_is_said(peer: FoxglovePeer, capsys: Capture) -> None:
+    peer.advertise("/chatter")
+    source = ["--source", peer.uri, "--for", "0.2"]
+    assert main(["topics", *source]) == 0
+    assert "nothing came within 0.2 s" in capsys.readouterr().out
+    assert main(["frames", *source]) == 1
+    out, err = capsys.readouterr()
+    assert out == "" and len(err.splitlines()) == 1
+    assert "nothing came within 0.2 s" in err and peer.uri in err
+
+
+def test_a_robot_that_is_not_there_is_said(
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(listened, "CONNECTED_WITHIN", 0.3)
+    source = f"foxglove://127.0.0.1:{free_port()}"
+    assert main(["topics", "--source", source]) == 1
+    out, err = capsys.readouterr()
+    assert out == "" and len(err.splitlines()) == 1
+    assert "foxglove_bridge" in err
+
+
+@pytest.mark.parametrize("time", ["0", "-1", "nan", "inf", "two"])
+def test_a_time_to_listen_that_makes_no_sense(time: str, capsys: Capture) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["topics", "--source", "foxglove://127.0.0.1:1", f"--for={time}"])
+    assert ended.value.code == 2
+    assert "--for" in capsys.readouterr().err
