@@ -1,9 +1,17 @@
 """Messages: from bytes to values, the only place that knows how they are written."""
 
 from sambot_viz.messages.decoder import Decoder
+from sambot_viz.messages.joint_states import JointStateTemplate
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.schema import Schema
 from sambot_viz.messages.transforms import TransformDecoder
 from sambot_viz.messages.types import MessageTypes
 
-__all__ = ["Decoder", "MessageTypes", "Reason", "Schema", "TransformDecoder"]
+__all__ = [
+    "Decoder",
+    "JointStateTemplate",
+    "MessageTypes",
+    "Reason",
+    "Schema",
+    "TransformDecoder",
+]

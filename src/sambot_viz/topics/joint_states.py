@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from sambot_viz.errors import DecodeError
-from sambot_viz.sources.message import Recorded
+from sambot_viz.messages import JointStateTemplate
+from sambot_viz.sources.message import Recorded, TopicChannel
+
+_MOST_TEMPLATES = 8
+"""So many parts of a robot are known by their names, in each channel."""
 
 
 class JointStateTopics:
@@ -21,7 +28,6 @@ class JointStateTopics:
 
     Attributes:
         topics: as given.
-        last: joint → the last position that was taken [rad or m].
         undecoded: topic → how many messages could not be decoded.
         uneven: topic → how many messages have more names than positions.
     """
@@ -36,29 +42,64 @@ class JointStateTopics:
         self.undecoded: Counter[str] = Counter()
         self.uneven: Counter[str] = Counter()
         self._decode = decode
-        self.last: dict[str, float] = {}
+        self._last: dict[str, float] = {}
         self._changed: dict[str, float] = {}
+        self._templates: dict[TopicChannel, list[JointStateTemplate]] = {}
+        # The newest of each template, the last one at the end.
+        self._newest: dict[JointStateTemplate, NDArray[np.float64]] = {}
+
+    @property
+    def last(self) -> Mapping[str, float]:
+        """Joint → the last position that was taken [rad or m]."""
+        self._spread()
+        return self._last
 
     def take(self, message: Recorded) -> None:
         """Take the positions of a message; no number is no news."""
+        for template in self._templates.get(message.channel, ()):
+            positions = template.read(message.payload)
+            if positions is None:
+                continue
+            if np.isfinite(positions).all():
+                self._newest.pop(template, None)
+                self._newest[template] = positions
+            else:
+                self._spread()
+                self._set(template.names, positions.tolist())
+            return
         try:
             state = self._decode(message)
-            names, positions = list(state.name), list(state.position)
+            names, numbers = list(state.name), list(state.position)
         except (DecodeError, AttributeError, TypeError):
             # A file may define the type otherwise, or with other fields.
             self.undecoded[message.topic] += 1
             return
-        if len(names) != len(positions):
+        if len(names) != len(numbers):
             self.uneven[message.topic] += 1
-        for name, position in zip(names, positions, strict=False):
-            if math.isfinite(position):
-                self._changed[name] = self.last[name] = float(position)
+        self._spread()
+        self._set(names, numbers)
+        template = JointStateTemplate.of(message.payload, names, numbers)
+        if template is not None:
+            known = self._templates.get(message.channel, [])
+            self._templates[message.channel] = [template, *known][:_MOST_TEMPLATES]
+
+    def _set(self, names: Sequence[str], numbers: Sequence[float]) -> None:
+        for name, number in zip(names, numbers, strict=False):
+            if math.isfinite(number):
+                self._changed[name] = self._last[name] = float(number)
+
+    def _spread(self) -> None:
+        """Give the joints what was taken last."""
+        newest, self._newest = self._newest, {}
+        for template, positions in newest.items():
+            self._set(template.names, positions.tolist())
 
     def take_older(self, message: Recorded) -> None:
         """Do nothing: what is older than `depth_ns` counts for nothing."""
 
     def clear(self) -> None:
         """Forget what was not asked for."""
+        self._spread()
         self._changed.clear()
 
     def lacks(self) -> bool:
@@ -67,5 +108,6 @@ class JointStateTopics:
 
     def changed(self) -> Mapping[str, float]:
         """Return joint → position since the last call [rad or m]."""
+        self._spread()
         changed, self._changed = self._changed, {}
         return changed

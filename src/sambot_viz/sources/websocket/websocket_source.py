@@ -27,7 +27,7 @@ from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
 from sambot_viz.sources.websocket.clock_topic import CLOCK, is_clock, told_time
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.delivery import Delivery
+from sambot_viz.sources.websocket.delivery import MOST_MESSAGES, Delivery
 from sambot_viz.sources.websocket.event_loop import SourceLoop
 from sambot_viz.sources.websocket.runner import ConversationRunner
 from sambot_viz.sources.websocket.trouble import explain
@@ -204,6 +204,9 @@ class WebsocketSource:
             subprotocols=self._subprotocols,
             compression=None,
             max_size=MOST_BYTES,
+            # What comes is read at once: stopping the socket for every few messages
+            # of a burst costs more than they do.
+            max_queue=MOST_MESSAGES,
             open_timeout=10,
             close_timeout=1,
             ping_interval=5,
