@@ -11,11 +11,12 @@ import pytest
 from inside import session_of
 from live_peers import WAIT, FoxglovePeer
 from patience import until
-from protocol_client import ProtocolClient
+from protocol_client import CAMERA, ProtocolClient
 from robot_peer import RobotPeer
 
 from sambot_viz import JointError, UsageError, Visualizer
 from sambot_viz.panels.source import SourcePanel
+from sambot_viz.session.clients.camera import VISER_FIRST_POSITION
 from sambot_viz.session.data.live_clock import ClockState
 from sambot_viz.session.data.live_data import LiveData
 from sambot_viz.sources.bag import open_recording
@@ -71,6 +72,32 @@ def test_the_view_follows_the_robot_in_odom(peer: RobotPeer) -> None:
         eventually(lambda: session_of(viz).scene.context.fixed_frame == "odom")
         view = session_of(viz).document.config.view
         assert view.get("Target Frame") == "base_link"
+
+
+def test_a_page_that_waited_shows_the_robot_as_a_later_one_does(
+    peer: RobotPeer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    peer.stop()
+    with Visualizer(source=peer.uri, port=0) as viz:
+        clients = session_of(viz).clients
+
+        def open_page() -> None:
+            page = protocol(viz.viser.get_port(), camera=False)
+            first = {**CAMERA, "position": VISER_FIRST_POSITION}
+            page.send("ViewerCameraMessage", **first)
+
+        open_page()
+        eventually(lambda: len(clients.all) == 1)
+        (early,) = clients.all.values()
+        peer.start()
+        eventually(lambda: "/tf" in peer.subscribed())
+        peer.play(1.0)
+        eventually(lambda: early.view.values["Target Frame"] == "base_link")
+        open_page()
+        eventually(lambda: len(clients.all) == 2)
+        _, late = clients.all.values()
+        eventually(lambda: early.view.values == late.view.values)
+        assert 0.5 < early.view.values["Distance"] < 2.0
 
 
 def test_the_robot_stays_while_the_connection_is_lost(

@@ -145,6 +145,10 @@ class ShownInputs:
             self._fit_view(self.configs.current, top, root)
             _name_description(self.configs.current, topics)
         sessions.show_robot(robot)
+        # Pages that were opened before it came look at where nothing was.
+        for session in sessions.all():
+            with session.change():
+                session.clients.show_first_view()
 
     def _refuse_live(self, error: RobotError) -> None:
         self.server.sessions.set_reload_problems("model", error.problems)

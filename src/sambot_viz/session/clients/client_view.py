@@ -218,6 +218,11 @@ class ClientView:
             self._take(self._document.config.detached_view())
             self._begin()
 
+    def show_first(self) -> None:
+        """Take the document's view as it is now, where nobody has taken another one."""
+        if self._framing.wanted:
+            self.show()
+
     def store(self) -> None:
         """Write the view into the document, which is about to be saved."""
         self._document.config.store_view(self._config)

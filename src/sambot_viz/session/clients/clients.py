@@ -137,6 +137,11 @@ class Clients:
         for client in self._clients.values():
             client.view.show()
 
+    def show_first_view(self) -> None:
+        """Give the document's view to the clients that have not moved from it."""
+        for client in self._clients.values():
+            client.view.show_first()
+
     def store_view(self) -> None:
         """Let the document's view be that of the client that came first, if any did."""
         first = next(iter(self._clients.values()), None)

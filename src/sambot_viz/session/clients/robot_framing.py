@@ -5,6 +5,7 @@ from __future__ import annotations
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Corners
+from sambot_viz.robot.model import Robot, shapes_of
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
@@ -23,8 +24,10 @@ def window_of(client: viser.ClientHandle) -> Size:
 class RobotFraming:
     """When a browser's camera is to be moved so that it shows the whole robot.
 
-    That is when the robot comes, once its meshes are read, and in a window of another
-    size; never after the user has moved the camera.
+    That is when the robot comes, once its meshes are read, when more of its links have
+    a place, and in a window of another size; never after the user has moved the camera.
+    A robot without a shape, such as stands there until a live robot describes itself,
+    gives way to the next one.
 
     Args:
         client: the client.
@@ -47,11 +50,19 @@ class RobotFraming:
         self._wanted = False
         self._window: Size | None = None
         self._complete = False
+        # How many links had a place, in which state of the tree.
+        self._placed, self._version = -1, -1
+        self._shapeless: Robot | None = None
+
+    @property
+    def wanted(self) -> bool:
+        """Whether the robot is to be shown whole: nobody has taken another view."""
+        return self._wanted
 
     def begin(self, view: View) -> None:
         """A view of the document is shown."""
         self._wanted = not view.gives_nearness
-        self._window, self._complete = None, False
+        self._window = None
 
     def stop(self) -> None:
         """The user, or a program, has taken another view."""
@@ -59,13 +70,30 @@ class RobotFraming:
 
     def box(self) -> Corners | None:
         """The box to show now; None when the camera is to stay as it is."""
-        if not self._wanted or self._robot.model is None:
+        robot = self._robot.model
+        if not self._wanted or robot is None:
             return None
+        if self._shapeless not in (None, robot):
+            self._window = None
         window = window_of(self._client)
         all_read = self._scene.context.assets.progress is None
-        if window == self._window and (self._complete or not all_read):
+        if window == self._window and not (all_read and self._has_grown(robot)):
             return None
         found = self._picker.robot_box()
         if found is not None:
-            self._window, self._complete = window, all_read
+            self._window, self._complete = window, False
+            self._placed, self._version = -1, -1
+            if all_read:
+                self._has_grown(robot)
+            self._shapeless = None if any(shapes_of(robot)) else robot
         return found
+
+    def _has_grown(self, robot: Robot) -> bool:
+        """Whether more links have a place than when this was asked before."""
+        version = self._scene.context.tree.version
+        if self._complete or version == self._version:
+            return False
+        before, self._version = self._placed, version
+        self._placed = sum(self._scene.fault_of(link) is None for link in robot.links)
+        self._complete = self._placed == len(robot.links)
+        return self._placed > before
