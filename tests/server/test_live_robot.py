@@ -100,6 +100,23 @@ def test_a_page_that_waited_shows_the_robot_as_a_later_one_does(
         assert 0.5 < early.view.values["Distance"] < 2.0
 
 
+def test_links_that_were_published_once_are_there_after_users_had_the_joints(
+    viz: Visualizer, peer: RobotPeer
+) -> None:
+    peer.play(1.0)
+    session = session_of(viz)
+    tree, data = session.frames.tree, session.data
+    assert data is not None
+
+    def roots() -> set[str]:
+        return {tree.root_of(link) for link in session.robot.model.links}
+
+    eventually(lambda: roots() == {"odom"})
+    for follow in (False, True):
+        data.follow(follow)
+        assert roots() == {"odom"}
+
+
 def test_the_robot_stays_while_the_connection_is_lost(
     viz: Visualizer, peer: RobotPeer
 ) -> None:

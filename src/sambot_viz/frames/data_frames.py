@@ -62,6 +62,10 @@ class DataFrames:
         """
         prefix = "" if robot is None else self.prefix_of(robot)
         joints = () if robot is None else joints_of(robot)
+        # What was published once is not told of again.
+        for frame in self._left_out:
+            if self._history is not None and self._history.latest(frame) is not None:
+                self._known[frame] = None
         self._left_out = frozenset(prefix + child for _, child in joints)
         self.tree.history = self._history if robot is None else None
         for frame in self._left_out:
