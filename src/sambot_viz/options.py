@@ -10,6 +10,7 @@ is used.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
+_LIVE = re.compile(r"(foxglove|rosbridge)(\+wss?)?://")
 
 
 def _check_live(uri: str) -> None:
@@ -344,6 +346,11 @@ class Options:
         if isinstance(model, Path | str) and is_recording(model):
             source = (f"bag:{model}", *source)
             object.__setattr__(self, "model", None)
+        elif isinstance(model, str) and _LIVE.match(model):
+            raise UsageError(
+                f"'{model}' is the address of a robot, not a model: write --source "
+                f"{model}"
+            )
         if self.at is not None and not (source and math.isfinite(self.at)):
             raise UsageError(
                 f"--at {self.at:g} needs a recording: give its file, or --source "

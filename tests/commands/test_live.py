@@ -143,4 +143,18 @@ def test_a_time_to_listen_that_makes_no_sense(time: str, capsys: Capture) -> Non
     with pytest.raises(SystemExit) as ended:
         main(["topics", "--source", "foxglove://127.0.0.1:1", f"--for={time}"])
     assert ended.value.code == 2
-    assert "--for" in capsys.readouterr().err
+    assert f"{time} is not a time" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [[], ["topics"], ["frames"], ["check"]])
+def test_an_address_as_the_model_says_where_it_belongs(
+    words: list[str], capsys: Capture
+) -> None:
+    assert main([*words, "foxglove+wss://127.0.0.1:1"]) == 2
+    assert "write --source foxglove+wss://127.0.0.1:1" in capsys.readouterr().err
+
+
+def test_topics_of_a_live_robot_have_no_time_to_look_at(capsys: Capture) -> None:
+    source = "foxglove://127.0.0.1:1"
+    assert main(["topics", "--source", source, "--at", "3"]) == 2
+    assert "--at is a time of a recording" in capsys.readouterr().err

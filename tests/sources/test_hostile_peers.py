@@ -334,6 +334,7 @@ def test_each_protocol_says_when_the_other_one_is_spoken(
     ("scheme", "answer", "words"),
     [
         ("foxglove", b"", ["does not speak websocket"]),
+        ("foxglove+wss", b"", ["TLS", "--source foxglove://127"]),
         ("foxglove", b"SSH-2.0-OpenSSH_9.2\r\n", ["does not speak websocket"]),
         ("foxglove", bytes(range(256)) * 12, ["does not speak websocket"]),
         (

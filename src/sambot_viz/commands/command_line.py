@@ -174,7 +174,10 @@ def parse(
 
 
 def _seconds(word: str) -> float:
-    seconds = float(word)
+    try:
+        seconds = float(word)
+    except ValueError:
+        seconds = 0.0
     if not 0.0 < seconds <= LONGEST_LISTEN:
         raise argparse.ArgumentTypeError(
             f"{word} is not a time from above 0 to {LONGEST_LISTEN:g} seconds"

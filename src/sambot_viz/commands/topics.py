@@ -47,6 +47,10 @@ def _looked_at(
     options: Options, seconds: float
 ) -> tuple[list[TopicStatus], list[Problem]]:
     """Return what is to be said of each topic, and what is wrong with all of it."""
+    if options.at is not None and options.live_sources:
+        raise UsageError(
+            "--at is a time of a recording; of a live robot the last messages are shown"
+        )
     live = open_live(options)
     if live is not None:
         with closing(Listened(live, seconds, None)) as listened:

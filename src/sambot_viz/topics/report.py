@@ -119,7 +119,8 @@ class TopicReport:
             )
         late = self._not_here_yet(name, at_ns)
         if late is not None:
-            return late
+            # What is not drawn at all is not worth waiting for.
+            return self._of_display(name, decoder.type_name) or late
         if decoder.note is not None:
             return TopicReason(decoder.note.code, decoder.note.text)
         return (

@@ -152,6 +152,11 @@ def _unreachable(error: OSError, address: Address) -> str:
             "and is the number right?"
         )
     if isinstance(error, ConnectionResetError | BrokenPipeError):
+        if address.is_secure:
+            return (
+                f"{place} breaks off while it connects: if it does not speak TLS, "
+                f"--source {address.with_tls(False)}"
+            )
         return f"{place} breaks off while it connects: is {start} still running there?"
     if isinstance(error, TimeoutError) or errno.ETIMEDOUT in codes:
         return (
