@@ -114,12 +114,17 @@ class FoxglovePeer(LivePeer, ServerListener):
             "capabilities": [Capability.Time, Capability.ConnectionGraph],
             **self.options,
         }
-        self.server = foxglove.start_server(
-            host="127.0.0.1",
-            port=self._port,
-            context=self.context,
-            server_listener=self,
-            **options,
+        self.server = until(
+            lambda: foxglove.start_server(
+                host="127.0.0.1",
+                port=self._port,
+                context=self.context,
+                server_listener=self,
+                **options,
+            ),
+            WAIT,
+            # Another peer of these tests may have the port for as long as it was free.
+            not_yet=RuntimeError,
         )
 
     def stop(self) -> None:
