@@ -100,6 +100,24 @@ def test_a_page_that_waited_shows_the_robot_as_a_later_one_does(
         assert 0.5 < early.view.values["Distance"] < 2.0
 
 
+def test_without_a_robot_the_joints_say_that_none_has_come(
+    peer: RobotPeer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    peer.stop()
+    with Visualizer(source=peer.uri, port=0) as viz:
+        page = protocol(viz.viser.get_port())
+        assert "No robot has come yet" in page.row("joints/none")["value"]
+
+
+def test_a_recording_without_a_robot_says_so_in_the_joints(
+    shared: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    recording = shared / "data" / "bags" / "made" / "no_description.mcap"
+    with Visualizer(recording, port=0) as viz:
+        page = protocol(viz.viser.get_port())
+        assert "The recording has no robot" in page.row("joints/none")["value"]
+
+
 def test_links_that_were_published_once_are_there_after_users_had_the_joints(
     viz: Visualizer, peer: RobotPeer
 ) -> None:

@@ -9,6 +9,7 @@ from xml.sax.saxutils import quoteattr
 from sambot_viz.frames.hierarchy import plain_name
 
 STAND_IN_LINK = "base_link"
+STAND_IN_NAME = "no robot"
 """The link of a stand-in of which no frame is known."""
 DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
 TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
@@ -73,7 +74,7 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
 
 def stand_in_model(link: str = STAND_IN_LINK) -> str:
     """Return the XML text of a robot of one link, for messages without a robot."""
-    return f'<robot name="no robot"><link name={quoteattr(link)}/></robot>'
+    return f'<robot name="{STAND_IN_NAME}"><link name={quoteattr(link)}/></robot>'
 
 
 def top_frame(root: str, pairs: Iterable[tuple[str, str]]) -> str:

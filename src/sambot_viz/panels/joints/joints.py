@@ -28,6 +28,7 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
 from sambot_viz.session.signals import Signal
 from sambot_viz.session.undo import History
+from sambot_viz.topics.robot_topics import STAND_IN_NAME
 
 FASTEST = 100.0
 """Of a wheel that keeps turning [rad/s]."""
@@ -84,8 +85,7 @@ class JointsPanel(Panel):
         """Return the joints, in groups if they are many, and the turn rate."""
         joints = self._sliders()
         if joints is None:
-            why = _NO_ROBOT if self._robot.model is None else _NOTHING_TO_MOVE
-            return [Row("joints/none", "", "note", value=why)]
+            return [Row("joints/none", "", "note", value=self._why_none())]
         rows = [*joint_rows(joints, self._move), *self._rate_row(joints)]
         recording = self._recording
         if recording is None:
@@ -94,6 +94,15 @@ class JointsPanel(Panel):
         if follows:
             rows = [replace(row, set=None) for row in rows]
         return [_follow_row(follows, recording), *rows]
+
+    def _why_none(self) -> str:
+        """Return why there is no joint."""
+        model, data = self._robot.model, self._recording
+        if model is None:
+            return _NO_ROBOT
+        if data is None or model.name != STAND_IN_NAME:
+            return _NOTHING_TO_MOVE
+        return _NOT_RECORDED if data.live is None else _NOT_HERE_YET
 
     def data(self) -> Sequence[Data]:
         """Return which joints are over a limit or turning, and where all began."""
@@ -272,6 +281,10 @@ def _follow_row(follows: bool, recording: RobotData) -> Row:
 
 
 _NO_ROBOT = "No robot loaded. If its file has an error, Problems shows it."
+_NOT_HERE_YET = (
+    "No robot has come yet: the line below the view says what is waited for."
+)
+_NOT_RECORDED = "The recording has no robot: give it with --model ROBOT.urdf.xacro."
 _NOTHING_TO_MOVE = (
     "This robot has no joint to move: all its joints are fixed, or follow others."
 )
