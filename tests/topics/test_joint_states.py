@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import random
-import struct
 from collections.abc import Sequence
+from functools import cache
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from sambot_viz.errors import DecodeError
@@ -25,22 +26,20 @@ def payload(
     names: Sequence[str], positions: Sequence[float], frame: str = "", stamp: int = 0
 ) -> bytes:
     """A JointState in CDR, without velocities and efforts."""
-    data = bytearray(struct.pack("<iI", stamp, 0))
+    store = typestore()
+    time = store.types["builtin_interfaces/msg/Time"](stamp, 0)
+    header, none = store.types["std_msgs/msg/Header"](time, frame), np.zeros(0)
+    state = store.types[TYPE](
+        header, list(names), np.array(positions, float), none, none
+    )
+    return bytes(store.serialize_cdr(state, TYPE))
 
-    def text(value: str) -> None:
-        data.extend(bytes(-len(data) % 4))
-        raw = value.encode() + b"\0"
-        data.extend(struct.pack("<I", len(raw)) + raw)
 
-    text(frame)
-    data.extend(bytes(-len(data) % 4) + struct.pack("<I", len(names)))
-    for name in names:
-        text(name)
-    data.extend(bytes(-len(data) % 4) + struct.pack("<I", len(positions)))
-    if positions:
-        data.extend(bytes(-len(data) % 8))
-        data.extend(struct.pack(f"<{len(positions)}d", *positions))
-    return b"\0\1\0\0" + bytes(data) + struct.pack("<II", 0, 0)
+@cache
+def typestore() -> Any:
+    from rosbags.typesys import Stores, get_typestore
+
+    return get_typestore(Stores.ROS2_HUMBLE)
 
 
 class Taker:

@@ -8,13 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from sambot_viz.errors import DecodeError
+from sambot_viz.messages.cdr import HEAD, CdrReader
 from sambot_viz.messages.decoder import Payload
 
-_CDR = b"\x00\x01"
-"""Little-endian, without parameters."""
-_BODY, _BEHIND_STAMP = 4, 12
-"""Where the fields begin, and where those behind the stamp do."""
-_COUNT = struct.Struct("<I")
+_BEHIND_STAMP = 8
 
 
 class JointStateTemplate:
@@ -27,12 +25,15 @@ class JointStateTemplate:
         names: of the joints.
     """
 
-    def __init__(self, data: bytes, begin: int, names: Sequence[str]) -> None:
+    def __init__(
+        self, data: bytes, order: str, begin: int, names: Sequence[str]
+    ) -> None:
         self.names = tuple(names)
         self._length = len(data)
         self._begin = begin
-        self._head = data[:_BODY]
-        self._same = data[_BEHIND_STAMP:begin]
+        self._number = np.dtype(order + "f8")
+        self._head = data[:HEAD]
+        self._same = data[HEAD + _BEHIND_STAMP : begin]
 
     @classmethod
     def of(
@@ -49,15 +50,16 @@ class JointStateTemplate:
             None: its fields are at other places, or it has no joints.
         """
         data = bytes(payload)
-        if not names or len(names) != len(positions) or data[:2] != _CDR:
+        if not names or len(names) != len(positions):
             return None
         try:
-            begin = _first_position(data, names)
-        except struct.error:
+            cdr = CdrReader(data)
+            begin = _first_position(cdr, names)
+        except (DecodeError, UnicodeDecodeError, struct.error):
             return None
-        if begin < 0:
+        if begin is None or begin + 8 * len(names) > len(data):
             return None
-        template = cls(data, begin, names)
+        template = cls(data, cdr.order, begin, names)
         found = template.read(data)
         wanted = np.asarray(positions, np.float64)
         if found is None or not np.array_equal(found, wanted, equal_nan=True):
@@ -73,40 +75,24 @@ class JointStateTemplate:
         if len(payload) != self._length:
             return None
         data = bytes(payload)
-        same = data[_BEHIND_STAMP : self._begin] == self._same
-        if not same or data[:_BODY] != self._head:
+        same = data[HEAD + _BEHIND_STAMP : self._begin] == self._same
+        if not same or data[:HEAD] != self._head:
             return None
-        return np.frombuffer(data, "<f8", len(self.names), self._begin)
+        return np.frombuffer(data, self._number, len(self.names), self._begin)
 
 
-def _first_position(data: bytes, names: Sequence[str]) -> int:
-    """Return where the positions of a message begin; -1 when it is no JointState.
-
-    Raises:
-        struct.error: it is too short.
-    """
-    at = _BEHIND_STAMP
-    at = _aligned(at + _COUNT.size + _count(data, at), 4)
-    if _count(data, at) != len(names):
-        return -1
-    at += _COUNT.size
+def _first_position(cdr: CdrReader, names: Sequence[str]) -> int | None:
+    """Return where the positions begin in a message; None when it is no JointState."""
+    _, at = cdr.text(_BEHIND_STAMP)
+    at = cdr.aligned(at, 4)
+    if cdr.length(at) != len(names):
+        return None
+    at += 4
     for name in names:
-        at = _aligned(at, 4)
-        length = _count(data, at)
-        at += _COUNT.size + length
-        if data[at - length : at].rstrip(b"\x00") != name.encode():
-            return -1
-    at = _aligned(at, 4)
-    if _count(data, at) != len(names):
-        return -1
-    begin = _aligned(at + _COUNT.size, 8)
-    return begin if begin + 8 * len(names) <= len(data) else -1
-
-
-def _count(data: bytes, at: int) -> int:
-    number: int = _COUNT.unpack_from(data, at)[0]
-    return number
-
-
-def _aligned(at: int, size: int) -> int:
-    return at + (_BODY - at) % size
+        word, at = cdr.text(cdr.aligned(at, 4))
+        if word != name:
+            return None
+    at = cdr.aligned(at, 4)
+    if cdr.length(at) != len(names):
+        return None
+    return HEAD + cdr.aligned(at + 4, 8)

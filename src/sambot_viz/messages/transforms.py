@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sambot_viz.errors import DecodeError
+from sambot_viz.messages.cdr import CdrReader
 from sambot_viz.messages.decoder import Payload
 
 Edges = tuple[tuple[str, str], ...]
@@ -195,31 +196,27 @@ def _pieces(data: bytes, size: int, places: NDArray[np.intp]) -> bytes:
 
 
 class _Cdr(_FieldReader):
-    """A reader of CDR: all is aligned to its size, texts end with a zero."""
+    """A reader of CDR."""
 
     sec = "i4"
 
     def __init__(self, data: bytes) -> None:
         super().__init__()
-        if len(data) < 4 or data[:2] not in (b"\0\0", b"\0\1"):
-            raise DecodeError(f"it begins with {data[:2].hex() or 'nothing'}, not CDR")
-        self.order = "<" if data[1] else ">"
-        self._data = data[4:]
-        self._length = struct.Struct(self.order + "I").unpack_from
+        self._cdr = CdrReader(data)
+        self.order, self.gaps = self._cdr.order, self._cdr.gaps
         self._stamp = struct.Struct(self.order + "iI").unpack_from
         self._pose = struct.Struct(self.order + "7d").unpack_from
-        # Two bytes of the head are options that nobody reads.
-        self.gaps.append((2, 4))
 
     def read(self) -> list[_Row]:
-        data, position, rows = self._data, 4, list[_Row]()
-        for _ in range(_checked(self._length(data, 0)[0], data)):
-            position = self._aligned(position, 4)
+        cdr, position, rows = self._cdr, 4, list[_Row]()
+        data = cdr.data
+        for _ in range(_checked(cdr.length(0), data)):
+            position = cdr.aligned(position, 4)
             sec, nanosec = self._stamp(data, position)
             self.stamps.append(position + 4)
-            parent, position = self._text(position + 8)
-            child, position = self._text(self._aligned(position, 4))
-            position = self._aligned(position, 8)
+            parent, position = cdr.text(position + 8)
+            child, position = cdr.text(cdr.aligned(position, 4))
+            position = cdr.aligned(position, 8)
             pose = self._pose(data, position)
             self.poses.append(position + 4)
             position += 56
@@ -229,18 +226,6 @@ class _Cdr(_FieldReader):
             raise DecodeError("it is longer than its transforms")
         self.gaps.append((position + 4, position + 4 + min(left, _PADDING)))
         return rows
-
-    def _aligned(self, position: int, size: int) -> int:
-        end = (position + size - 1) & -size
-        if end > position:
-            self.gaps.append((position + 4, end + 4))
-        return end
-
-    def _text(self, position: int) -> tuple[str, int]:
-        end = position + 4 + self._length(self._data, position)[0]
-        if end > len(self._data):
-            raise DecodeError("a text longer than its message")
-        return self._data[position + 4 : end].rstrip(b"\0").decode(), end
 
 
 class _Ros1(_FieldReader):

@@ -1,0 +1,66 @@
+"""Walk through a message in CDR field by field: what decoders of one type build on."""
+
+from __future__ import annotations
+
+import struct
+
+from sambot_viz.errors import DecodeError
+
+HEAD = 4
+"""So many bytes stand before the fields, which are aligned from behind them."""
+
+
+class CdrReader:
+    """Finds fields: all is aligned to its size, texts end with a zero.
+
+    Positions count from behind the head.
+
+    Args:
+        data: the message.
+
+    Attributes:
+        data: the fields, without the head.
+        order: of the bytes, "<" or ">".
+        gaps: (begin, end) of bytes without meaning that were passed, in the message.
+
+    Raises:
+        DecodeError: it is not in CDR.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        if len(data) < HEAD or data[:2] not in (b"\0\0", b"\0\1"):
+            raise DecodeError(f"it begins with {data[:2].hex() or 'nothing'}, not CDR")
+        self.order = "<" if data[1] else ">"
+        self.data = data[HEAD:]
+        # Two bytes of the head are options that nobody reads.
+        self.gaps: list[tuple[int, int]] = [(2, HEAD)]
+        self._length = struct.Struct(self.order + "I").unpack_from
+
+    def aligned(self, position: int, size: int) -> int:
+        """Return where a field of some size begins that comes next."""
+        end = (position + size - 1) & -size
+        if end > position:
+            self.gaps.append((position + HEAD, end + HEAD))
+        return end
+
+    def length(self, position: int) -> int:
+        """Return the length of an array, which is not checked.
+
+        Raises:
+            struct.error: the message is cut off.
+        """
+        found: int = self._length(self.data, position)[0]
+        return found
+
+    def text(self, position: int) -> tuple[str, int]:
+        """Return a text, and where it ends.
+
+        Raises:
+            DecodeError: the text is longer than the message.
+            UnicodeDecodeError: it is no UTF-8.
+            struct.error: the message is cut off.
+        """
+        end = position + 4 + self.length(position)
+        if end > len(self.data):
+            raise DecodeError("a text longer than its message")
+        return self.data[position + 4 : end].rstrip(b"\0").decode(), end
