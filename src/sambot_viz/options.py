@@ -10,7 +10,6 @@ is used.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
@@ -45,7 +44,12 @@ if TYPE_CHECKING:
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
-_LIVE = re.compile(r"(foxglove|rosbridge)(\+wss?)?://")
+
+
+def _is_live(uri: str) -> bool:
+    from sambot_viz.sources.registry import is_live
+
+    return is_live(uri)
 
 
 def _check_live(uri: str) -> None:
@@ -346,7 +350,7 @@ class Options:
         if isinstance(model, Path | str) and is_recording(model):
             source = (f"bag:{model}", *source)
             object.__setattr__(self, "model", None)
-        elif isinstance(model, str) and _LIVE.match(model):
+        elif isinstance(model, str) and "://" in model and _is_live(model):
             raise UsageError(
                 f"'{model}' is the address of a robot, not a model: write --source "
                 f"{model}"
