@@ -47,7 +47,7 @@ class DataFrames:
         self._known: dict[str, None] = {}
 
     def __contains__(self, frame: object) -> bool:
-        return frame in self._known
+        return frame in self._known and frame not in self._left_out
 
     @property
     def has_history(self) -> bool:
@@ -62,14 +62,8 @@ class DataFrames:
         """
         prefix = "" if robot is None else self.prefix_of(robot)
         joints = () if robot is None else joints_of(robot)
-        # What was published once is not told of again.
-        for frame in self._left_out:
-            if self._history is not None and self._history.latest(frame) is not None:
-                self._known[frame] = None
         self._left_out = frozenset(prefix + child for _, child in joints)
         self.tree.history = self._history if robot is None else None
-        for frame in self._left_out:
-            self._known.pop(frame, None)
 
     def settle(self) -> Collection[str]:
         """Set the frames that have moved in the tree.
@@ -125,7 +119,11 @@ class DataFrames:
             return
         for child in frames:
             sample = history.latest(child)
-            if sample is None or child in self._left_out:
+            if sample is None:
+                continue
+            if child in self._left_out:
+                # What was published once is not told of again.
+                self._known[child] = None
                 continue
             transform = transform_of(sample.pose)
             try:
