@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Corners
-from sambot_viz.robot.model import Robot, shapes_of
+from sambot_viz.robot.model import Robot
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
@@ -26,8 +28,6 @@ class RobotFraming:
 
     That is when the robot comes, once its meshes are read, when more of its links have
     a place, and in a window of another size; never after the user has moved the camera.
-    A robot without a shape, such as stands there until a live robot describes itself,
-    gives way to the next one.
 
     Args:
         client: the client.
@@ -49,10 +49,9 @@ class RobotFraming:
         self._client = client
         self._wanted = False
         self._window: Size | None = None
-        self._complete = False
-        # How many links had a place, in which state of the tree.
-        self._placed, self._version = -1, -1
-        self._shapeless: Robot | None = None
+        # How many links had no place when the robot was shown, and in which state of
+        # the tree they were counted; infinite until its meshes are read.
+        self._missing, self._version = math.inf, -1
 
     @property
     def wanted(self) -> bool:
@@ -73,27 +72,24 @@ class RobotFraming:
         robot = self._robot.model
         if not self._wanted or robot is None:
             return None
-        if self._shapeless not in (None, robot):
-            self._window = None
         window = window_of(self._client)
+        if window != self._window:
+            self._missing, self._version = math.inf, -1
         all_read = self._scene.context.assets.progress is None
-        if window == self._window and not (all_read and self._has_grown(robot)):
+        missing = self._without_place(robot) if all_read else math.inf
+        if window == self._window and missing >= self._missing:
+            if all_read:
+                self._missing = missing
             return None
         found = self._picker.robot_box()
         if found is not None:
-            self._window, self._complete = window, False
-            self._placed, self._version = -1, -1
-            if all_read:
-                self._has_grown(robot)
-            self._shapeless = None if any(shapes_of(robot)) else robot
+            self._window, self._missing = window, missing
         return found
 
-    def _has_grown(self, robot: Robot) -> bool:
-        """Whether more links have a place than when this was asked before."""
+    def _without_place(self, robot: Robot) -> float:
+        """How many links have no place, if that may be less than before."""
         version = self._scene.context.tree.version
-        if self._complete or version == self._version:
-            return False
-        before, self._version = self._placed, version
-        self._placed = sum(self._scene.fault_of(link) is None for link in robot.links)
-        self._complete = self._placed == len(robot.links)
-        return self._placed > before
+        if not self._missing or version == self._version:
+            return self._missing
+        self._version = version
+        return sum(self._scene.fault_of(link) is not None for link in robot.links)
