@@ -9,8 +9,9 @@ from xml.sax.saxutils import quoteattr
 from sambot_viz.frames.hierarchy import plain_name
 
 STAND_IN_LINK = "base_link"
-STAND_IN_NAME = "no robot"
 """The link of a stand-in of which no frame is known."""
+STAND_IN_NAME = "no robot"
+"""What a stand-in is called."""
 DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
 TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
 JOINT_STATE_TYPES = frozenset({"sensor_msgs/msg/JointState"})
