@@ -37,12 +37,8 @@ function expect(id, args) {
   const list = tools(),
     current = newTool.value ?? list.find((tool) => tool.current)?.name,
     first = list.find((tool) => tool.first)?.name;
-  const name =
-    id === "tools/choose"
-      ? args[0]
-      : id === "tools/escape" || (id === "tools/press" && args[0] === current)
-        ? first
-        : args[0];
+  const leaves = id === "tools/escape" || (id === "tools/press" && args[0] === current);
+  const name = leaves ? first : args[0];
   newTool.set(name ?? null);
   clearTimeout(timer);
   timer = window.setTimeout(arrive, PATIENCE);
@@ -52,12 +48,7 @@ function expect(id, args) {
 /** Whether the new tool has all that it needs. */
 function look() {
   const tool = tools().find((one) => one.name === newTool.value);
-  if (
-    tool?.current &&
-    used.click === tool.clicks &&
-    used["rect-select"] === tool.rectangles &&
-    newTool.value !== null
-  )
+  if (tool?.current && used.click === tool.clicks && used["rect-select"] === tool.rectangles)
     arrive();
 }
 
