@@ -57,16 +57,20 @@ def _looked_at(
             return _of_live(listened)
     recorded = open_recorded(options)
     if recorded is None:
-        raise UsageError(
-            "name a recording: sambot-viz topics FILE.mcap (or .db3, .bag, or a "
-            "folder), or --source foxglove://HOST:8765 of a live robot"
-            if options.model is None
-            else f"'{options.model}' is not a recording: give an mcap, db3 or bag file"
-            if os.path.exists(str(options.model))
-            else f"'{options.model}' does not exist"
-        )
+        raise UsageError(_no_recording(options))
     with recorded.recording:
         return _of_recording(recorded, recorded.at_ns)
+
+
+def _no_recording(options: Options) -> str:
+    if options.model is None:
+        return (
+            "name a recording: sambot-viz topics FILE.mcap (or .db3, .bag, or a "
+            "folder), or --source foxglove://HOST:8765 of a live robot"
+        )
+    if os.path.exists(str(options.model)):
+        return f"'{options.model}' is not a recording: give an mcap, db3 or bag file"
+    return f"'{options.model}' does not exist"
 
 
 def _of_recording(
