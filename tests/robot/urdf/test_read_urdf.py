@@ -373,22 +373,23 @@ def test_a_material_with_only_a_texture_has_no_colour():
 
 
 @pytest.mark.parametrize(
-    ("inside", "adds"),
+    ("inside", "instead"),
     [
-        (edge("k", "b", "c") + edge("m", "c", "z"), True),
-        (edge("k", "z", "c"), False),  # a and z would be roots
-        (edge("k", "b", "z") + edge("m", "z", "c"), True),
+        (edge("k", "b", "c") + edge("m", "c", "z"), ""),
+        (edge("k", "z", "c"), "parent"),  # a and z would be roots
+        (edge("k", "b", "z"), "child"),  # a and c would be
+        (edge("k", "b", "z") + edge("m", "z", "c"), ""),
     ],
-    ids=["child", "parent", "in the middle"],
+    ids=["child", "parent", "misspelt child", "in the middle"],
 )
-def test_a_missing_link_is_to_be_added_only_where_this_helps(inside: str, adds: bool):
+def test_a_missing_link_is_to_be_added_only_where_this_helps(inside: str, instead: str):
     text = links("abc") + edge("j", "a", "b") + inside
     hints = {problem.hint for problem in refused(text)}
 
     assert hints == (
         {'correct the name, or add <link name="z"/>'}
-        if adds
-        else {"name a link of this robot as the parent"}
+        if not instead
+        else {f"name a link of this robot as the {instead}"}
     )
-    if adds:
+    if not instead:
         assert len(load(text + links("z")).links) == 4

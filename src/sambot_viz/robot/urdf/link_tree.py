@@ -89,18 +89,18 @@ def _check_ends(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
         unknown = []
     roots = parts.links.keys() | {link for _, _, link in unknown}
     roots -= {joint.child for joint in parts.joints.values()}
+    # With more roots than one, ROS would refuse the robot with these links as well.
+    is_whole = len(roots) == 1
     for joint, tag, link in unknown:
         element = parts.joint_elements[joint.name]
-        # A link that nothing holds would be one more root.
-        adds_a_root = link in roots and len(roots) > 1
         near = did_you_mean(link, [name for name in parts.links if name])
         findings.reject(
             f"joint-{tag}-unknown",
             f"joint {joint.name} names the {tag} link '{link}', which does not exist "
             f"({near}); ROS refuses the model",
-            f"name a link of this robot as the {tag}"
-            if adds_a_root
-            else f'correct the name, or add <link name="{link}"/>',
+            f'correct the name, or add <link name="{link}"/>'
+            if is_whole
+            else f"name a link of this robot as the {tag}",
             element.find(tag) or element,
             "link",
             cause=f"link {link}",
