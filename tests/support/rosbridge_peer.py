@@ -14,7 +14,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from live_peers import STRING, LivePeer, cdr_string, free_port
+from live_peers import STRING, WAIT, LivePeer, cdr_string, free_port
+from patience import until
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import Server, ServerConnection, serve
 
@@ -110,6 +111,8 @@ class RosbridgePeer(LivePeer):
             # Both sides may end it at once.
             with suppress(ConnectionClosed):
                 client.close()
+        # What it had subscribed to is forgotten in its own thread.
+        until(lambda: not self._clients, WAIT, not_yet=())
 
     def advertise(self, topic: str, latched: bool = False) -> None:
         with self._lock:
@@ -126,7 +129,9 @@ class RosbridgePeer(LivePeer):
                 self.there[topic].kept.append(payload)
             clients = {one.client for one in self._subscriptions if one.topic == topic}
             for client in clients:
-                self._publish(client, topic, payload)
+                # It may leave just now.
+                with suppress(ConnectionClosed):
+                    self._publish(client, topic, payload)
 
     def subscribed(self) -> list[str]:
         with self._lock:
@@ -144,6 +149,8 @@ class RosbridgePeer(LivePeer):
 
     def _serve(self, client: ServerConnection) -> None:
         with self._lock:
+            if self._server is None:
+                return
             self._clients.add(client)
         try:
             for frame in client:
