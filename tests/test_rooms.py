@@ -108,7 +108,9 @@ ROOMS: Mapping[str, Row] = {
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
-    "displays": Row("frames meshes robot rviz viser_private", "numpy viser"),
+    "displays": Row(
+        "frames meshes robot rviz sources topics viser_private", "numpy viser"
+    ),
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
     "session": Row(

@@ -21,11 +21,13 @@ from sambot_viz.displays.picking.pick_geometry import Part, PickGeometry, Select
 from sambot_viz.displays.robot_display import (
     Descriptions,
     ModelReader,
+    Repair,
     RobotDisplay,
 )
 from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.displays.topic_messages import TopicMessages
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
@@ -74,6 +76,11 @@ class StatusList:
         status = Status(level, text)
         if self._rows.get(key) != status:
             self._rows[key] = status
+            self.version += 1
+
+    def remove(self, key: str) -> None:
+        """Remove one row, if it is there."""
+        if self._rows.pop(key, None) is not None:
             self.version += 1
 
     def replace(self, rows: dict[str, Status]) -> None:
@@ -135,6 +142,7 @@ class DisplayContext:
         link_colors: link of that robot → the colour that a program has given it, 0 to
             255.
         highlighted: links of that robot that a program highlights.
+        messages: those that displays draw; None where none come.
         now: the time of messages [s since 1970]; None where no messages come.
         apply: runs a function that draws, from any thread, and sends what it draws.
     """
@@ -153,6 +161,7 @@ class DisplayContext:
     trusted_files: frozenset[str] = frozenset()
     link_colors: dict[str, Rgb] = field(default_factory=dict[str, Rgb])
     highlighted: set[str] = field(default_factory=set[str])
+    messages: TopicMessages | None = None
     now: Callable[[], float] | None = None
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
 
@@ -294,6 +303,18 @@ class Display:
     def entries(self) -> tuple[EntryList, ...]:
         """Return the links, joints or frames that have rows of their own."""
         return ()
+
+    def notes(self) -> Mapping[str, str]:
+        """Return what is worth knowing about values, by paths of properties."""
+        return {}
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return values that may be meant, by paths of properties."""
+        return {}
+
+    def repairs(self) -> Mapping[str, Repair]:
+        """Return what would make a status go away, by keys of the status."""
+        return {}
 
     def frames_moved(self, frames: Iterable[str]) -> None:
         """Some frames have a new pose in their parents; the nodes are moved already."""

@@ -145,18 +145,6 @@ class RobotDisplay(Protocol):
         """Set the transforms of `own_robot`, and return whether any were new."""
         ...
 
-    def notes(self) -> Mapping[str, str]:
-        """Return what is worth knowing about values, by paths of properties."""
-        ...
-
-    def options(self) -> Mapping[str, Sequence[str]]:
-        """Return values that may be meant, by paths of properties."""
-        ...
-
-    def repairs(self) -> Mapping[str, Repair]:
-        """Return what would make a status go away, by keys of the status."""
-        ...
-
     def assets_read(self) -> None:
         """Draw mesh files and textures that were read in the background."""
         ...

@@ -88,8 +88,7 @@ def status_rows(
     if own_robot is None and status.level != "Ok":
         yield from _why_no_robot(mistakes, row_id, rows)
     frame = _other_frame(display, parent, scene)
-    robot_display = display.robot_display
-    repairs = robot_display.repairs() if robot_display else dict[str, Repair]()
+    repairs = display.repairs()
     for key, row in sorted(status.rows.items(), key=lambda item: item[1].level == "Ok"):
         level = LEVELS[row.level]
         extra = None

@@ -121,14 +121,29 @@ class Session:
         self.data: RobotData | None = None
         if isinstance(moved_by, LiveRobot) and frames is not None:
             self.data = LiveData(
-                moved_by, frames, data_frames, robot, change, worker, scene.fault_of
+                moved_by,
+                frames,
+                data_frames,
+                robot,
+                change,
+                worker,
+                scene.fault_of,
+                scene.messages_came,
             )
         elif isinstance(moved_by, RecordedRobot) and frames is not None:
             self.data = RecordedData(
-                moved_by, frames, data_frames, robot, change, worker, clock
+                moved_by,
+                frames,
+                data_frames,
+                robot,
+                change,
+                worker,
+                clock,
+                scene.messages_came,
             )
         if self.data is not None:
             scene.context.now = self.data.time_s
+            scene.context.messages = self.data.messages
         self._descriptions = self._describe(moved_by)
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)

@@ -272,9 +272,7 @@ class DisplaysPanel(Panel):
         item = display.config
         change = partial(self._display_edits.set_property, display)
         entries = {found.title: found for found in display.entries()}
-        robot_display = display.robot_display
-        notes = robot_display.notes() if robot_display else dict[str, str]()
-        options = robot_display.options() if robot_display else dict[str, list[str]]()
+        notes, options = display.notes(), display.options()
         of_list: dict[str, list[Row]] = {}
         for path, declared in item.declared.items():
             if not is_listed(item, declared):

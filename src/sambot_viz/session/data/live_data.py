@@ -6,10 +6,12 @@ import re
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from functools import partial
 
 from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.history import FrameHistory
+from sambot_viz.session.data.display_topics import LiveDisplayTopics
 from sambot_viz.session.data.live_clock import LiveClock
 from sambot_viz.session.data.live_topics import FaultOf, LiveTopics
 from sambot_viz.session.data.robot_data import AGEING_PERIOD, RobotData
@@ -42,6 +44,7 @@ class LiveData(RobotData):
         change: tells how the source is.
         worker: takes the messages.
         fault_of: says why a frame has no place in the picture; None when it has one.
+        deliver: lets displays draw what has come for them.
 
     Attributes:
         status: told when the source is doing otherwise.
@@ -59,11 +62,12 @@ class LiveData(RobotData):
         change: Change,
         worker: Worker,
         fault_of: FaultOf,
+        deliver: Callable[[], None],
     ) -> None:
         decoding = Decoding(live.decoding.types)
         transforms = TransformTopics(history, (), (), decoding.transforms)
         states = JointStateTopics((), decoding.decode)
-        super().__init__(live.name, transforms, states, frames, robot, change)
+        super().__init__(live.name, transforms, states, frames, robot, change, deliver)
         self.live = live
         self.status = Signal(change, None)
         self.topics = self._topics = LiveTopics(live, fault_of, change, worker)
@@ -84,6 +88,7 @@ class LiveData(RobotData):
         live.on_topics.append(self._look)
         live.on_status.append(self._tell_status)
         self._closed = False
+        self.messages = LiveDisplayTopics(live, self._wake)
         self._look()
         self._tick()
 
@@ -105,6 +110,7 @@ class LiveData(RobotData):
         if back > 0.0:
             self.transforms.go_back(round(back * 1e9))
             self._joint_states.clear()
+            self.messages.reset()
             self._draw(True)
 
     def _look_at_clock(self) -> None:
@@ -132,6 +138,7 @@ class LiveData(RobotData):
         self._live.on_topics.remove(self._look)
         self._live.on_status.remove(self._tell_status)
         self._topics.close()
+        self.messages.close()
         for topic in self._subscribed:
             self._live.source.unsubscribe(topic, self._receive)
 
@@ -154,6 +161,11 @@ class LiveData(RobotData):
                 self._waiting.popleft()
                 self.lost += 1
             self._waiting.append(message)
+        self._wake()
+
+    def _wake(self) -> None:
+        """Let the worker take what has come, at the Frame Rate; runs in any thread."""
+        with self._lock:
             if self._is_asked:
                 return
             self._is_asked = True

@@ -79,7 +79,7 @@ class Player:
         self.playback = Signal(change, Playback(time_ns=self.time_ns))
         self.stepped = Signal(change, None)
         self.period = 1 / 30
-        self._subscribers = subscribers
+        self._subscribers = tuple(subscribers)
         self._draw = draw
         self._change = change
         self._worker = worker
@@ -150,6 +150,20 @@ class Player:
             if found:
                 times = [message.log_ns for message in found]
                 self.jump(max(times) if back else min(times))
+
+    def add(self, subscriber: Subscriber) -> None:
+        """Give one more the messages, and at once those of the present time."""
+        with self._change.lock:
+            self._subscribers = (*self._subscribers, subscriber)
+            self._coming = self._next = None
+            jump(self.recording, self.time_ns, (subscriber,))
+
+    def remove(self, subscriber: Subscriber) -> None:
+        """Give one that was added no more messages."""
+        with self._change.lock:
+            kept = (one for one in self._subscribers if one is not subscriber)
+            self._subscribers = tuple(kept)
+            self._coming = self._next = None
 
     def close(self) -> None:
         """Play nothing any more."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.history import FrameHistory
+from sambot_viz.session.data.display_topics import RecordedDisplayTopics
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.data.robot_data import RobotData
@@ -24,6 +27,7 @@ class RecordedData(RobotData):
         change: tells what the player does.
         worker: takes its steps.
         clock: the time of the computer.
+        deliver: lets displays draw what has come for them.
     """
 
     def __init__(
@@ -35,9 +39,12 @@ class RecordedData(RobotData):
         change: Change,
         worker: Worker,
         clock: Clock,
+        deliver: Callable[[], None],
     ) -> None:
         transforms, states = recorded.transforms(history), recorded.joint_states()
-        super().__init__(recorded.name, transforms, states, frames, robot, change)
+        super().__init__(
+            recorded.name, transforms, states, frames, robot, change, deliver
+        )
         self.recorded = recorded
         topics = recorded.topics
         if topics.moving or topics.joint_states:
@@ -52,6 +59,7 @@ class RecordedData(RobotData):
             recorded.at_ns,
         )
         self._player = self.player
+        self.messages = RecordedDisplayTopics(recorded, self.player)
         self.topics = RecordedTopics(recorded, frames.tree, self.player, change, worker)
         frames.ahead = lambda: transforms.to_come(self._player.time_ns)
 
@@ -71,4 +79,5 @@ class RecordedData(RobotData):
 
     def close(self) -> None:
         """Play nothing any more."""
+        self.messages.close()
         self._player.close()

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.session.data.display_topics import (
+    LiveDisplayTopics,
+    RecordedDisplayTopics,
+)
 from sambot_viz.session.data.live_topics import LiveTopics
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.data.recorded_topics import RecordedTopics
@@ -30,6 +35,7 @@ class RobotData:
         frames: those of the session, as they are drawn.
         robot: is moved.
         change: tells what is wrong.
+        deliver: lets displays draw what has come for them.
 
     Attributes:
         name: as given.
@@ -38,6 +44,7 @@ class RobotData:
         live: the live robot; None for a recording.
         player: the time of the recording; None for a live robot.
         topics: what is said of the topics.
+        messages: those that displays draw.
         problems: what the transforms that were taken had wrong.
         period: the time between two pictures [s].
     """
@@ -46,6 +53,7 @@ class RobotData:
     live: LiveRobot | None = None
     player: Player | None = None
     topics: RecordedTopics | LiveTopics
+    messages: RecordedDisplayTopics | LiveDisplayTopics
 
     def __init__(
         self,
@@ -55,6 +63,7 @@ class RobotData:
         frames: DataFrames,
         robot: RobotState,
         change: Change,
+        deliver: Callable[[], None],
     ) -> None:
         self.name = name
         self.problems = Signal[tuple[Problem, ...]](change, ())
@@ -65,6 +74,7 @@ class RobotData:
         self._joint_states = joint_states
         self._frames = frames
         self._robot = robot
+        self._deliver = deliver
         frames.changed = transforms.changed
         frames.pairs = transforms.pairs
 
@@ -100,6 +110,7 @@ class RobotData:
             self._robot.after_jump()
         else:
             self._robot.draw_moved()
+        self._deliver()
         self._look_at_time(jumped)
 
     def _look_at_time(self, jumped: bool = False) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence, Set
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence, Set
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -151,9 +152,22 @@ class Scene:
 
     def time_passed(self) -> None:
         """Let what grows old grow older; nothing is sent where nothing changes."""
-        with self._change():
+        with self._change(), self._telling_statuses():
             for display in self.displays:
                 display.time_passed()
+
+    def messages_came(self) -> None:
+        """Let displays draw what has come for them; else nothing is sent."""
+        if self.context.messages is not None:
+            with self._change(), self._telling_statuses():
+                self.context.messages.deliver()
+
+    @contextmanager
+    def _telling_statuses(self) -> Generator[None]:
+        before = [display.status.version for display in self.displays]
+        yield
+        if before != [display.status.version for display in self.displays]:
+            self._change.mark(self.statuses)
 
     def publish(self) -> None:
         """Let the displays set their own frames in a tree that was cleared."""

@@ -1,0 +1,230 @@
+"""Displays whose messages wait until their transform is known (RViz's filter)."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from sambot_viz.displays.data.topic_display import (
+    MOST_WAITING,
+    TOPIC,
+    TopicDisplay,
+)
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.errors import DecodeError
+from sambot_viz.frames import LookupRefused, Transform
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.rviz import DisplayConfig
+from sambot_viz.sources.message import Recorded
+
+MESSAGE, TRANSFORM = "Message", "Transform"
+"""Keys of statuses."""
+INVALID_FLOATS = "Message contained invalid floating point values (nans or infs)"
+LONGEST_WAIT_NS = 1_000_000_000
+"""What has waited so long while nothing is shown is said to wait [ns]."""
+_NEVER = ("extrapolation-past", "empty-name")
+"""What will not be known later either."""
+
+
+class MessageRefused(Exception):
+    """A message that cannot be drawn.
+
+    Args:
+        text: the sentence of the status, RViz's where it has one.
+        key: of the status.
+    """
+
+    def __init__(self, text: str, key: str = MESSAGE) -> None:
+        super().__init__(text)
+        self.text, self.key = text, key
+
+
+class _Held:
+    """A message that waits for its transform; it is decoded when it is its turn.
+
+    Attributes:
+        recorded: as it came.
+        refused: why it had no place when that was looked for last.
+    """
+
+    def __init__(self, recorded: Recorded, decode: Callable[[Recorded], Any]) -> None:
+        self.recorded = recorded
+        self.refused: LookupRefused | None = None
+        self._decode = decode
+        self._message: Any = None
+
+    @property
+    def message(self) -> Any:
+        """The message with its fields; raises DecodeError."""
+        if self._message is None:
+            self._message = self._decode(self.recorded)
+        return self._message
+
+    def forget(self) -> None:
+        """Keep the bytes alone."""
+        self._message = None
+
+
+class MessageFilterDisplay(TopicDisplay):
+    """Draws each message in the place where its frame was at its stamp.
+
+    A message is held until that is known; of more than "Filter size" the oldest is
+    dropped, and the status says why it had no place. What was drawn stays where it is,
+    whatever its frame does later, until the fixed frame is another one.
+    """
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._held: deque[_Held] = deque()
+        self._drawn: deque[_Held] = deque(maxlen=MOST_WAITING)
+        self._drawn_in = context.fixed_frame
+
+    # For the displays that derive from it
+
+    @property
+    def needs_last_only(self) -> bool:
+        """Whether only the newest message that has a place is drawn."""
+        return True
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Draw a message.
+
+        Args:
+            message: with its fields.
+            T_fixed_frame: where the frame of its header was at its stamp.
+            came: the message as it came; its `log_ns` is when.
+
+        Raises:
+            MessageRefused: it cannot be drawn, and why.
+        """
+        raise NotImplementedError
+
+    def drop(self) -> None:
+        """Take everything out of the scene."""
+        raise NotImplementedError
+
+    def place(self, message: Any) -> Transform:
+        """Return where the frame of a message was at its stamp, T_fixed_frame.
+
+        Raises:
+            LookupRefused: it is not known, or not yet.
+        """
+        frame, stamp_ns = frame_and_stamp(message)
+        return self.context.tree.lookup(self.context.fixed_frame, frame, stamp_ns)
+
+    # As a display of a topic
+
+    def forget(self) -> None:
+        """Drop what is drawn and what waits."""
+        self._held.clear()
+        self._drawn.clear()
+        self._drawn_in = self.context.fixed_frame
+        self.drop()
+        for key in (TRANSFORM, MESSAGE):
+            self.status.remove(key)
+
+    def redraw(self) -> None:
+        """Place what is drawn again when the fixed frame is another one."""
+        if self.context.fixed_frame != self._drawn_in:
+            self.draw_again()
+
+    def draw_again(self) -> None:
+        """Draw what is drawn again, with other properties."""
+        again = [*self._drawn, *self._held]
+        self.forget()
+        self._held.extend(again)
+        self._try()
+
+    def messages_came(self) -> None:
+        """Draw what has a place, and hold the rest."""
+        if self.subscription is None:
+            return
+        decode = self.subscription.decode
+        self._held.extend(_Held(one, decode) for one in self.subscription.drain())
+        self._try()
+
+    def time_passed(self) -> None:
+        """Say how many messages have come, and why none is shown."""
+        super().time_passed()
+        if self.shown:
+            self._report_waiting()
+
+    def _try(self) -> None:
+        last_only = self.needs_last_only
+        for one in reversed(self._held) if last_only else tuple(self._held):
+            one.refused = None
+            if self._is_done(one):
+                self._drawn.append(one)
+                if last_only:
+                    break
+        self._leave_waiting(last_only)
+        if self.subscription is not None:
+            self.subscription.waits = bool(self._held)
+        self._report_waiting()
+
+    def _leave_waiting(self, last_only: bool) -> None:
+        """Keep what waits; what is older than the newest that is drawn does not."""
+        kept: list[_Held] = []
+        for one in reversed(self._held):
+            if one.refused is not None:
+                kept.append(one)
+            elif last_only:
+                break
+        size = int(self.config.get(f"{TOPIC}/Filter size"))
+        for dropped in kept[size:]:
+            if dropped.refused is not None:
+                self.status.set(TRANSFORM, "Error", dropped.refused.rviz_text)
+        self._held = deque(reversed(kept[:size]))
+
+    def _is_done(self, one: _Held) -> bool:
+        """Draw a message if it has a place; return whether that was done."""
+        try:
+            message = one.message
+            T_fixed_frame = self.place(message)
+        except LookupRefused as refused:
+            if refused.reason in _NEVER:
+                self.status.set(TRANSFORM, "Error", refused.rviz_text)
+            else:
+                one.refused = refused
+            return False
+        except DecodeError as error:
+            text = f"It cannot be decoded: {error}"
+            self.status.set(MESSAGE, "Error", text)
+            return False
+        try:
+            self.process(message, T_fixed_frame, one.recorded)
+        except MessageRefused as refused:
+            self.status.set(refused.key, "Error", refused.text)
+            return False
+        finally:
+            one.forget()
+        self.status.set(TRANSFORM, "Ok", "Transform OK")
+        if MESSAGE in self.status.rows:
+            self.status.set(MESSAGE, "Ok", "OK")
+        return True
+
+    def _report_waiting(self) -> None:
+        """Say why nothing is shown; RViz says nothing for as long as there is room."""
+        messages = self.context.messages
+        if self._drawn or not self._held or messages is None:
+            return
+        oldest = self._held[0]
+        waited = messages.now_ns() - oldest.recorded.log_ns
+        if oldest.refused is not None and waited > LONGEST_WAIT_NS:
+            self.status.set(TRANSFORM, "Warn", oldest.refused.rviz_text)
+
+
+def frame_and_stamp(message: Any) -> tuple[str, int | None]:
+    """Return frame and stamp [ns] of a header; None for 0, the latest time.
+
+    Raises:
+        DecodeError: the message has no header.
+    """
+    try:
+        header = message.header
+        stamp = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
+        return plain_name(str(header.frame_id)), stamp or None
+    except AttributeError:
+        raise DecodeError("it has no header") from None

@@ -1,0 +1,174 @@
+"""Base of the displays that draw what a topic brings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import ClassVar
+
+from sambot_viz.displays.display import Display, DisplayContext, Status
+from sambot_viz.displays.robot_display import Repair, WantedQos
+from sambot_viz.displays.topic_messages import TopicDoubt
+from sambot_viz.rviz import FILTER_SIZE, QOS_PROPERTIES, DisplayConfig, TopicProperty
+from sambot_viz.topics.subscription import Subscription
+
+TOPIC = "Topic"
+"""The path of the property that names the topic, and the key of its status."""
+NO_SOURCE = "No messages: open a recording or a live robot (--source)"
+MOST_WAITING = 100
+"""So many messages wait between two pictures, of a display that draws each of them."""
+
+
+def topic_property(name: str = TOPIC, *, is_filtered: bool = True) -> TopicProperty:
+    """Return the property that names a topic, with its quality of service.
+
+    Args:
+        name: of the property.
+        is_filtered: whether messages wait for their transform.
+    """
+    children = (*QOS_PROPERTIES, FILTER_SIZE) if is_filtered else QOS_PROPERTIES
+    return TopicProperty(
+        name, default="", help="The topic whose messages are drawn.", children=children
+    )
+
+
+class TopicDisplay(Display):
+    """Draws the messages of a topic while it is shown; else they are not asked for.
+
+    A display says what it draws in `types`, takes messages in `messages_came`, and
+    drops what it shows in `forget`.
+
+    Attributes:
+        subscription: its messages; None while it has none.
+    """
+
+    types: ClassVar[frozenset[str]]
+    """The types of messages that it draws."""
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self.subscription: Subscription | None = None
+
+    # For the displays that derive from it
+
+    def messages_came(self) -> None:
+        """Take what waits in the subscription, and draw it."""
+        raise NotImplementedError
+
+    def redraw(self) -> None:
+        """Draw what was taken again, with other properties or in another frame."""
+        raise NotImplementedError
+
+    def forget(self) -> None:
+        """Take everything out of the scene: it is of another time or topic."""
+        raise NotImplementedError
+
+    @property
+    def depth_s(self) -> float:
+        """How far back messages count after a jump in a recording [s]."""
+        return 1.0
+
+    def other_topics(self) -> Sequence[str]:
+        """Return what it listens to beside its topic."""
+        return ()
+
+    # What the others call
+
+    def draw(self) -> None:
+        """Listen to the topic, and draw what has come."""
+        self._listen()
+        self.redraw()
+        self.report_topic()
+
+    def clear(self) -> None:
+        """Listen no longer, and take everything out of the scene."""
+        self._stop()
+        self.forget()
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value."""
+        if self.shown and path == TOPIC:
+            self._stop()
+            self.forget()
+            self.status.clear()
+        super().property_changed(path)
+
+    def time_passed(self) -> None:
+        """Say how many messages have come."""
+        if self.shown:
+            self.report_topic()
+
+    @property
+    def topic(self) -> str:
+        """The name of the topic; empty when none is set."""
+        return str(self.config.get(TOPIC))
+
+    def _listen(self) -> None:
+        messages = self.context.messages
+        topics = (self.topic, *self.other_topics())
+        if self.subscription is not None and self.subscription.topics != topics:
+            self._stop()
+            self.forget()
+        if messages is None or not self.topic or self.subscription is not None:
+            return
+        self.subscription = messages.subscribe(
+            topics, self._take, depth_s=self.depth_s, size=MOST_WAITING
+        )
+        self._take()
+
+    def _take(self) -> None:
+        subscription = self.subscription
+        if subscription is None:
+            return
+        if subscription.is_outdated:
+            self.forget()
+        self.messages_came()
+
+    def _stop(self) -> None:
+        if self.subscription is not None and self.context.messages is not None:
+            self.context.messages.unsubscribe(self.subscription)
+        self.subscription = None
+
+    # What is said
+
+    def report_topic(self) -> None:
+        """Set the status of the topic."""
+        if self.context.messages is None:
+            self.status.set(TOPIC, "Ok", NO_SOURCE)
+            return
+        found = self._topic_status()
+        self.status.set(TOPIC, found.level, found.text)
+
+    def _topic_status(self) -> Status:
+        if not self.topic:
+            return Status("Error", "Error subscribing: Empty topic name")
+        doubt = self._doubt()
+        if doubt is not None:
+            return Status(doubt.level, doubt.sentence)
+        subscription, messages = self.subscription, self.context.messages
+        count = subscription.count[self.topic] if subscription is not None else 0
+        if not count or subscription is None or messages is None:
+            return Status("Ok", "OK")
+        rate = subscription.rate(self.topic, messages.now_ns())
+        return Status("Ok", f"{count} messages received at {rate:.1f} hz.")
+
+    def _doubt(self) -> TopicDoubt | None:
+        messages, get = self.context.messages, self.config.get
+        if messages is None or not self.topic:
+            return None
+        reliability = str(get(f"{TOPIC}/Reliability Policy"))
+        durability = str(get(f"{TOPIC}/Durability Policy"))
+        qos = WantedQos(reliability, durability)
+        return messages.doubt(self.topic, self.types, qos)
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return the topics that it could draw."""
+        messages = self.context.messages
+        return {} if messages is None else {TOPIC: messages.names(self.types)}
+
+    def repairs(self) -> Mapping[str, Repair]:
+        """Return a button for the topic that was meant."""
+        doubt = self._doubt()
+        if doubt is None or not doubt.instead:
+            return {}
+        return {TOPIC: Repair(f"Use {doubt.instead}", TOPIC, doubt.instead)}

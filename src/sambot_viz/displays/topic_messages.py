@@ -1,0 +1,65 @@
+"""Where displays of data get their messages: a recording or a live robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.topics.subscription import Subscription
+
+
+@dataclass(frozen=True, slots=True)
+class TopicDoubt:
+    """Why a topic gives a display nothing.
+
+    Attributes:
+        level: of the status.
+        sentence: the cause and the remedy.
+        instead: a topic to use in place of this one; empty when none is meant.
+    """
+
+    level: Literal["Warn", "Error"]
+    sentence: str
+    instead: str = ""
+
+
+class TopicMessages(Protocol):
+    """The messages of the topics of a recording or of a live robot."""
+
+    def subscribe(
+        self,
+        topics: tuple[str, ...],
+        came: Callable[[], None],
+        *,
+        depth_s: float,
+        size: int,
+    ) -> Subscription:
+        """Ask for the messages of some topics (see `Subscription` for the arguments).
+
+        Those that hold at the present time wait already, in a recording.
+        """
+        ...
+
+    def unsubscribe(self, subscription: Subscription) -> None:
+        """Ask for them no longer."""
+        ...
+
+    def deliver(self) -> None:
+        """Let those draw for whom something has come, or who wait for a transform."""
+        ...
+
+    def now_ns(self) -> int:
+        """Return the time of the messages [ns]."""
+        ...
+
+    def names(self, types: Collection[str]) -> Sequence[str]:
+        """Return the topics whose messages have one of some types, sorted."""
+        ...
+
+    def doubt(
+        self, topic: str, types: Collection[str], qos: WantedQos
+    ) -> TopicDoubt | None:
+        """Return why a topic gives nothing to a display of some types, or None."""
+        ...

@@ -1,0 +1,210 @@
+"""The messages that displays draw: those of a recording, or of a live robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from functools import partial
+from typing import Any, Literal
+
+from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.displays.topic_messages import TopicDoubt
+from sambot_viz.errors import nearest
+from sambot_viz.session.data.descriptions import wanted_qos
+from sambot_viz.session.data.player import Player
+from sambot_viz.sources.message import Recorded
+from sambot_viz.text import capitalized
+from sambot_viz.topics import reasons
+from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.live_reasons import no_publisher, qos_mismatch
+from sambot_viz.topics.live_robot import LiveRobot
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.subscription import Subscription
+
+
+class DisplayTopics:
+    """Keeps what displays have subscribed to; the two kinds of sources derive from it.
+
+    Args:
+        decode: returns a message as an object with its fields, or raises DecodeError.
+    """
+
+    def __init__(self, decode: Callable[[Recorded], Any]) -> None:
+        self._decode = decode
+        self._subscriptions: list[Subscription] = []
+
+    def subscribe(
+        self,
+        topics: tuple[str, ...],
+        came: Callable[[], None],
+        *,
+        depth_s: float,
+        size: int,
+    ) -> Subscription:
+        """Ask for the messages of some topics."""
+        made = Subscription(topics, self._decode, came, depth_s=depth_s, size=size)
+        self._subscriptions.append(made)
+        self._begin(made)
+        return made
+
+    def unsubscribe(self, subscription: Subscription) -> None:
+        """Ask for them no longer."""
+        self._subscriptions.remove(subscription)
+        self._end(subscription)
+
+    def deliver(self) -> None:
+        """Let those draw for whom something has come, or who wait for a transform."""
+        for one in list(self._subscriptions):
+            if one.has_news or one.waits:
+                one.came()
+
+    def reset(self) -> None:
+        """Forget all messages: the time has gone back."""
+        for one in self._subscriptions:
+            one.clear()
+
+    def close(self) -> None:
+        """Ask for nothing any longer."""
+        for one in list(self._subscriptions):
+            self.unsubscribe(one)
+
+    def _begin(self, subscription: Subscription) -> None:
+        raise NotImplementedError
+
+    def _end(self, subscription: Subscription) -> None:
+        raise NotImplementedError
+
+
+class RecordedDisplayTopics(DisplayTopics):
+    """The messages of a recording, at the time of its player.
+
+    Args:
+        recorded: the recording.
+        player: gives its messages.
+    """
+
+    def __init__(self, recorded: RecordedRobot, player: Player) -> None:
+        super().__init__(Decoding(recorded.decoding.types).decode)
+        self._recorded = recorded
+        self._player = player
+
+    def now_ns(self) -> int:
+        """Return the log time of the player [ns]."""
+        return self._player.time_ns
+
+    def names(self, types: Collection[str]) -> Sequence[str]:
+        """Return the topics whose messages have one of some types, sorted."""
+        recorded = self._recorded
+        topics = recorded.recording.topics.items()
+        return sorted(n for n, t in topics if recorded.decoder(t).type_name in types)
+
+    def doubt(
+        self, topic: str, types: Collection[str], qos: WantedQos
+    ) -> TopicDoubt | None:
+        """Return why a topic gives nothing; QoS is a matter of the past here."""
+        del qos
+        recorded = self._recorded
+        known = recorded.recording.topics.get(topic)
+        if known is None:
+            return not_there(topic, self.names(types), recorded.recording.topics)
+        decoder = recorded.decoder(known)
+        if decoder.type_name not in types:
+            return wrong_type(types, decoder.type_name)
+        if decoder.reason is not None:
+            return TopicDoubt("Error", capitalized(decoder.reason.text))
+        if known.count == 0:
+            return TopicDoubt("Warn", capitalized(reasons.no_message(topic).text))
+        return None
+
+    def _begin(self, subscription: Subscription) -> None:
+        self._player.add(subscription)
+
+    def _end(self, subscription: Subscription) -> None:
+        self._player.remove(subscription)
+
+
+class LiveDisplayTopics(DisplayTopics):
+    """The messages of a live robot, as they come.
+
+    Args:
+        live: the robot.
+        wake: called in the thread of the source when something has come.
+    """
+
+    def __init__(self, live: LiveRobot, wake: Callable[[], None]) -> None:
+        super().__init__(Decoding(live.decoding.types).decode)
+        self._live = live
+        self._wake = wake
+        self._receivers: dict[Subscription, Callable[[Recorded], object]] = {}
+
+    def now_ns(self) -> int:
+        """Return the time of the robot, which may be simulated [ns]."""
+        return self._live.source.clock_ns()
+
+    def names(self, types: Collection[str]) -> Sequence[str]:
+        """Return the topics whose messages have one of some types, sorted."""
+        topics = self._live.source.topics()
+        return sorted(name for name in topics if self._type_of(name) in types)
+
+    def doubt(
+        self, topic: str, types: Collection[str], qos: WantedQos
+    ) -> TopicDoubt | None:
+        """Return why a topic gives nothing, also what its publishers do not offer."""
+        source = self._live.source
+        known = source.topics().get(topic)
+        if known is None:
+            if not source.status.is_connected:
+                return TopicDoubt("Warn", source.status.sentence)
+            return not_there(topic, self.names(types), source.topics(), "Warn")
+        if known.reason is not None:
+            return TopicDoubt("Error", capitalized(known.reason))
+        if (type_name := self._type_of(topic)) not in types:
+            return wrong_type(types, type_name)
+        why = no_publisher(topic, known.publishers)
+        why = why or qos_mismatch(known.qos, wanted_qos(qos))
+        return None if why is None else TopicDoubt("Warn", capitalized(why.text))
+
+    def _type_of(self, topic: str) -> str:
+        known = self._live.source.topics()[topic]
+        types = self._live.decoding.types
+        return types.decoder(known.schema, known.message_encoding).type_name
+
+    def _begin(self, subscription: Subscription) -> None:
+        receive = partial(self._receive, subscription)
+        self._receivers[subscription] = receive
+        for topic in subscription.topics:
+            self._live.source.subscribe(topic, receive)
+
+    def _end(self, subscription: Subscription) -> None:
+        receive = self._receivers.pop(subscription)
+        for topic in subscription.topics:
+            self._live.source.unsubscribe(topic, receive)
+
+    def _receive(self, subscription: Subscription, message: Recorded) -> None:
+        """Leave a message to the worker; runs in the thread of the source."""
+        subscription.take(message)
+        self._wake()
+
+
+def not_there(
+    topic: str,
+    fitting: Sequence[str],
+    known: Collection[str],
+    level: Literal["Warn", "Error"] = "Error",
+) -> TopicDoubt:
+    """Say that there is no such topic, and which one was meant.
+
+    Args:
+        topic: its name.
+        fitting: the topics that the display could draw.
+        known: all topics.
+        level: of the status.
+    """
+    instead = nearest(topic, fitting) or (fitting[0] if len(fitting) == 1 else "")
+    text = reasons.no_such_topic(topic, fitting or known).text
+    return TopicDoubt(level, capitalized(text), instead)
+
+
+def wrong_type(types: Collection[str], type_name: str) -> TopicDoubt:
+    """Say that a topic has messages that the display does not draw."""
+    wanted = " or ".join(sorted(types))
+    return TopicDoubt("Error", capitalized(reasons.wrong_type(wanted, type_name).text))

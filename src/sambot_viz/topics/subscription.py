@@ -1,0 +1,117 @@
+"""The messages of some topics, waiting for the display that asked for them."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Collection
+from typing import Any
+
+from sambot_viz.sources.message import Recorded
+
+_NS = 1_000_000_000
+
+
+class Subscription:
+    """Keeps messages until they are drawn; the newest, where more come than can wait.
+
+    Messages come in the thread of the source or in the worker; they are taken from here
+    in the worker. Nothing is decoded before it is drawn.
+
+    Args:
+        topics: their names.
+        decode: returns a message as an object with its fields, or raises DecodeError.
+        came: called in the worker when messages wait, and when a jump has made those
+            that were drawn outdated.
+        depth_s: how far back messages count after a jump [s].
+        size: so many messages wait at most.
+
+    Attributes:
+        topics: as given.
+        decode: as given.
+        came: as given.
+        waits: some that were taken wait for a transform; set by the display.
+        is_outdated: the time has jumped: what was drawn is of another time.
+        count: so many messages have come, by topic.
+    """
+
+    always: Collection[str] = ()
+
+    def __init__(
+        self,
+        topics: tuple[str, ...],
+        decode: Callable[[Recorded], Any],
+        came: Callable[[], None],
+        *,
+        depth_s: float,
+        size: int,
+    ) -> None:
+        self.topics = topics
+        self.decode = decode
+        self.came = came
+        self.depth_ns = round(depth_s * _NS)
+        self.waits = False
+        self.is_outdated = False
+        self.count = dict.fromkeys(topics, 0)
+        self._waiting: deque[Recorded] = deque(maxlen=size)
+        self._last: dict[str, Recorded] = {}
+        self._begin_ns: int | None = None
+
+    @property
+    def has_news(self) -> bool:
+        """Whether something is to be drawn."""
+        return self.is_outdated or bool(self._waiting)
+
+    def take(self, message: Recorded) -> None:
+        """Keep a message; the oldest one that waits goes when there are too many."""
+        last = self._last.get(message.topic)
+        if last is not None and _is_same(last, message):
+            # A latched message comes once for that, and once as the last one.
+            return
+        if self._begin_ns is None:
+            self._begin_ns = message.log_ns
+        self._last[message.topic] = message
+        self.count[message.topic] += 1
+        self._waiting.append(message)
+
+    def take_older(self, message: Recorded) -> None:
+        """Leave out what is older than what counts."""
+
+    def clear(self) -> None:
+        """Forget all messages: the time has jumped."""
+        self._waiting.clear()
+        self._last.clear()
+        self._begin_ns = None
+        self.count = dict.fromkeys(self.topics, 0)
+        self.is_outdated = True
+
+    def lacks(self) -> bool:
+        """Return False: the last message of each topic is enough."""
+        return False
+
+    def drain(self) -> list[Recorded]:
+        """Return the messages that wait, the oldest first; they wait no longer."""
+        self.is_outdated = False
+        drained: list[Recorded] = []
+        # The thread of a source may add more meanwhile.
+        while self._waiting:
+            drained.append(self._waiting.popleft())
+        return drained
+
+    def rate(self, topic: str, now_ns: int) -> float:
+        """Return how many messages of a topic have come in a second since the first.
+
+        Args:
+            topic: its name.
+            now_ns: the time of the source [ns].
+        """
+        if self._begin_ns is None or now_ns <= self._begin_ns:
+            return 0.0
+        return self.count[topic] * _NS / (now_ns - self._begin_ns)
+
+
+def _is_same(one: Recorded, other: Recorded) -> bool:
+    return one is other or (
+        one.log_ns == other.log_ns
+        and len(one.payload) == len(other.payload)
+        and one.payload == other.payload
+    )
