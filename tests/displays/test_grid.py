@@ -123,15 +123,6 @@ def test_a_grid_and_axes_that_have_not_changed_are_not_sent_again(
     ]
 
 
-def test_ribbons_are_drawn_again_for_another_background(
-    grid: Show, nodes: Nodes
-) -> None:
-    session = grid("      Line Style: Billboards")
-    before = nodes(session)
-    session.document.set_option("Background Color", (255, 255, 255))
-    assert any(nodes(session)[name] is not before[name] for name in before)
-
-
 def test_a_grid_in_an_unknown_frame_is_not_drawn_and_says_so(
     grid: Show, nodes: Nodes
 ) -> None:

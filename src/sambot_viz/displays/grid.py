@@ -11,6 +11,7 @@ from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.picking.pick_geometry import Array, PickGeometry
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
 from sambot_viz.displays.scene.nodes import Handle, NodeCache
+from sambot_viz.displays.scene.ribbons import segment_ribbons
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Matrix, Vector3, Wxyz
 from sambot_viz.rviz import (
@@ -205,14 +206,9 @@ class GridDisplay(Display):
             self.status.replace({"Transform": Status("Error", sentence)})
             return
         name = f"{self.context.above(frame)}/{self.key}"
-        state = (name, self._background(), *self.config.properties.values())
+        state = (name, *self.config.properties.values())
         self._nodes.show(state, lambda: (self._add_lines(name),))
         self._report()
-
-    def _background(self) -> Rgb | None:
-        """Return the colour to blend ribbons with, which have no alpha."""
-        ribbons = self.config.get("Line Style") == "Billboards"
-        return self.context.background if ribbons else None
 
     def _counts(self) -> tuple[int, int]:
         """Return the cells along each side and along the normal, as they are drawn."""
@@ -240,20 +236,16 @@ class GridDisplay(Display):
         alpha = float(get("Alpha"))
         wxyz = _PLANES.get(str(get("Plane")), _PLANES["XY"])
         offset: Vector3 = get("Offset")
-        background = self._background()
-        if background is not None:
-            return scene.add_line_segments(
-                name,
-                segments,
-                colors=_blend(color, background, alpha),
-                thickness=float(get("Line Style/Line Width")),
-                thickness_units="world",
-                wxyz=wxyz,
-                position=offset,
+        if get("Line Style") == "Billboards":
+            glb = segment_ribbons(
+                segments, float(get("Line Style/Line Width")), color, alpha
             )
+        else:
+            pieces = in_pieces(segments, float(get("Cell Size")))
+            glb = lines_glb(pieces, color, alpha)
         return scene.add_glb(
             name,
-            lines_glb(in_pieces(segments, float(get("Cell Size"))), color, alpha),
+            glb,
             cast_shadow=False,
             receive_shadow=False,
             wxyz=wxyz,
@@ -279,11 +271,3 @@ class GridDisplay(Display):
     def clear(self) -> None:
         """Take the grid out of the scene."""
         self._nodes.remove()
-
-
-def _blend(color: Rgb, background: Rgb, alpha: float) -> Rgb:
-    """Return the colour over the background: viser's wide lines have no alpha."""
-    mixed = [
-        alpha * c + (1 - alpha) * b for c, b in zip(color, background, strict=True)
-    ]
-    return (round(mixed[0]), round(mixed[1]), round(mixed[2]))

@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.scene.glb_node import (
+    IDENTITY,
+    LINES,
+    ORIGIN,
+    GlbNode,
+    drawn_glb,
+    rgba_rows,
+    single,
+)
 from sambot_viz.displays.scene.nodes import any_gone, remove_all
 from sambot_viz.displays.scene.solids import Rgb, linear
+from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM, glb_file
 
 _FLOAT, _LINES = 5126, 1
+Floats = npt.NDArray[np.float32]
 
 MOST_PIECES = 20000
 """More pieces than this are not made of lines (0.5 MB)."""
@@ -100,6 +112,63 @@ def lines_glb(
         ],
     }
     return glb_file(document, points.tobytes())
+
+
+class LineNode(GlbNode):
+    """Lines that are one pixel wide at any distance, in one node."""
+
+    def draw(
+        self,
+        segments: npt.ArrayLike,
+        color: npt.ArrayLike,
+        *,
+        alpha: float = 1.0,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw the lines; those that are not finite are left out.
+
+        Args:
+            segments: (N, 2, 3), start and end of each [m].
+            color: one for all (3,), or one for each end with its alpha (N, 2, 4); 0 to
+                255. Between the ends the colours change evenly.
+            alpha: 0 to 1; where one of the ends is not opaque, all are blended.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
+        given: Floats = np.reshape(single(segments), (-1, 2, 3))
+        each = np.asarray(color)
+        each = np.reshape(each, (-1, 4)) if each.ndim > 1 else each
+        rgba = rgba_rows(each, alpha, 2 * len(given))
+        finite = np.isfinite(given).all(axis=(1, 2))
+        points: Floats = np.reshape(given[finite], (-1, 3))
+        colors = rgba[np.repeat(finite, 2)]
+        if not len(points):
+            self.remove()
+            return
+        self.show(
+            (points, colors),
+            lambda: drawn_glb(
+                "lines",
+                {"POSITION": points, "COLOR_0": colors},
+                mode=LINES,
+                blended=bool(colors[:, 3].min() < 255),
+            ),
+            wxyz,
+            position,
+        )
+
+
+def chain_segments(points: npt.ArrayLike, closed: bool = False) -> npt.NDArray[Any]:
+    """Return the lines from each point to the next, (N − 1, 2, 3).
+
+    Args:
+        points: (N, 3).
+        closed: adds the line from the last to the first.
+    """
+    at: npt.NDArray[Any] = np.reshape(np.asarray(points), (-1, 3))
+    ends = np.roll(at, -1, axis=0) if closed else at[1:]
+    return np.stack([at[: len(ends)], ends], axis=1)
 
 
 COLOR = (255, 170, 0)

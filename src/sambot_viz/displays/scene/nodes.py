@@ -7,8 +7,9 @@ frame carries the fixed frame: its pose is T_fixed_root.
 
 from __future__ import annotations
 
+import math
 import string
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 import viser
@@ -128,6 +129,15 @@ def position_of(T: Matrix) -> Vector3:
     last place where an absurd number can be stopped.
     """
     return (_shown(T[0, 3]), _shown(T[1, 3]), _shown(T[2, 3]))
+
+
+def placed(wxyz: Sequence[float], position: Sequence[float]) -> tuple[Wxyz, Vector3]:
+    """Return a pose that may be sent: finite, without a rotation where it has none."""
+    w, x, y, z = (float(value) for value in wxyz)
+    norm = math.sqrt(w * w + x * x + y * y + z * z)
+    good = 0.0 < norm < math.inf
+    turn = (w / norm, x / norm, y / norm, z / norm) if good else (1.0, 0.0, 0.0, 0.0)
+    return turn, (_shown(position[0]), _shown(position[1]), _shown(position[2]))
 
 
 def _shown(metres: float) -> float:

@@ -13,6 +13,7 @@
  * transform).
  */
 
+import { dressDrawn } from "./drawn.js";
 import { currentLook } from "./look.js";
 import { keepSharp } from "./sharp.js";
 import { reportWindow } from "./window_size.js";
@@ -119,6 +120,7 @@ const adoptBackground = (object) => {
   background = object;
   material.needsUpdate = true;
   object.frustumCulled = false;
+  object.renderOrder = -2000;
   look.backgrounds += 1;
 };
 
@@ -168,6 +170,7 @@ const visit = (object, studio, shown) => {
   // When viser makes a batch of meshes again, as it does when it gets another material, the old
   // one is in the scene for some pictures more, disposed of: WebGL would refuse to draw it.
   if (object.isInstancedMesh2 && !object.instanceIndex) object.visible = false;
+  dressDrawn(object);
   const visible = shown && object.visible;
   const material = object.material;
   if (material !== undefined) {

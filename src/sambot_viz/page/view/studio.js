@@ -131,7 +131,7 @@ export function dress(studio, object, visible) {
     if (studio) roundOff(object);
     else putBack(object);
     if (!object.isInstancedMesh && material.opacity > 0.05) seen.push(object);
-  } else if (material?.isLineBasicMaterial && object.isLineSegments) {
+  } else if (material?.isLineBasicMaterial && object.isLineSegments && !object.userData.drawAs) {
     if (studio) fade(object);
     else unfade(object);
   }

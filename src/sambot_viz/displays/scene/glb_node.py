@@ -1,0 +1,244 @@
+"""Nodes that the page draws by rules of its own.
+
+viser has neither ribbons nor palettes nor coloured text. It does load GLB files, whose
+`extras` reach the page's script: `drawAs` there names what page/view/drawn.js makes of
+the file's vertices.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all
+from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meshes.glb import glb_file
+from sambot_viz.viser_private import set_pose
+
+Array = npt.NDArray[Any]
+IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
+ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+LINES, TRIANGLES = 1, 4
+_UINT8, _UINT32, _FLOAT = 5121, 5125, 5126
+_SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+
+
+class GlbNode:
+    """One node of viser made from a GLB file.
+
+    Args:
+        scene: where to draw.
+        name: of the node; it is drawn in the frame of the node above.
+    """
+
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        self._scene = scene
+        self._name = name
+        self._handle: viser.GlbHandle | None = None
+        self._digest = b""
+        self._pose = (IDENTITY, ORIGIN)
+
+    @property
+    def is_gone(self) -> bool:
+        """Return whether the node was removed together with one above it."""
+        return self._handle is not None and any_gone([self._handle])
+
+    def show(
+        self,
+        content: Sequence[object],
+        make: Callable[[], bytes],
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Send the file if its content is another one, and the pose if it is.
+
+        Args:
+            content: everything that the file depends on; arrays, and what `repr` tells
+                apart.
+            make: returns the file.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
+        digest = digest_of(content)
+        pose = placed(wxyz, position)
+        if self._handle is None or self.is_gone:
+            self._handle = self._scene.add_glb(
+                self._name,
+                make(),
+                cast_shadow=False,
+                receive_shadow=False,
+                wxyz=pose[0],
+                position=pose[1],
+            )
+        else:
+            if digest != self._digest:
+                self._handle.glb_data = make()
+            move(self._handle, self._pose, pose)
+        self._digest, self._pose = digest, pose
+
+    def remove(self) -> None:
+        """Take the node out of the scene."""
+        if self._handle is not None:
+            remove_all([self._handle])
+            self._handle = None
+
+
+def move(
+    handle: viser.SceneNodeHandle,
+    before: tuple[Wxyz, Vector3],
+    now: tuple[Wxyz, Vector3],
+) -> None:
+    """Send what has changed of a pose."""
+    if before != now:
+        set_pose(
+            handle,
+            now[0] if now[0] != before[0] else None,
+            now[1] if now[1] != before[1] else None,
+        )
+
+
+def digest_of(content: Sequence[object]) -> bytes:
+    """Return a digest of arrays and of what `repr` tells apart."""
+    digest = hashlib.blake2b(digest_size=16)
+    for part in content:
+        if isinstance(part, np.ndarray):
+            array = cast("Array", part)
+            digest.update(repr((array.shape, str(array.dtype))).encode())
+            digest.update(array.tobytes())
+        else:
+            digest.update(repr(part).encode())
+    return digest.digest()
+
+
+def single(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
+    """Return numbers with 32 bits, as browsers have them; what is too large is inf."""
+    with np.errstate(over="ignore"):
+        return np.asarray(values).astype(np.float32)
+
+
+def rgba_rows(color: npt.ArrayLike, alpha: float, count: int) -> npt.NDArray[np.uint8]:
+    """Return a colour for each of some vertices, (count, 4).
+
+    Args:
+        color: one colour (3,), or colours with alpha (count, 4); 0 to 255.
+        alpha: 0 to 1; multiplies the alpha of the colours.
+        count: of vertices.
+    """
+    given = np.asarray(color, np.float64)
+    rows = np.full((count, 4), 255.0)
+    rows[:, : given.shape[-1]] = given
+    rows[:, 3] *= alpha
+    return np.round(rows).clip(0, 255).astype(np.uint8)
+
+
+def drawn_glb(
+    draw_as: str,
+    attributes: Mapping[str, Array],
+    *,
+    extras: Mapping[str, object] | None = None,
+    mode: int = TRIANGLES,
+    indices: Array | None = None,
+    blended: bool = False,
+    image: bytes | None = None,
+) -> bytes:
+    """Return a GLB file with one unlit part that is seen from both sides.
+
+    Args:
+        draw_as: what draws it, a name of page/view/drawn.js.
+        attributes: glTF's name → (N, 1 to 4) float32 or uint8, 0 to 255 for 0 to 1;
+            none for a file that only carries `extras`.
+        extras: what else the page has to know.
+        mode: `LINES` or `TRIANGLES`.
+        indices: of the corners of the triangles, uint32.
+        blended: whether alpha is looked at; then it writes no depth.
+        image: a PNG file, the texture.
+    """
+    body = _Body()
+    said = {"drawAs": draw_as, **(extras or {})}
+    document: dict[str, Any] = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+    }
+    if not attributes:
+        return glb_file({**document, "nodes": [{"extras": said}]}, b"")
+    primitive: dict[str, Any] = {
+        "attributes": {name: body.add(rows) for name, rows in attributes.items()},
+        "mode": mode,
+        "material": 0,
+    }
+    position, first = attributes["POSITION"], primitive["attributes"]["POSITION"]
+    body.accessors[first]["min"] = position.min(axis=0).tolist()
+    body.accessors[first]["max"] = position.max(axis=0).tolist()
+    if indices is not None:
+        primitive["indices"] = body.add(np.reshape(indices.astype("<u4"), (-1, 1)))
+    surface: dict[str, Any] = {"baseColorFactor": [1, 1, 1, 1]}
+    if image is not None:
+        surface["baseColorTexture"] = {"index": 0}
+        nearest, clamped = 9728, 33071
+        document |= {
+            "images": [{"bufferView": body.view(image), "mimeType": "image/png"}],
+            "samplers": [
+                {
+                    "magFilter": nearest,
+                    "minFilter": nearest,
+                    "wrapS": clamped,
+                    "wrapT": clamped,
+                }
+            ],
+            "textures": [{"source": 0, "sampler": 0}],
+        }
+    material: dict[str, Any] = {
+        "pbrMetallicRoughness": surface,
+        "extensions": {"KHR_materials_unlit": {}},
+        "doubleSided": True,
+        "alphaMode": "BLEND" if blended else "OPAQUE",
+    }
+    document |= {
+        "extensionsUsed": ["KHR_materials_unlit"],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [primitive], "extras": said}],
+        "materials": [material],
+        "accessors": body.accessors,
+        "bufferViews": body.views,
+        "buffers": [{"byteLength": len(body.data)}],
+    }
+    return glb_file(document, bytes(body.data))
+
+
+class _Body:
+    """The one buffer of a file, its views and accessors."""
+
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self.views: list[dict[str, int]] = []
+        self.accessors: list[dict[str, Any]] = []
+
+    def view(self, data: bytes) -> int:
+        """Append bytes, padded to four."""
+        self.views.append(
+            {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
+        )
+        self.data += data + b"\0" * (-len(data) % 4)
+        return len(self.views) - 1
+
+    def add(self, rows: Array) -> int:
+        """Append an array."""
+        bytewise = rows.dtype == np.uint8
+        index = rows.dtype == np.uint32
+        data = rows if bytewise or index else rows.astype("<f4")
+        self.accessors.append(
+            {
+                "bufferView": self.view(data.tobytes()),
+                "componentType": _UINT8 if bytewise else _UINT32 if index else _FLOAT,
+                "normalized": bytewise,
+                "count": len(rows),
+                "type": _SHAPES[rows.shape[1]],
+            }
+        )
+        return len(self.accessors) - 1

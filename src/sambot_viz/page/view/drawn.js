@@ -1,0 +1,23 @@
+// @ts-check
+/* What the server draws beyond viser's nodes: GLB files whose `extras` say in `drawAs` what makes
+ * a picture of their vertices (displays/scene/glb_node.py). A kind is one function, which is given
+ * its objects before each picture.
+ */
+
+import { dressMap, dressTile } from "./maps.js";
+import { dressRibbon } from "./ribbons.js";
+import { rawColors } from "./raw_colors.js";
+
+/** @type {Record<string, (object: any) => void>} */
+const KINDS = {
+  lines: ({ material }) => rawColors(material, "lines"),
+  map: dressMap,
+  mapTile: dressTile,
+  ribbon: dressRibbon,
+};
+
+/** Make a picture of an object, if it is one of ours. @param {any} object */
+export function dressDrawn(object) {
+  const kind = object.userData?.drawAs;
+  if (kind !== undefined) KINDS[kind]?.(object);
+}

@@ -1,0 +1,88 @@
+"""A scene without a server, and what is sent to it."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+import numpy as np
+import pytest
+import viser
+
+from sambot_viz import viser_private
+
+
+class Drawn:
+    """A scene that nobody looks at.
+
+    Attributes:
+        scene: where to draw.
+    """
+
+    def __init__(self) -> None:
+        recorder = viser_private.Recorder(480)
+        self.scene: viser.SceneApi = recorder.scene
+        self._messages: list[tuple[dict[str, Any], int]] = []
+        recorder.listen(self._hear)
+
+    def _hear(self, message: dict[str, Any], arrays: list[memoryview]) -> None:
+        size = len(msgspec.msgpack.encode(message)) + sum(a.nbytes for a in arrays)
+        self._messages.append((message, size))
+
+    def sent(self) -> list[str]:
+        """The types of all messages since it was asked last."""
+        return [message["type"] for message, _ in self.taken()]
+
+    def bytes(self) -> int:
+        """How long all messages since it was asked last are."""
+        return sum(size for _, size in self.taken())
+
+    def taken(self) -> list[tuple[dict[str, Any], int]]:
+        """All messages since it was asked last, and how long they are [bytes]."""
+        taken, self._messages = self._messages, []
+        return taken
+
+    def files(self) -> dict[str, bytes]:
+        """Name of a node → the GLB file that came for it since it was asked last."""
+        found = {}
+        for message, _ in self.taken():
+            props = message.get("props") or message.get("updates") or {}
+            if "glb_data" in props:
+                found[message["name"]] = props["glb_data"]
+        return found
+
+
+@pytest.fixture
+def drawn() -> Drawn:
+    return Drawn()
+
+
+def document_of(glb: bytes) -> dict[str, Any]:
+    """The document of a GLB file."""
+    return json.loads(glb[20 : 20 + struct.unpack_from("<I", glb, 12)[0]])
+
+
+def numbers_of(glb: bytes, attribute: str) -> np.ndarray[Any, Any]:
+    """An attribute of the vertices of a GLB file, or its "indices"."""
+    document = document_of(glb)
+    primitive = document["meshes"][0]["primitives"][0]
+    all_of_them = {"indices": primitive.get("indices"), **primitive["attributes"]}
+    accessor = document["accessors"][all_of_them[attribute]]
+    view = document["bufferViews"][accessor["bufferView"]]
+    kind = {5126: "<f4", 5125: "<u4", 5121: "u1"}[accessor["componentType"]]
+    start = 28 + struct.unpack_from("<I", glb, 12)[0] + view["byteOffset"]
+    data = np.frombuffer(glb[start : start + view["byteLength"]], kind)
+    return data.reshape(accessor["count"], -1)
+
+
+@pytest.fixture
+def document() -> Callable[[bytes], dict[str, Any]]:
+    return document_of
+
+
+@pytest.fixture
+def numbers() -> Callable[[bytes, str], np.ndarray[Any, Any]]:
+    return numbers_of

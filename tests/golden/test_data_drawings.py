@@ -1,0 +1,267 @@
+"""What data displays are drawn with, beside pictures of the real RViz.
+
+The shapes come from the messages of the recordings, without the displays: a ribbon, a
+map or a text has to look as RViz's does whatever display asks for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+if TYPE_CHECKING:
+    import viser
+
+    from sambot_viz import RvizConfig
+    from sambot_viz.export.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+DATA = Path(__file__).parent / "data"
+BACKGROUND = 48
+DRAWN = 12
+SAME = 8
+Picture = npt.NDArray[np.int16]
+Draw = Callable[["viser.SceneApi"], object]
+DrawMessages = Callable[["viser.SceneApi", dict[str, list[Any]]], object]
+
+
+def messages(name: str) -> dict[str, list[Any]]:
+    """The messages of a recording by topic."""
+    from rosbags.typesys import Stores, get_typestore
+
+    from sambot_viz.sources.bag import open_recording
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    found: dict[str, list[Any]] = {}
+    with open_recording(DATA / name / "messages.mcap") as recording:
+        while not recording.index_more():
+            pass
+        for one in recording.messages():
+            kind = one.channel.schema.name
+            message = store.deserialize_cdr(bytes(one.payload), kind)
+            found.setdefault(one.topic, []).append(message)
+    return found
+
+
+def recorded(name: str) -> Picture:
+    from PIL import Image
+
+    opened: Image.Image = Image.open(DATA / name / "render.png")
+    with opened:
+        return np.asarray(opened.convert("RGB"), np.int16)
+
+
+def picture_of(
+    chromium: Chromium, config: RvizConfig, shape: tuple[int, ...], draw: Draw
+) -> Picture:
+    """What a server shows with a config, without messages, and with more to draw."""
+    from sambot_viz.export.view_picture import snapshot
+    from sambot_viz.options import Options
+    from sambot_viz.server.server import Server
+
+    server = Server(Options(port=0, gui=False, panels=False), lambda: config)
+    try:
+        session = server.sessions.all()[0]
+        draw(session.audience.scene)
+        view = session.document_view.camera
+        picture = snapshot(server, chromium, shape[1], shape[0], view)
+        return picture.astype(np.int16)
+    finally:
+        server.stop()
+
+
+def ours(chromium: Chromium, name: str, draw: DrawMessages) -> Picture:
+    """What is drawn of the messages of a recording."""
+    from sambot_viz import load_config
+
+    config = load_config(DATA / name / "config.rviz")
+    said = messages(name)
+    shape = recorded(name).shape
+    return picture_of(chromium, config, shape, lambda scene: draw(scene, said))
+
+
+def points_of(positions: list[Any]) -> npt.NDArray[np.float64]:
+    return np.array([(p.x, p.y, p.z) for p in positions])
+
+
+def flat(picture: Picture) -> npt.NDArray[np.bool_]:
+    """The middles of squares of 5 pixels of one colour."""
+    windows = np.lib.stride_tricks.sliding_window_view(picture, (5, 5), (0, 1))
+    even = (windows.max(axis=(-1, -2)) - windows.min(axis=(-1, -2))).max(axis=-1) <= 2
+    return np.asarray(np.pad(even, 2))
+
+
+def near(mask: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """The pixels with one of the mask within one pixel."""
+    height, width = mask.shape
+    around = np.pad(mask, 1)
+    shifted = [
+        around[y : y + height, x : x + width] for y in range(3) for x in range(3)
+    ]
+    return np.asarray(np.any(shifted, axis=0))
+
+
+def patches(a: Picture, b: Picture) -> float:
+    """The part of RViz's flat patches whose pixels have the same colour in ours."""
+    counts = flat(b) & (np.abs(b - BACKGROUND).max(axis=-1) > DRAWN)
+    return float((np.abs(a - b).max(axis=-1) <= SAME)[counts].mean())
+
+
+def outline(a: Picture, b: Picture) -> float:
+    """The part of what is drawn that is in the other picture within one pixel."""
+    # Half a pixel of a line at the edge is in one picture and not in the other.
+    one, other = (
+        np.abs(p[1:-1, 1:-1] - BACKGROUND).max(axis=-1) > DRAWN for p in (a, b)
+    )
+    found = (one & near(other)).sum() + (other & near(one)).sum()
+    return float(found / (one.sum() + other.sum()))
+
+
+def draw_paths(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
+    from sambot_viz.displays.scene.ribbons import RibbonNode
+
+    odom = said["/tf_static"][0].transforms[0].transform
+    turn, at = odom.rotation, odom.translation
+    for topic, width, color, T in (
+        ("/plan", 0.1, (255, 0, 0), ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))),
+        (
+            "/local_plan",
+            0.05,
+            (0, 12, 255),
+            ((turn.w, turn.x, turn.y, turn.z), (at.x, at.y, at.z)),
+        ),
+    ):
+        points = points_of([p.pose.position for p in said[topic][0].poses])
+        RibbonNode(scene, f"/~{width}").draw(
+            points, width, color, wxyz=T[0], position=T[1]
+        )
+
+
+def draw_lines(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
+    from sambot_viz.displays.scene.ribbons import RibbonNode
+
+    for marker in said["/visualization_marker"]:
+        points = points_of(marker.points)
+        colors = [(c.r, c.g, c.b, c.a) for c in marker.colors]
+        if len(colors) != len(points):
+            c = marker.color
+            colors = [(c.r, c.g, c.b, c.a)] * len(points)
+        p, q = marker.pose.position, marker.pose.orientation
+        RibbonNode(scene, f"/~{marker.ns}{marker.id}").draw(
+            points,
+            marker.scale.x,
+            255 * np.array(colors),
+            counts=[2] * (len(points) // 2) if marker.type == 5 else None,
+            wxyz=(q.w, q.x, q.y, q.z),
+            position=(p.x, p.y, p.z),
+        )
+
+
+def draw_map(alpha: float, is_behind: bool = False) -> DrawMessages:
+    from sambot_viz.displays.scene.maps import MapNode, palette
+
+    def draw(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
+        message = said["/map"][0]
+        info = message.info
+        cells = message.data.view(np.uint8).reshape(info.height, info.width)
+        p, q = info.origin.position, info.origin.orientation
+        MapNode(scene, "/~map").draw(
+            cells,
+            palette("map"),
+            info.resolution,
+            alpha=alpha,
+            is_behind=is_behind,
+            wxyz=(q.w, q.x, q.y, q.z),
+            position=(p.x, p.y, p.z),
+        )
+
+    return draw
+
+
+def draw_cubes(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
+    draw_map(1.0, is_behind=True)(scene, said)
+    for cube in said["/visualization_marker_array"][0].markers:
+        p, s, c = cube.pose.position, cube.scale, cube.color
+        scene.add_box(
+            f"/~c{cube.id}",
+            color=(round(255 * c.r), round(255 * c.g), round(255 * c.b)),
+            dimensions=(s.x, s.y, s.z),
+            position=(p.x, p.y, p.z),
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+
+@pytest.mark.parametrize(
+    ("name", "draw"),
+    [
+        ("path_billboards", draw_paths),
+        ("marker_lines", draw_lines),
+        ("map_palette_map", draw_map(1.0)),
+        ("map_orbit", draw_map(0.7)),
+        ("map_draw_behind", draw_cubes),
+    ],
+)
+def test_the_picture_is_rvizs(
+    chromium: Chromium, name: str, draw: DrawMessages
+) -> None:
+    picture, golden = ours(chromium, name, draw), recorded(name)
+    assert patches(picture, golden) >= 0.99
+    assert outline(picture, golden) >= 0.97
+
+
+def test_each_value_of_a_cell_has_its_colour(chromium: Chromium) -> None:
+    """The middles of all 256 cells, 28 pixels apart."""
+    name = "map_palette_map"
+    picture, golden = ours(chromium, name, draw_map(1.0)), recorded(name)
+    at = slice(240 - 7 * 28 - 14, 240 + 8 * 28, 28), slice(320 - 7 * 28 - 14, 558, 28)
+    assert picture[at].shape == (16, 16, 3)
+    assert np.abs(picture[at] - golden[at]).max() <= 1
+
+
+EDGE_ON = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/Grid
+      Enabled: true
+      Name: Grid
+      Plane: XZ
+      Alpha: 1
+      Color: 255; 255; 0
+      Line Style:
+        Line Width: 4
+        Value: Billboards
+  Global Options:
+    Background Color: 48; 48; 48
+    Fixed Frame: map
+  Views:
+    Current:
+      Class: rviz_default_plugins/Orbit
+      Distance: 10
+      Yaw: 0
+      Pitch: 0
+"""
+
+
+def test_wide_lines_of_a_grid_end_where_the_lines_end(chromium: Chromium) -> None:
+    """The grid of RViz 2's own visual test, which is seen edge-on.
+
+    Lines 4 m wide, the nearest 5 m away, cover its picture but for 15 pixels at the
+    left and at the right: they have no caps.
+    """
+    from sambot_viz.inputs import declarations
+    from sambot_viz.rviz import RvizConfig
+
+    config = RvizConfig.parse(EDGE_ON, declarations())
+    picture = picture_of(chromium, config, (751, 756), lambda scene: None)
+    covered = np.abs(picture - BACKGROUND).max(axis=-1) > DRAWN
+    columns = np.nonzero(covered.any(axis=0))[0]
+    assert abs(columns[0] - 15) <= 1
+    assert abs(columns[-1] - 740) <= 1
+    assert (picture[:, 17:739] == (255, 255, 0)).all()
