@@ -198,6 +198,29 @@ def draw_cubes(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
         )
 
 
+def draw_odometry(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
+    from sambot_viz.displays.scene.covariance import covariance_solids
+    from sambot_viz.displays.scene.solid_nodes import ArrowsNode, SolidsNode
+
+    of_map = said["/tf_static"][0].transforms[0].transform
+    turn, at = of_map.rotation, of_map.translation
+    scene.add_frame(
+        "/~odom",
+        show_axes=False,
+        wxyz=(turn.w, turn.x, turn.y, turn.z),
+        position=(at.x, at.y, at.z),
+    )
+    message = said["/odom"][0].pose
+    q, p = message.pose.orientation, message.pose.position
+    wxyz, position = (q.w, q.x, q.y, q.z), (p.x, p.y, p.z)
+    shaft = 0.4 if p.x else 0.5
+    ArrowsNode(scene, "/~odom/a").draw(
+        [wxyz], [position], (shaft, 0.05), (0.2, 0.1), (255, 25, 0)
+    )
+    solids = covariance_solids(message.covariance, wxyz, position)
+    SolidsNode(scene, "/~odom/c").draw(solids)
+
+
 @pytest.mark.parametrize(
     ("name", "draw"),
     [
@@ -206,6 +229,8 @@ def draw_cubes(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
         ("map_palette_map", draw_map(1.0)),
         ("map_orbit", draw_map(0.7)),
         ("map_draw_behind", draw_cubes),
+        ("odom_cov_3d", draw_odometry),
+        ("odom_cov_planar", draw_odometry),
     ],
 )
 def test_the_picture_is_rvizs(

@@ -19,6 +19,7 @@ from sambot_viz.geometry import Vector3, Wxyz, rotation_from_xyzw, wxyz_from_z
 from sambot_viz.meshes.glb import srgb_to_linear
 from sambot_viz.meshes.primitives import (
     Primitive,
+    unit_box,
     unit_cone,
     unit_cylinder,
     unit_sphere,
@@ -27,7 +28,7 @@ from sambot_viz.meshes.primitives import (
 Rgb = tuple[int, int, int]
 
 _HALF = math.sqrt(0.5)
-_AXIS_WXYZ: tuple[Wxyz, ...] = (
+AXIS_WXYZ: tuple[Wxyz, ...] = (
     (_HALF, 0.0, _HALF, 0.0),
     (_HALF, -_HALF, 0.0, 0.0),
     (1.0, 0.0, 0.0, 0.0),
@@ -66,6 +67,12 @@ def cylinder() -> Compact:
 def cone() -> Compact:
     """Return a 16-sided cone along z, diameter 1, height 1, tip up."""
     return _compact(unit_cone())
+
+
+@cache
+def box() -> Compact:
+    """Return a cube, edge 1."""
+    return _compact(unit_box())
 
 
 @cache
@@ -136,7 +143,7 @@ def axes_triangles(length: float, diameter: float) -> Compact:
     """Return the triangles that `add_axes` draws."""
     return _merged(
         (cylinder(), wxyz, position, _thick((length, diameter)))
-        for wxyz, position in zip(_AXIS_WXYZ, _middles(length), strict=True)
+        for wxyz, position in zip(AXIS_WXYZ, _middles(length), strict=True)
     )
 
 
@@ -180,7 +187,7 @@ def add_axes(
         scene,
         name,
         cylinder(),
-        _AXIS_WXYZ,
+        AXIS_WXYZ,
         _middles(length),
         scales,
         colors,

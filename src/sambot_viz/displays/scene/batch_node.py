@@ -1,0 +1,139 @@
+"""Copies of one shape in one node; only what has changed of it is sent."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN, move, single
+from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all
+from sambot_viz.displays.scene.solids import Compact, linear
+from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meshes.glb import OPAQUE_FROM
+
+Floats = npt.NDArray[np.float32]
+
+
+class BatchNode:
+    """Copies of one shape in one node.
+
+    Args:
+        scene: where to draw.
+        name: of the node; it is drawn in the frame of the node above.
+    """
+
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        self._scene = scene
+        self._name = name
+        self._handle: viser.BatchedMeshHandle | None = None
+        self._pose = (IDENTITY, ORIGIN)
+
+    @property
+    def is_gone(self) -> bool:
+        """Return whether the node was removed together with one above it."""
+        return self._handle is not None and any_gone([self._handle])
+
+    def show(
+        self,
+        shape: Compact,
+        wxyzs: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        scales: npt.ArrayLike,
+        colors: npt.ArrayLike,
+        alphas: npt.ArrayLike = 1.0,
+        *,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw the copies; those that are not finite are left out.
+
+        Args:
+            shape: of all of them.
+            wxyzs: (N, 4), their rotations, of any length but 0.
+            positions: (N, 3) [m].
+            scales: (N, 3) or one for all (3,).
+            colors: (N, 3) or one for all (3,), 0 to 255.
+            alphas: (N,) or one for all, 0 to 1.
+            wxyz: rotation of all in the frame of the node above.
+            position: there [m].
+        """
+        turns: Floats = np.reshape(single(wxyzs), (-1, 4))
+        count = len(turns)
+        at: Floats = np.reshape(single(positions), (-1, 3))
+        sizes = np.broadcast_to(single(scales), (count, 3))
+        shown = np.broadcast_to(linear_colors(colors), (count, 3))
+        alpha = np.broadcast_to(single(alphas), (count,))
+        norms = np.linalg.norm(turns, axis=1)
+        good = np.isfinite(np.column_stack([turns, at, sizes, alpha])).all(axis=1)
+        good &= norms > 0
+        if not good.any():
+            self.remove()
+            return
+        alpha = alpha[good].clip(0, 1)
+        self._send(
+            shape,
+            turns[good] / norms[good][:, None],
+            at[good],
+            sizes[good],
+            shown[good],
+            None if alpha.min() >= OPAQUE_FROM else alpha,
+            placed(wxyz, position),
+        )
+
+    def _send(
+        self,
+        shape: Compact,
+        wxyzs: Floats,
+        positions: Floats,
+        scales: Floats,
+        colors: npt.NDArray[np.uint8],
+        alphas: Floats | None,
+        pose: tuple[Wxyz, Vector3],
+    ) -> None:
+        if self._handle is None or self.is_gone:
+            self._handle = self._scene.add_batched_meshes_simple(
+                self._name,
+                shape.vertices,
+                shape.faces,
+                wxyzs,
+                positions,
+                batched_scales=scales,
+                batched_colors=colors,
+                batched_opacities=alphas,
+                lod="off",
+                flat_shading=True,
+                cast_shadow=False,
+                receive_shadow=False,
+                wxyz=pose[0],
+                position=pose[1],
+            )
+        else:
+            # viser sends what differs from what it has.
+            handle = self._handle
+            handle.vertices, handle.faces = shape.vertices, shape.faces
+            handle.batched_wxyzs = wxyzs
+            handle.batched_positions = positions
+            handle.batched_scales = scales
+            handle.batched_colors = colors
+            handle.batched_opacities = alphas
+            move(handle, self._pose, pose)
+        self._pose = pose
+
+    def remove(self) -> None:
+        """Take the node out of the scene."""
+        if self._handle is not None:
+            remove_all([self._handle])
+            self._handle = None
+
+
+@cache
+def _linear_table() -> npt.NDArray[np.uint8]:
+    return np.array([round(255 * linear(c)) for c in range(256)], np.uint8)
+
+
+def linear_colors(colors: npt.ArrayLike) -> npt.NDArray[np.uint8]:
+    """Return colours as viser takes those of batches: in linear light."""
+    return _linear_table()[np.round(np.asarray(colors, np.float64)).astype(np.uint8)]

@@ -1,0 +1,215 @@
+"""Nodes with many solids: arrows, axes, and the unit shapes of markers.
+
+The page pays for each node, so all copies of one shape are a batch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.scene.batch_node import BatchNode
+from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN
+from sambot_viz.displays.scene.solids import (
+    AXIS_COLORS,
+    AXIS_WXYZ,
+    Arrow,
+    Rgb,
+    arrow_triangles,
+    box,
+    cone,
+    cylinder,
+    sphere,
+)
+from sambot_viz.geometry import Vector3, Wxyz
+
+Numbers = npt.NDArray[np.float64]
+Kind = Literal["box", "cone", "cylinder", "sphere"]
+_SHAPES = {"box": box, "cone": cone, "cylinder": cylinder, "sphere": sphere}
+
+
+class ArrowsNode(BatchNode):
+    """Arrows of one size along +x of their poses."""
+
+    def draw(
+        self,
+        wxyzs: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        shaft: tuple[float, float],
+        head: tuple[float, float],
+        color: npt.ArrayLike,
+        *,
+        alpha: npt.ArrayLike = 1.0,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw them.
+
+        Args:
+            wxyzs: (N, 4), the rotations.
+            positions: (N, 3), where the shafts begin [m].
+            shaft: length and diameter [m]; RViz's "Shaft Radius" is the diameter,
+                except in Path.
+            head: length and diameter [m].
+            color: of all (3,) or of each (N, 3), 0 to 255.
+            alpha: of all or of each (N,), 0 to 1.
+            wxyz: rotation of all in the frame of the node above.
+            position: there [m].
+        """
+        shape = arrow_triangles((Arrow(ORIGIN, (1.0, 0.0, 0.0), shaft, head),))
+        one = (1.0, 1.0, 1.0)
+        self.show(
+            shape, wxyzs, positions, one, color, alpha, wxyz=wxyz, position=position
+        )
+
+
+class AxesNode(BatchNode):
+    """Axes of one size: x red, y green, z blue."""
+
+    def draw(
+        self,
+        wxyzs: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        length: float,
+        diameter: float,
+        *,
+        colors: Sequence[Rgb] = AXIS_COLORS,
+        alpha: float = 1.0,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw them.
+
+        Args:
+            wxyzs: (N, 4), their rotations.
+            positions: (N, 3), their origins [m].
+            length: of each axis [m].
+            diameter: of each axis, which RViz calls its radius [m].
+            colors: of the three.
+            alpha: 0 to 1.
+            wxyz: rotation of all in the frame of the node above.
+            position: there [m].
+        """
+        turns: Numbers = np.reshape(np.asarray(wxyzs, np.float64), (-1, 4))
+        at: Numbers = np.reshape(np.asarray(positions, np.float64), (-1, 3))
+        axes = np.eye(3) * (length / 2)
+        middles = [at + rotated(turns, axis) for axis in axes]
+        parts = [products(turns, np.array(turn)) for turn in AXIS_WXYZ]
+        self.show(
+            cylinder(),
+            np.concatenate(parts),
+            np.concatenate(middles),
+            (diameter, diameter, length),
+            np.repeat(np.array(colors), len(turns), axis=0),
+            alpha,
+            wxyz=wxyz,
+            position=position,
+        )
+
+
+def products(wxyzs: Numbers, wxyz: Numbers) -> Numbers:
+    """Return each of some quaternions (N, 4) times one (4,), normalised."""
+    a = _unit(wxyzs)
+    w, x, y, z = a[:, 0], a[:, 1], a[:, 2], a[:, 3]
+    b, c, d, e = wxyz
+    return np.stack(
+        [
+            w * b - x * c - y * d - z * e,
+            w * c + x * b + y * e - z * d,
+            w * d - x * e + y * b + z * c,
+            w * e + x * d - y * c + z * b,
+        ],
+        axis=1,
+    )
+
+
+def rotated(wxyzs: Numbers, vector: Numbers) -> Numbers:
+    """Return a vector (3,) turned by each of some quaternions (N, 4)."""
+    unit = _unit(wxyzs)
+    axis = unit[:, 1:]
+    twice = 2 * np.cross(axis, vector)
+    return vector + unit[:, :1] * twice + np.cross(axis, twice)
+
+
+def _unit(wxyzs: Numbers) -> Numbers:
+    norms = np.linalg.norm(wxyzs, axis=1, keepdims=True)
+    return wxyzs / np.where(norms > 0, norms, np.nan)
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A unit shape with a pose, a size and a colour.
+
+    Attributes:
+        kind: box, sphere, or cylinder and cone along z; edges, heights and diameters
+            are 1.
+        wxyz: its rotation.
+        position: of its middle [m].
+        scale: along its own axes [m].
+        color: 0 to 255.
+        alpha: 0 to 1.
+    """
+
+    kind: Kind
+    wxyz: Wxyz
+    position: Vector3
+    scale: Vector3
+    color: Rgb
+    alpha: float = 1.0
+
+
+class SolidsNode:
+    """Any unit shapes, in one batch for each kind.
+
+    Args:
+        scene: where to draw.
+        name: what the names of the nodes begin with.
+    """
+
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        self._batches = {kind: BatchNode(scene, name + kind[:2]) for kind in _SHAPES}
+
+    @property
+    def is_gone(self) -> bool:
+        """Return whether a node was removed together with one above it."""
+        return any(batch.is_gone for batch in self._batches.values())
+
+    def draw(
+        self,
+        solids: Sequence[Solid],
+        *,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw the shapes, and nothing else.
+
+        Args:
+            solids: in one frame.
+            wxyz: rotation of that frame in the one of the node above.
+            position: there [m].
+        """
+        for kind, batch in self._batches.items():
+            some = [solid for solid in solids if solid.kind == kind]
+            if not some:
+                batch.remove()
+                continue
+            batch.show(
+                _SHAPES[kind](),
+                [solid.wxyz for solid in some],
+                [solid.position for solid in some],
+                [solid.scale for solid in some],
+                [solid.color for solid in some],
+                [solid.alpha for solid in some],
+                wxyz=wxyz,
+                position=position,
+            )
+
+    def remove(self) -> None:
+        """Take the shapes out of the scene."""
+        for batch in self._batches.values():
+            batch.remove()
