@@ -6,6 +6,11 @@ Those of RViz that it does not show draw what a running robot sends.
 from __future__ import annotations
 
 from sambot_viz.displays.axes import AxesDisplay
+from sambot_viz.displays.data.cloud.laser_scan import LaserScanDisplay
+from sambot_viz.displays.data.cloud.point_clouds import (
+    PointCloud2Display,
+    PointCloudDisplay,
+)
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
@@ -41,14 +46,11 @@ NOT_SHOWN: dict[str, str] = {
         "Illuminance": "Brightnesses as coloured points.",
         "Image": "The picture of a camera in a window.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
-        "LaserScan": "The points that a laser scanner measures.",
         "Map": "An occupancy grid, such as a map or a costmap.",
         "Marker": "Shapes and texts that a program draws.",
         "MarkerArray": "Many shapes and texts that a program draws.",
         "Odometry": "Current and past robot poses, as arrows or axes.",
         "Path": "The path that a robot is to follow.",
-        "PointCloud": "Points, in the older kind of message.",
-        "PointCloud2": "Points, such as those of a 3D scanner.",
         "PointStamped": "A single point.",
         "Polygon": "The outline of a polygon, such as a footprint.",
         "Pose": "A pose as an arrow or as axes.",
@@ -70,6 +72,9 @@ DISPLAYS: dict[str, type[Display]] = {
         AxesDisplay,
         GridDisplay,
         GroupDisplay,
+        LaserScanDisplay,
+        PointCloud2Display,
+        PointCloudDisplay,
         RobotModelDisplay,
         TfDisplay,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -23,6 +23,16 @@ class TopicDoubt:
     level: Literal["Warn", "Error"]
     sentence: str
     instead: str = ""
+
+
+def topics_of_types(types: Mapping[str, str], wanted: Collection[str]) -> Sequence[str]:
+    """Return the topics whose messages have one of some types, sorted.
+
+    Args:
+        types: topic → type.
+        wanted: types.
+    """
+    return sorted(topic for topic, one in types.items() if one in wanted)
 
 
 class TopicMessages(Protocol):
@@ -54,8 +64,12 @@ class TopicMessages(Protocol):
         """Return the time of the messages [ns]."""
         ...
 
-    def names(self, types: Collection[str]) -> Sequence[str]:
-        """Return the topics whose messages have one of some types, sorted."""
+    def types(self) -> Mapping[str, str]:
+        """Return the types of the messages of all topics, by their names."""
+        ...
+
+    def offered(self, topic: str) -> WantedQos | None:
+        """Return the quality of service that suits a topic; None if not known."""
         ...
 
     def doubt(

@@ -82,7 +82,9 @@ class Window:
             PeoplePanel(session.roles, is_copy),
             self._displays,
             ProblemsPanel(session.problems, remake, self._folders),
-            DisplayCommands(session.display_edits, self._displays, remake),
+            DisplayCommands(
+                session.display_edits, self._displays, session.scene, remake
+            ),
         ]
         data = session.data
         if data is not None and data.player is not None:

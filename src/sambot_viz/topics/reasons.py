@@ -44,6 +44,9 @@ DISPLAYS: Mapping[str, str] = {
     **dict.fromkeys(DESCRIPTION_TYPES, "rviz_default_plugins/RobotModel"),
     **dict.fromkeys(JOINT_STATE_TYPES, "rviz_default_plugins/RobotModel"),
     **dict.fromkeys(TRANSFORM_TYPES, "rviz_default_plugins/TF"),
+    "sensor_msgs/msg/LaserScan": "rviz_default_plugins/LaserScan",
+    "sensor_msgs/msg/PointCloud": "rviz_default_plugins/PointCloud",
+    "sensor_msgs/msg/PointCloud2": "rviz_default_plugins/PointCloud2",
 }
 """Type of messages → the class of the display that draws them.
 

@@ -194,7 +194,7 @@ def test_task_37_open_a_config_of_a_navigation_robot(desk: Desk) -> None:
     for name in ("LaserScan 4", "Map 6", "PoseArray 12"):
         desk.user.row("Displays", name)
     desk.user.unfold("Displays", "LaserScan 4")
-    desk.user.reads("draws sensor data")
+    desk.user.reads("open a recording or a live robot")
     desk.user.until(lambda: corner(desk) == (238, 238, 236), AT_ONCE)
     desk.user.until(lambda: drawn(desk) > 0.01)
     desk.user.menu("File", re.compile("^Open"))

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import ClassVar
 
 from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.robot_display import Repair, WantedQos
-from sambot_viz.displays.topic_messages import TopicDoubt
+from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
 from sambot_viz.rviz import FILTER_SIZE, QOS_PROPERTIES, DisplayConfig, TopicProperty
 from sambot_viz.topics.subscription import Subscription
 
 TOPIC = "Topic"
 """The path of the property that names the topic, and the key of its status."""
+DESCRIPTION = "Description Topic"
+"""The same of a RobotModel."""
 NO_SOURCE = "No messages: open a recording or a live robot (--source)"
 MOST_WAITING = 100
 """So many messages wait between two pictures, of a display that draws each of them."""
@@ -29,6 +31,26 @@ def topic_property(name: str = TOPIC, *, is_filtered: bool = True) -> TopicPrope
     return TopicProperty(
         name, default="", help="The topic whose messages are drawn.", children=children
     )
+
+
+def topic_values(
+    declared: Collection[str], topic: str, qos: WantedQos | None
+) -> dict[str, object]:
+    """Return the values of properties that make a display draw a topic.
+
+    Args:
+        declared: the paths of its properties.
+        topic: its name.
+        qos: that suits the topic; None keeps the defaults.
+    """
+    path = next((one for one in (TOPIC, DESCRIPTION) if one in declared), None)
+    if path is None:
+        return {}
+    values: dict[str, object] = {path: topic}
+    if qos is not None:
+        values[f"{path}/Reliability Policy"] = qos.reliability
+        values[f"{path}/Durability Policy"] = qos.durability
+    return values
 
 
 class TopicDisplay(Display):
@@ -133,21 +155,21 @@ class TopicDisplay(Display):
 
     def report_topic(self) -> None:
         """Set the status of the topic."""
-        if self.context.messages is None:
-            self.status.set(TOPIC, "Ok", NO_SOURCE)
-            return
         found = self._topic_status()
         self.status.set(TOPIC, found.level, found.text)
 
     def _topic_status(self) -> Status:
+        messages = self.context.messages
+        if messages is None:
+            return Status("Ok", "OK")
         if not self.topic:
             return Status("Error", "Error subscribing: Empty topic name")
         doubt = self._doubt()
         if doubt is not None:
             return Status(doubt.level, doubt.sentence)
-        subscription, messages = self.subscription, self.context.messages
+        subscription = self.subscription
         count = subscription.count[self.topic] if subscription is not None else 0
-        if not count or subscription is None or messages is None:
+        if not count or subscription is None:
             return Status("Ok", "OK")
         rate = subscription.rate(self.topic, messages.now_ns())
         return Status("Ok", f"{count} messages received at {rate:.1f} hz.")
@@ -161,10 +183,16 @@ class TopicDisplay(Display):
         qos = WantedQos(reliability, durability)
         return messages.doubt(self.topic, self.types, qos)
 
+    def notes(self) -> Mapping[str, str]:
+        """Return why nothing comes, where no messages come at all."""
+        return {TOPIC: NO_SOURCE} if self.context.messages is None else {}
+
     def options(self) -> Mapping[str, Sequence[str]]:
         """Return the topics that it could draw."""
         messages = self.context.messages
-        return {} if messages is None else {TOPIC: messages.names(self.types)}
+        if messages is None:
+            return {}
+        return {TOPIC: topics_of_types(messages.types(), self.types)}
 
     def repairs(self) -> Mapping[str, Repair]:
         """Return a button for the topic that was meant."""

@@ -23,7 +23,7 @@ from sambot_viz.viser_private import set_pose
 Array = npt.NDArray[Any]
 IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
-LINES, TRIANGLES = 1, 4
+POINTS, LINES, TRIANGLES = 0, 1, 4
 _UINT8, _UINT32, _FLOAT = 5121, 5125, 5126
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
@@ -153,7 +153,7 @@ def drawn_glb(
         attributes: glTF's name → (N, 1 to 4) float32 or uint8, 0 to 255 for 0 to 1;
             none for a file that only carries `extras`.
         extras: what else the page has to know.
-        mode: `LINES` or `TRIANGLES`.
+        mode: `POINTS`, `LINES` or `TRIANGLES`.
         indices: of the corners of the triangles, uint32.
         blended: whether alpha is looked at; then it writes no depth.
         image: a PNG file, the texture.

@@ -12,7 +12,7 @@ const PATIENCE = 10000;
 
 /**
  * Do what makes a display, and go there; other pages that show the robot do not.
- * @param {"add" | "duplicate"} what @param {any[]} args @param {boolean} open whether it is
+ * @param {"add" | "add-topic" | "duplicate"} what @param {any[]} args @param {boolean} open whether it is
  *   unfolded
  */
 export function makeDisplay(what, args, open) {

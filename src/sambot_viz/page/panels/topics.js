@@ -24,7 +24,7 @@ export function TopicsPanel() {
   useEffect(() => {
     act("topics/choose", [name]);
   }, [name]);
-  const add = () => kind && makeDisplay("add", [kind, ""], true);
+  const add = () => kind && makeDisplay("add-topic", [kind, name], true);
   // The server searches: of thousands of topics the page has only those that are found.
   return html`<div class="topics">
     <div class="buttons">

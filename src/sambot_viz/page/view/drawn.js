@@ -5,6 +5,7 @@
  */
 
 import { dressMap, dressTile } from "./maps.js";
+import { dressPoints } from "./points.js";
 import { dressRibbon } from "./ribbons.js";
 import { rawColors } from "./raw_colors.js";
 
@@ -13,6 +14,7 @@ const KINDS = {
   lines: ({ material }) => rawColors(material, "lines"),
   map: dressMap,
   mapTile: dressTile,
+  points: dressPoints,
   ribbon: dressRibbon,
 };
 

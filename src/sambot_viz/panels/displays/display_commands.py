@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from sambot_viz.displays.data.topic_display import topic_values
 from sambot_viz.displays.registry import DISPLAYS, NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
@@ -13,6 +14,7 @@ from sambot_viz.panels.row import Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.declarations import row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
+from sambot_viz.session.scene.scene import Scene
 
 TYPES: list[Json] = [
     *({"kind": kind, "help": display.help} for kind, display in DISPLAYS.items()),
@@ -29,6 +31,7 @@ class DisplayCommands(Panel):
 
     Args:
         displays: the rows of the displays.
+        scene: has what is drawn.
         remake: called when a display was made.
     """
 
@@ -38,10 +41,12 @@ class DisplayCommands(Panel):
         self,
         display_edits: DisplayEdits,
         displays: DisplaysPanel,
+        scene: Scene,
         remake: Callable[[Panel], None],
     ) -> None:
         self._display_edits = display_edits
         self._displays = displays
+        self._scene = scene
         self._remake = remake
         self._made: Json = None
 
@@ -56,6 +61,16 @@ class DisplayCommands(Panel):
             raise UsageError(f"displays of type {row_text(kind)} cannot be added")
         made = self._display_edits.add_display(kind, name=name.strip() or None)
         self._note(made, mark)
+
+    @command("displays/add-topic", TEXT, TEXT, TEXT, name="Add")
+    def _add_by_topic(self, kind: str, topic: str, mark: str) -> None:
+        """Add a display at the end that draws a topic."""
+        messages = self._scene.context.messages
+        if kind not in DISPLAYS or messages is None:
+            raise UsageError(f"displays of type {row_text(kind)} cannot be added")
+        declared = [one.name for one in DISPLAYS[kind].properties]
+        values = topic_values(declared, topic, messages.offered(topic))
+        self._note(self._display_edits.add_display(kind, values=values), mark)
 
     @command("displays/duplicate", TEXT, TEXT, name="Duplicate")
     def _duplicate(self, row_id: str, mark: str) -> None:

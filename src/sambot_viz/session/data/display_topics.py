@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from functools import partial
+from collections.abc import Callable, Collection, Mapping
+from functools import cached_property, partial
 from typing import Any, Literal
 
 from sambot_viz.displays.robot_display import WantedQos
-from sambot_viz.displays.topic_messages import TopicDoubt
+from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
 from sambot_viz.errors import nearest
 from sambot_viz.session.data.descriptions import wanted_qos
 from sambot_viz.session.data.player import Player
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.qos import Qos
+from sambot_viz.sources.source import SourceTopic
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
 from sambot_viz.topics.decoding import Decoding
-from sambot_viz.topics.live_reasons import no_publisher, qos_mismatch
+from sambot_viz.topics.live_reasons import QOS_WORDS, no_publisher, qos_mismatch
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.subscription import Subscription
@@ -91,11 +93,19 @@ class RecordedDisplayTopics(DisplayTopics):
         """Return the log time of the player [ns]."""
         return self._player.time_ns
 
-    def names(self, types: Collection[str]) -> Sequence[str]:
-        """Return the topics whose messages have one of some types, sorted."""
-        recorded = self._recorded
-        topics = recorded.recording.topics.items()
-        return sorted(n for n, t in topics if recorded.decoder(t).type_name in types)
+    def types(self) -> Mapping[str, str]:
+        """Return the types of the messages of all topics, by their names."""
+        return self._types
+
+    @cached_property
+    def _types(self) -> Mapping[str, str]:
+        topics = self._recorded.recording.topics.items()
+        return {name: self._recorded.decoder(one).type_name for name, one in topics}
+
+    def offered(self, topic: str) -> WantedQos | None:
+        """Return the quality of service that suits a topic; None if not known."""
+        known = self._recorded.recording.topics.get(topic)
+        return None if known is None else _suiting(known.qos, known.is_latched)
 
     def doubt(
         self, topic: str, types: Collection[str], qos: WantedQos
@@ -105,7 +115,7 @@ class RecordedDisplayTopics(DisplayTopics):
         recorded = self._recorded
         known = recorded.recording.topics.get(topic)
         if known is None:
-            return not_there(topic, self.names(types), recorded.recording.topics)
+            return not_there(topic, types, self._types)
         decoder = recorded.decoder(known)
         if decoder.type_name not in types:
             return wrong_type(types, decoder.type_name)
@@ -140,10 +150,14 @@ class LiveDisplayTopics(DisplayTopics):
         """Return the time of the robot, which may be simulated [ns]."""
         return self._live.source.clock_ns()
 
-    def names(self, types: Collection[str]) -> Sequence[str]:
-        """Return the topics whose messages have one of some types, sorted."""
-        topics = self._live.source.topics()
-        return sorted(name for name in topics if self._type_of(name) in types)
+    def types(self) -> Mapping[str, str]:
+        """Return the types of the messages of all topics, by their names."""
+        return {name: self._type_of(one) for name, one in self._topics().items()}
+
+    def offered(self, topic: str) -> WantedQos | None:
+        """Return the quality of service that suits a topic; None if not known."""
+        known = self._live.source.topics().get(topic)
+        return None if known is None else _suiting(known.qos, known.is_latched)
 
     def doubt(
         self, topic: str, types: Collection[str], qos: WantedQos
@@ -154,19 +168,21 @@ class LiveDisplayTopics(DisplayTopics):
         if known is None:
             if not source.status.is_connected:
                 return TopicDoubt("Warn", source.status.sentence)
-            return not_there(topic, self.names(types), source.topics(), "Warn")
+            return not_there(topic, types, self.types(), "Warn")
         if known.reason is not None:
             return TopicDoubt("Error", capitalized(known.reason))
-        if (type_name := self._type_of(topic)) not in types:
+        if (type_name := self._type_of(known)) not in types:
             return wrong_type(types, type_name)
         why = no_publisher(topic, known.publishers)
         why = why or qos_mismatch(known.qos, wanted_qos(qos))
         return None if why is None else TopicDoubt("Warn", capitalized(why.text))
 
-    def _type_of(self, topic: str) -> str:
-        known = self._live.source.topics()[topic]
+    def _topics(self) -> Mapping[str, SourceTopic]:
+        return self._live.source.topics()
+
+    def _type_of(self, topic: SourceTopic) -> str:
         types = self._live.decoding.types
-        return types.decoder(known.schema, known.message_encoding).type_name
+        return types.decoder(topic.schema, topic.message_encoding).type_name
 
     def _begin(self, subscription: Subscription) -> None:
         receive = partial(self._receive, subscription)
@@ -185,20 +201,28 @@ class LiveDisplayTopics(DisplayTopics):
         self._wake()
 
 
+def _suiting(qos: Qos | None, is_latched: bool) -> WantedQos:
+    """Return what a display should ask for, as RViz does for a topic from its list."""
+    reliability = "Reliable" if qos is None else QOS_WORDS.get(qos.reliability, "")
+    durability = "Transient Local" if is_latched else "Volatile"
+    return WantedQos(reliability or "Reliable", durability)
+
+
 def not_there(
     topic: str,
-    fitting: Sequence[str],
-    known: Collection[str],
+    wanted: Collection[str],
+    known: Mapping[str, str],
     level: Literal["Warn", "Error"] = "Error",
 ) -> TopicDoubt:
     """Say that there is no such topic, and which one was meant.
 
     Args:
         topic: its name.
-        fitting: the topics that the display could draw.
-        known: all topics.
+        wanted: the types that the display draws.
+        known: all topics, with their types.
         level: of the status.
     """
+    fitting = topics_of_types(known, wanted)
     instead = nearest(topic, fitting) or (fitting[0] if len(fitting) == 1 else "")
     text = reasons.no_such_topic(topic, fitting or known).text
     return TopicDoubt(level, capitalized(text), instead)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -160,7 +160,11 @@ class DisplayEdits:
     # The tree of displays
 
     def add_display(
-        self, kind: str, after: DisplayConfig | None = None, name: str | None = None
+        self,
+        kind: str,
+        after: DisplayConfig | None = None,
+        name: str | None = None,
+        values: Mapping[str, object] | None = None,
     ) -> DisplayConfig:
         """Add a display with RViz's defaults, switched on.
 
@@ -168,6 +172,7 @@ class DisplayEdits:
             kind: ROS 2 class id.
             after: the display behind which it goes; the end of all when not given.
             name: its label; by default one after its class that no other display has.
+            values: of properties that are not to have their defaults, by path.
 
         Raises:
             UsageError: `after` is not in the document, or there are too many.
@@ -181,6 +186,8 @@ class DisplayEdits:
             config = self._document.config.add_display(
                 kind, label, group=group, after=after
             )
+            for path, value in (values or {}).items():
+                config.set(path, value)
             self._added(f"Add {label}", config)
         return config
 

@@ -1,0 +1,1 @@
+"""Displays that draw points, and how points get their colours."""

@@ -1,0 +1,103 @@
+"""Points with their fields, out of the messages that bring them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.data.message_filter import MessageRefused
+
+Points = npt.NDArray[np.float32]
+Values = npt.NDArray[Any]
+
+_TYPES = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
+"""The datatype of a sensor_msgs/PointField → that of its values."""
+_FLOAT32 = 7
+
+
+@dataclass(frozen=True, slots=True)
+class Cloud:
+    """Points, each with a value of every field; none is infinite or NaN.
+
+    Attributes:
+        points: (N, 3) float32 [m], in the frame of the message.
+        fields: name → (N,) values, x, y and z left out.
+    """
+
+    points: Points
+    fields: Mapping[str, Values] = field(default_factory=dict[str, Values])
+
+
+def finite_cloud(points: Points, fields: Mapping[str, Values]) -> Cloud:
+    """Return a cloud without the points that are nowhere.
+
+    Args:
+        points: (N, 3) float32 [m].
+        fields: name → (N,) values.
+    """
+    kept = np.isfinite(points).all(axis=1)
+    if kept.all():
+        return Cloud(points, fields)
+    return Cloud(points[kept], {name: v[kept] for name, v in fields.items()})
+
+
+def cloud_of_cloud2(message: Any) -> Cloud:
+    """Return the points of a sensor_msgs/PointCloud2, as RViz reads them.
+
+    The length of a row and the byte order are not looked at.
+
+    Raises:
+        MessageRefused: its data has another size than it says, or x, y and z are no
+            32-bit floats.
+    """
+    step, count = int(message.point_step), int(message.width) * int(message.height)
+    data = np.frombuffer(message.data, np.uint8)
+    if len(data) != count * step:
+        raise MessageRefused(
+            f"Data size ({len(data)} bytes) does not match width ({message.width}) "
+            f"times height ({message.height}) times point_step ({step}).  Dropping "
+            "message."
+        )
+    rows: npt.NDArray[np.uint8] = np.reshape(data, (count, step))
+    found: dict[str, tuple[int, Values]] = {}
+    for one in message.fields:
+        kind, offset = _TYPES.get(int(one.datatype)), int(one.offset)
+        if kind is not None and 0 <= offset <= step - np.dtype(kind).itemsize:
+            values = _column(rows, offset, kind)
+            found[str(one.name)] = (int(one.datatype), values)
+    place = [found.pop(axis, None) for axis in "xyz"]
+    if any(axis is None or axis[0] != _FLOAT32 for axis in place):
+        raise MessageRefused("No position transformer available for cloud")
+    points = np.stack([axis[1] for axis in place if axis is not None], axis=1)
+    fields = {name: values for name, (_, values) in found.items()}
+    return finite_cloud(points.astype(np.float32, copy=False), fields)
+
+
+def _column(rows: npt.NDArray[np.uint8], offset: int, kind: str) -> Values:
+    size = np.dtype(kind).itemsize
+    column = np.ascontiguousarray(rows[:, offset : offset + size])
+    return np.frombuffer(column.tobytes(), kind)
+
+
+def cloud_of_cloud(message: Any) -> Cloud:
+    """Return the points of a sensor_msgs/PointCloud, the older kind of message.
+
+    Raises:
+        MessageRefused: a channel has not a value for each point.
+    """
+    places = [(p.x, p.y, p.z) for p in message.points]
+    points = np.array(places, np.float32) if places else np.zeros((0, 3), np.float32)
+    fields: dict[str, Values] = {}
+    for channel in message.channels:
+        values = np.asarray(channel.values, np.float32)
+        if len(values) != len(points):
+            raise MessageRefused(
+                f"Channel {channel.name} has {len(values)} values for {len(points)} "
+                "points"
+            )
+        fields[str(channel.name)] = values
+    return finite_cloud(points, fields)

@@ -1,0 +1,204 @@
+"""Base of the displays that draw points: LaserScan, PointCloud2 and others."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from sambot_viz.displays.data.cloud.cloud import Cloud
+from sambot_viz.displays.data.cloud.colors import (
+    colors_of,
+    intensities_of,
+    transformer_of,
+    transformers_of,
+)
+from sambot_viz.displays.data.cloud.properties import (
+    CHANNEL,
+    CLOUD_PROPERTIES,
+    TRANSFORMER,
+    color_options,
+)
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.nodes import position_of, short_id
+from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Matrix, wxyz_from_matrix
+from sambot_viz.rviz import DisplayConfig, Property
+from sambot_viz.sources.message import Recorded
+
+_NS = 1_000_000_000
+_LOOKS = ("Style", "Size (m)", "Size (Pixels)", "Alpha")
+"""Properties that do not change the colours of points."""
+POINTS = "Points"
+_SHAPES: dict[str, PointShape] = {
+    "Points": "Points",
+    "Squares": "Squares",
+    "Flat Squares": "Flat Squares",
+    "Spheres": "Spheres",
+    "Boxes": "Boxes",
+    "Tiles": "Tiles",
+}
+
+
+@dataclass(slots=True)
+class _Shown:
+    """The points of one message.
+
+    Attributes:
+        cloud: the points.
+        T_fixed_cloud: (4, 4), where they are drawn.
+        came_ns: when they came [ns].
+        node: draws them.
+        colors: of each point, as they are drawn.
+    """
+
+    cloud: Cloud
+    T_fixed_cloud: Matrix
+    came_ns: int
+    node: PointNode
+    colors: Any = None
+
+
+class CloudDisplay(MessageFilterDisplay):
+    """Draws the points of messages, of the newest one or of some seconds."""
+
+    properties: ClassVar[tuple[Property, ...]] = (topic_property(), *CLOUD_PROPERTIES)
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._clouds: list[_Shown] = []
+        self._made = 0
+
+    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
+        """Return the points of a message, and the pose they are drawn at.
+
+        Args:
+            message: with its fields.
+            T_fixed_frame: the pose of its frame in the fixed frame.
+
+        Raises:
+            MessageRefused: its points cannot be drawn.
+        """
+        raise NotImplementedError
+
+    @property
+    def needs_last_only(self) -> bool:
+        """Whether points do not stay for some time."""
+        return self._decay_s == 0.0
+
+    @property
+    def depth_s(self) -> float:
+        """How far back points count after a jump in a recording [s]."""
+        return max(1.0, self._decay_s)
+
+    @property
+    def _decay_s(self) -> float:
+        return float(self.config.get("Decay Time"))
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Draw the points of a message."""
+        cloud, T_fixed_cloud = self.cloud_of(message, T_fixed_frame)
+        last_only = self.needs_last_only
+        if last_only and self._clouds:
+            # The same node gets other points.
+            node = self._clouds.pop().node
+            self._remove_clouds()
+        else:
+            self._made += 1
+            name = f"/{self.key}p{short_id(self._made)}"
+            node = PointNode(self.context.scene, name)
+        shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node)
+        self._clouds.append(shown)
+        self._color(shown)
+        self._draw_cloud(shown)
+        self._let_decay()
+
+    def drop(self) -> None:
+        """Take all points out of the scene."""
+        self._remove_clouds()
+        self.status.remove(POINTS)
+
+    def redraw(self) -> None:
+        """Draw what is shown, if anything of it has changed."""
+        super().redraw()
+        for shown in self._clouds:
+            self._draw_cloud(shown)
+
+    def property_changed(self, path: str) -> None:
+        """Colour the points again, where that is what has changed."""
+        if self.shown and path not in _LOOKS:
+            for shown in self._clouds:
+                self._color(shown)
+        super().property_changed(path)
+
+    def time_passed(self) -> None:
+        """Let points vanish after their time."""
+        super().time_passed()
+        if self.shown:
+            self._let_decay()
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return the topics, and what the points have fields for."""
+        options = dict(super().options())
+        if self._clouds:
+            cloud = self._clouds[-1].cloud
+            options[TRANSFORMER] = transformers_of(cloud)
+            options[CHANNEL] = sorted((*"xyz", *cloud.fields))
+        return options
+
+    def notes(self) -> Mapping[str, str]:
+        """Return how the points are coloured, where that is not what was set."""
+        if not self._clouds:
+            return super().notes()
+        wanted = str(self.config.get(TRANSFORMER))
+        cloud = self._clouds[-1].cloud
+        chosen = transformer_of(cloud, wanted)
+        if chosen != wanted:
+            return {TRANSFORMER: f"{chosen}, by the fields of the points"}
+        channel = str(self.config.get(CHANNEL))
+        if chosen == "Intensity" and intensities_of(cloud, channel) is None:
+            known = ", ".join(sorted((*"xyz", *cloud.fields)))
+            return {CHANNEL: f"The points have no {channel}, so all are white: {known}"}
+        return {}
+
+    def _color(self, shown: _Shown) -> None:
+        options = color_options(self.config)
+        shown.colors = colors_of(shown.cloud, options, shown.T_fixed_cloud)
+
+    def _style(self) -> PointStyle:
+        get = self.config.get
+        style = str(get("Style"))
+        shape = _SHAPES.get(style, "Points")
+        edge = float(get("Size (Pixels)" if shape == "Points" else "Size (m)"))
+        return PointStyle(shape, (edge, edge, edge), float(get("Alpha")))
+
+    def _draw_cloud(self, shown: _Shown) -> None:
+        T = shown.T_fixed_cloud
+        place = wxyz_from_matrix(T), position_of(T)
+        shown.node.draw(shown.cloud.points, shown.colors, self._style(), *place)
+
+    def _let_decay(self) -> None:
+        messages, decay = self.context.messages, self._decay_s
+        if messages is not None and decay > 0.0:
+            oldest = messages.now_ns() - round(decay * _NS)
+            while self._clouds and self._clouds[0].came_ns < oldest:
+                self._clouds.pop(0).node.remove()
+        count = sum(len(shown.cloud.points) for shown in self._clouds)
+        text = f"Showing [{count}] points from [{len(self._clouds)}] messages"
+        self.status.set(POINTS, "Ok", text)
+
+    def _remove_clouds(self) -> None:
+        for shown in self._clouds:
+            shown.node.remove()
+        self._clouds.clear()
+
+
+def identity() -> Matrix:
+    """Return the pose of points that are in the fixed frame already, (4, 4)."""
+    return np.eye(4)

@@ -1,0 +1,34 @@
+"""PointCloud2 and PointCloud: points of depth cameras, lidars and stereo vision."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sambot_viz.displays.data.cloud.cloud import Cloud, cloud_of_cloud, cloud_of_cloud2
+from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Matrix
+
+
+class PointCloud2Display(CloudDisplay):
+    """The points of sensor_msgs/PointCloud2."""
+
+    kind = "rviz_default_plugins/PointCloud2"
+    help = "Points, such as those of a 3D scanner."
+    types = frozenset({"sensor_msgs/msg/PointCloud2"})
+
+    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
+        """Return the points of a message, and the pose of its frame."""
+        return cloud_of_cloud2(message), T_fixed_frame.matrix
+
+
+class PointCloudDisplay(CloudDisplay):
+    """The points of sensor_msgs/PointCloud."""
+
+    kind = "rviz_default_plugins/PointCloud"
+    help = "Points, in the older kind of message."
+    types = frozenset({"sensor_msgs/msg/PointCloud"})
+
+    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
+        """Return the points of a message, and the pose of its frame."""
+        return cloud_of_cloud(message), T_fixed_frame.matrix

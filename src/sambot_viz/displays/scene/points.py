@@ -1,0 +1,110 @@
+"""Points in the six styles of RViz, all of one cloud in one node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.scene.glb_node import (
+    IDENTITY,
+    ORIGIN,
+    POINTS,
+    GlbNode,
+    drawn_glb,
+    single,
+)
+from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meshes.glb import OPAQUE_FROM
+
+PointShape = Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"]
+
+
+@dataclass(frozen=True, slots=True)
+class PointStyle:
+    """How points look.
+
+    Attributes:
+        shape: dots; squares with and without a rim that face the camera; shaded discs;
+            boxes along the axes of the cloud; tiles in a fixed plane.
+        size: along x, y and z [m]; of Points the diameter [pixels], first.
+        alpha: of the whole cloud, 0 to 1; multiplies the alpha of points.
+        normal: of Tiles, in the frame of the cloud.
+        up: of Tiles: the direction of their y.
+        is_twice: RViz draws some clouds twice, so that they are less transparent.
+    """
+
+    shape: PointShape
+    size: Vector3
+    alpha: float = 1.0
+    normal: Vector3 = (0.0, 0.0, -1.0)
+    up: Vector3 = (0.0, 1.0, 0.0)
+    is_twice: bool = False
+
+
+class PointNode(GlbNode):
+    """The points of one cloud, in one node."""
+
+    def draw(
+        self,
+        points: npt.ArrayLike,
+        colors: npt.NDArray[np.uint8],
+        style: PointStyle,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw points; without any the node is taken away.
+
+        Args:
+            points: (N, 3) [m]; those that are not finite are left out.
+            colors: (N, 3) or (N, 4) with alpha, or one row for all; 0 to 255.
+            style: how they look.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
+        at: npt.NDArray[np.float32] = np.reshape(single(points), (-1, 3))
+        finite = np.isfinite(at).all(axis=1)
+        if not finite.all():
+            at = at[finite]
+            colors = colors[finite] if len(colors) > 1 else colors
+        if not len(at):
+            self.remove()
+            return
+        self.show(
+            (at, colors, style), lambda: points_glb(at, colors, style), wxyz, position
+        )
+
+
+def points_glb(
+    points: npt.NDArray[np.float32], colors: npt.NDArray[np.uint8], style: PointStyle
+) -> bytes:
+    """Return a GLB file of points.
+
+    Args:
+        points: (N, 3) [m], finite, at least one.
+        colors: (N, 3), (N, 4), (1, 3) or (1, 4), 0 to 255.
+        style: how they look.
+    """
+    has_alpha = colors.shape[1] == 4
+    attributes: dict[str, npt.NDArray[np.float32] | npt.NDArray[np.uint8]] = {
+        "POSITION": points
+    }
+    extras: dict[str, object] = {
+        "shape": style.shape,
+        "size": list(style.size),
+        "alpha": style.alpha,
+        "twice": style.is_twice,
+        "normal": list(style.normal),
+        "up": list(style.up),
+    }
+    if len(colors) == 1 and len(points) > 1:
+        extras["color"] = [*colors[0].tolist(), 255][:4]
+    else:
+        # Rows of three bytes would not be aligned.
+        rows = np.full((len(points), 4), 255, np.uint8)
+        rows[:, : colors.shape[1]] = colors
+        attributes["COLOR_0"] = rows
+    blended = style.alpha < OPAQUE_FROM or has_alpha
+    return drawn_glb("points", attributes, extras=extras, mode=POINTS, blended=blended)

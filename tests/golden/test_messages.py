@@ -1,0 +1,121 @@
+"""Displays of messages beside the pictures of the real RViz (recorded by the project).
+
+Two measures for every case:
+
+- probes: of the pixels whose colour a formula of RViz says, those that are in a flat
+  place of its picture, the part that has that colour within 8 of 255 in ours;
+- outline: of the pixels that differ from the background in one picture, the part that
+  has such a pixel of the other within one pixel.
+
+``SAMBOT_VIZ_ALL_GOLDEN=1`` adds the other recordings of the collection that this
+program draws.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from sambot_viz import Visualizer
+
+if TYPE_CHECKING:
+    from sambot_viz.export.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+DATA = Path(__file__).parent / "messages"
+DIFFERENT = 12
+"""A channel this far from the background belongs to something that is drawn."""
+SAME = 8
+BACKGROUND = 48
+
+Image = npt.NDArray[np.int16]
+Mask = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The least a case may reach, and why it is not 1."""
+
+    probes: float = 1.0
+    outline: float = 0.99
+    reason: str = ""
+
+
+CASES = {folder.name: Limits() for folder in sorted(DATA.iterdir())}
+
+
+def picture(path: Path) -> Image:
+    from PIL import Image as Pillow
+
+    opened: Pillow.Image = Pillow.open(path)
+    with opened:
+        return np.asarray(opened.convert("RGB"), np.int16)
+
+
+def drawn_by_us(chromium: Chromium, folder: Path, golden: Image) -> Image:
+    """The messages of a case at their end, through the view of its config."""
+    from sambot_viz.export.view_picture import snapshot
+
+    height, width = golden.shape[:2]
+    source = f"bag:{folder / 'messages.mcap'}"
+    config = folder / "config.rviz"
+    with Visualizer(source=source, config=config, port=0, panels=False) as viz:
+        viz.player.pause()
+        viz.player.jump(viz.player.duration)
+        view = viz.server.sessions.all()[0].document_view.camera
+        return snapshot(viz.server, chromium, width, height, view).astype(np.int16)
+
+
+def shown(image: Image) -> Mask:
+    return np.asarray(np.abs(image - BACKGROUND).max(axis=-1) > DIFFERENT)
+
+
+def dilated(mask: Mask) -> Mask:
+    """All pixels with a pixel of the mask within one pixel."""
+    out: Mask = np.array(mask)
+    padded = np.pad(mask, 1)
+    height, width = mask.shape
+    for y in range(3):
+        for x in range(3):
+            out |= padded[y : y + height, x : x + width]
+    return out
+
+
+def probes(folder: Path) -> list[dict[str, Any]]:
+    path = folder / "values.json"
+    if not path.exists():
+        return []
+    return [p for p in json.loads(path.read_text())["probes"] if p["flat_3x3"]]
+
+
+def outline(ours: Image, golden: Image, counts: Mask) -> float:
+    a, b = shown(ours) & counts, shown(golden) & counts
+    near = (a & dilated(b)).sum() + (b & dilated(a)).sum()
+    return float(near / max(1, a.sum() + b.sum()))
+
+
+@pytest.mark.parametrize("name", list(CASES))
+def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
+    folder, limits = DATA / name, CASES[name]
+    golden = picture(folder / "render.png")
+    ours = drawn_by_us(chromium, folder, golden)
+    doubtful = folder / "ambiguous_mask.png"
+    counts = np.ones(golden.shape[:2], bool)
+    if doubtful.exists():
+        # Where RViz's own order is undefined, either picture is right.
+        counts = picture(doubtful)[..., 0] == 0
+    assert outline(ours, golden, counts) >= limits.outline, limits.reason
+    wrong = [
+        (probe["name"], ours[y, x].tolist(), probe["render_rgb"])
+        for probe in probes(folder)
+        for x, y in [probe["xy"]]
+        if np.abs(ours[y, x] - np.array(probe["render_rgb"])).max() > SAME
+    ]
+    assert len(wrong) <= (1 - limits.probes) * len(probes(folder)), wrong
