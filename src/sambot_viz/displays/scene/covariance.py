@@ -104,7 +104,7 @@ def covariance_solids(
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
+class _PosedSolid:
     """A unit shape at the pose: its rotation (3, 3), middle and sizes, (3,) [m]."""
 
     kind: Kind
@@ -114,7 +114,7 @@ class _Part:
 
 
 def _placed(
-    parts: Sequence[_Part | None],
+    parts: Sequence[_PosedSolid | None],
     colors: Sequence[Rgb],
     alpha: float,
     wxyz: Wxyz,
@@ -156,7 +156,7 @@ def _spread(block: Matrix) -> tuple[npt.NDArray[np.float64], Matrix] | None:
     return np.sqrt(values.clip(0)), vectors
 
 
-def _ellipsoid(block: Matrix, scale: float, is_flat: bool) -> _Part | None:
+def _ellipsoid(block: Matrix, scale: float, is_flat: bool) -> _PosedSolid | None:
     size = 2 if is_flat else 3
     found = _spread(block[:size, :size])
     if found is None:
@@ -167,7 +167,7 @@ def _ellipsoid(block: Matrix, scale: float, is_flat: bool) -> _Part | None:
         R[:, 0] = -R[:, 0]
     wide = [max(THIN, float(2 * scale * deviation)) for deviation in found[0]]
     sizes = (wide[0], wide[1], THIN if is_flat else wide[2])
-    return _Part("sphere", R, np.zeros(3), sizes)
+    return _PosedSolid("sphere", R, np.zeros(3), sizes)
 
 
 def _half_width(deviation: float, offset: float, scale: float) -> float:
@@ -175,15 +175,15 @@ def _half_width(deviation: float, offset: float, scale: float) -> float:
     return offset * math.tan(min(deviation * scale, _STEEPEST))
 
 
-def _wedge(variance: float, offset: float, scale: float) -> _Part | None:
+def _wedge(variance: float, offset: float, scale: float) -> _PosedSolid | None:
     if not 0 <= variance < math.inf:
         return None
     wide = 2 * _half_width(math.sqrt(variance), offset, scale)
     sizes = (max(THIN, wide), THIN, max(THIN, offset))
-    return _Part("cone", _WEDGE, CONE_TIP * offset * _X, sizes)
+    return _PosedSolid("cone", _WEDGE, CONE_TIP * offset * _X, sizes)
 
 
-def _discs(sigma: Matrix, offset: float, scale: float) -> list[_Part | None]:
+def _discs(sigma: Matrix, offset: float, scale: float) -> list[_PosedSolid | None]:
     return [
         _disc(sigma[3:, 3:][np.ix_(angles, angles)], axes, offset, scale)
         for angles, *axes in _DISCS
@@ -195,7 +195,7 @@ def _disc(
     axes: Sequence[npt.NDArray[np.float64]],
     offset: float,
     scale: float,
-) -> _Part | None:
+) -> _PosedSolid | None:
     found = _spread(block)
     if found is None:
         return None
@@ -205,4 +205,4 @@ def _disc(
     across = cast("Matrix", np.cross(along[:, 0], along[:, 1]))
     R: Matrix = np.transpose(np.array([along[:, 0], along[:, 1], across], np.float64))
     wide = [max(THIN, 2 * _half_width(float(d), offset, scale)) for d in deviations]
-    return _Part("cylinder", R, offset * normal, (wide[0], wide[1], THIN))
+    return _PosedSolid("cylinder", R, offset * normal, (wide[0], wide[1], THIN))
