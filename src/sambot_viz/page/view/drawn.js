@@ -8,6 +8,7 @@ import { dressMap, dressTile } from "./maps.js";
 import { dressPoints } from "./points.js";
 import { dressRibbon } from "./ribbons.js";
 import { rawColors } from "./raw_colors.js";
+import { dressText } from "./texts.js";
 
 /** @type {Record<string, (object: any) => void>} */
 const KINDS = {
@@ -16,6 +17,7 @@ const KINDS = {
   mapTile: dressTile,
   points: dressPoints,
   ribbon: dressRibbon,
+  text: dressText,
 };
 
 /** Make a picture of an object, if it is one of ours. @param {any} object */
