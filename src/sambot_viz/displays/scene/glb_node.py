@@ -7,6 +7,7 @@ the file's vertices.
 
 from __future__ import annotations
 
+import base64
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
@@ -25,6 +26,11 @@ IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 POINTS, LINES, TRIANGLES = 0, 1, 4
 _UINT8, _UINT32, _FLOAT = 5121, 5125, 5126
+ONE_PIXEL = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mNg"
+    "AAAAAgAB5Sfe/AAAAABJRU5ErkJggg=="
+)
+"""A PNG file: with it a part has a texture, whose picture the page makes."""
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 

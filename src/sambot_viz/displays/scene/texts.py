@@ -6,8 +6,13 @@ import math
 
 import numpy as np
 
-from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN, GlbNode, drawn_glb
-from sambot_viz.displays.scene.maps import grey_png
+from sambot_viz.displays.scene.glb_node import (
+    IDENTITY,
+    ONE_PIXEL,
+    ORIGIN,
+    GlbNode,
+    drawn_glb,
+)
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Vector3
 from sambot_viz.text import text as printable
@@ -67,5 +72,5 @@ def _glb(said: dict[str, object]) -> bytes:
         extras=said,
         indices=np.array([0, 2, 1, 1, 2, 3], np.uint32),
         blended=True,
-        image=grey_png(np.zeros((1, 1), np.uint8)),
+        image=ONE_PIXEL,
     )

@@ -11,6 +11,7 @@ const BEHIND = -1000;
 const OPAQUE_FROM = 0.9998;
 /** Of three.js. */
 const [NORMAL_BLENDING, CUSTOM_BLENDING] = [1, 5];
+const [NEAREST, ONE_CHANNEL] = [1003, 1028];
 
 const LOOK_UP = `
 float sCell = floor(texture2D(map, vMapUv).r * 255.0 + 0.5);
@@ -27,8 +28,14 @@ diffuseColor.a *= uAlpha;
 /** @type {Map<string, Map2D>} */
 const maps = new Map();
 
+/** The class of textures of three.js. @type {any} */
+let Texture = null;
+
 /** Read what a map looks like. @param {any} object */
-export function dressMap({ userData }) {
+export function dressMap(object) {
+  const { material, userData } = object;
+  object.visible = false;
+  Texture = Texture || material.map?.constructor;
   const known = maps.get(userData.map);
   if (known?.said === userData) return;
   const map = known || { palette: { value: null }, alpha: { value: 1 } };
@@ -37,30 +44,61 @@ export function dressMap({ userData }) {
   maps.set(userData.map, Object.assign(map, { bytes, said: userData, behind: userData.behind }));
 }
 
-/** @param {Map2D} map @param {any} like a texture of three.js */
-function makePalette(map, like) {
+/** @param {any} image @returns {any} */
+function pixels(image) {
+  const texture = new Texture(image);
+  texture.magFilter = texture.minFilter = NEAREST;
+  texture.generateMipmaps = texture.flipY = false;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** @param {Map2D} map */
+function makePalette(map) {
   if (!map.bytes) return;
   map.palette.value?.dispose();
-  const texture = new like.constructor(new ImageData(/** @type {any} */ (map.bytes), 256, 1));
-  texture.magFilter = texture.minFilter = like.magFilter;
-  texture.generateMipmaps = false;
-  texture.needsUpdate = true;
-  map.palette.value = texture;
+  map.palette.value = pixels(new ImageData(/** @type {any} */ (map.bytes), 256, 1));
   map.bytes = null;
+}
+
+/**
+ * Unpack the cells of a square.
+ * @param {Uint8Array} packed the cells, or runs of them: a value, and how often it is there less one
+ * @param {number} count of the cells
+ */
+export function unpack(packed, count) {
+  if (packed.length === count) return packed;
+  const cells = new Uint8Array(count);
+  let at = 0;
+  for (let i = 0; i < packed.length; i += 2) {
+    cells.fill(packed[i], at, at + packed[i + 1] + 1);
+    at += packed[i + 1] + 1;
+  }
+  return cells;
+}
+
+/** Make the texture of a square. @param {any} object */
+function makeCells({ geometry, material, userData }) {
+  const { rows: height, columns: width } = userData;
+  const data = unpack(geometry.attributes._cells.array, width * height);
+  // The graphics card has no use for it.
+  geometry.deleteAttribute("_cells");
+  const texture = pixels({ data, width, height });
+  texture.isDataTexture = true;
+  texture.format = ONE_CHANNEL;
+  texture.unpackAlignment = 1;
+  material.map = texture;
 }
 
 /** Draw a square of a map as its map looks now. @param {any} object */
 export function dressTile(object) {
   const { material, userData } = object;
   const map = maps.get(userData.map);
-  object.visible = Boolean(map && material.map);
-  if (!map || !material.map) return;
-  if (material.map.colorSpace) {
-    // Its numbers are values of cells, not colours.
-    material.map.colorSpace = "";
-    material.map.generateMipmaps = false;
-  }
-  makePalette(map, material.map);
+  object.visible = Boolean(map && Texture);
+  // Of a map that is not known yet, nothing must reach the graphics card.
+  if (!map || !Texture) return;
+  if (object.geometry.attributes._cells) makeCells(object);
+  makePalette(map);
   rawColors(material, "map", (shader) => {
     shader.uniforms.uPalette = map.palette;
     shader.uniforms.uAlpha = map.alpha;
