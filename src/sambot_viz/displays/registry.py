@@ -11,6 +11,14 @@ from sambot_viz.displays.data.cloud.point_clouds import (
     PointCloud2Display,
     PointCloudDisplay,
 )
+from sambot_viz.displays.data.map import MapDisplay
+from sambot_viz.displays.data.path import PathDisplay
+from sambot_viz.displays.data.point_stamped import PointStampedDisplay
+from sambot_viz.displays.data.polygon import PolygonDisplay
+from sambot_viz.displays.data.poses.odometry import OdometryDisplay
+from sambot_viz.displays.data.poses.pose import PoseDisplay, PoseWithCovarianceDisplay
+from sambot_viz.displays.data.poses.pose_array import PoseArrayDisplay
+from sambot_viz.displays.data.range import RangeDisplay
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
@@ -46,17 +54,8 @@ NOT_SHOWN: dict[str, str] = {
         "Illuminance": "Brightnesses as coloured points.",
         "Image": "The picture of a camera in a window.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
-        "Map": "An occupancy grid, such as a map or a costmap.",
         "Marker": "Shapes and texts that a program draws.",
         "MarkerArray": "Many shapes and texts that a program draws.",
-        "Odometry": "Current and past robot poses, as arrows or axes.",
-        "Path": "The path that a robot is to follow.",
-        "PointStamped": "A single point.",
-        "Polygon": "The outline of a polygon, such as a footprint.",
-        "Pose": "A pose as an arrow or as axes.",
-        "PoseArray": "Many poses, such as the particles of a localisation.",
-        "PoseWithCovariance": "A pose with its uncertainty.",
-        "Range": "What an ultrasonic or infrared sensor measures, as a cone.",
         "RelativeHumidity": "Humidities as coloured points.",
         "Temperature": "Temperatures as coloured points.",
         "TwistStamped": "A velocity as arrows.",
@@ -73,8 +72,17 @@ DISPLAYS: dict[str, type[Display]] = {
         GridDisplay,
         GroupDisplay,
         LaserScanDisplay,
+        MapDisplay,
+        OdometryDisplay,
+        PathDisplay,
         PointCloud2Display,
         PointCloudDisplay,
+        PointStampedDisplay,
+        PolygonDisplay,
+        PoseArrayDisplay,
+        PoseDisplay,
+        PoseWithCovarianceDisplay,
+        RangeDisplay,
         RobotModelDisplay,
         TfDisplay,
     )

@@ -45,6 +45,7 @@ class TopicMessages(Protocol):
         *,
         depth_s: float,
         size: int,
+        base: str = "",
     ) -> Subscription:
         """Ask for the messages of some topics (see `Subscription` for the arguments).
 

@@ -33,6 +33,7 @@ class JointStateTopics:
     """
 
     depth_ns = 1_000_000_000
+    base = ""
     always: Collection[str] = ()
 
     def __init__(

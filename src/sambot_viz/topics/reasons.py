@@ -40,13 +40,25 @@ SEVERITIES: Mapping[str, Severity] = {
 }
 """All reasons of topics."""
 
+_CLASSES = {
+    "geometry_msgs/msg/PointStamped": "PointStamped",
+    "geometry_msgs/msg/PolygonStamped": "Polygon",
+    "geometry_msgs/msg/PoseArray": "PoseArray",
+    "geometry_msgs/msg/PoseStamped": "Pose",
+    "geometry_msgs/msg/PoseWithCovarianceStamped": "PoseWithCovariance",
+    "nav_msgs/msg/OccupancyGrid": "Map",
+    "nav_msgs/msg/Odometry": "Odometry",
+    "nav_msgs/msg/Path": "Path",
+    "sensor_msgs/msg/LaserScan": "LaserScan",
+    "sensor_msgs/msg/PointCloud": "PointCloud",
+    "sensor_msgs/msg/PointCloud2": "PointCloud2",
+    "sensor_msgs/msg/Range": "Range",
+    **dict.fromkeys(DESCRIPTION_TYPES, "RobotModel"),
+    **dict.fromkeys(JOINT_STATE_TYPES, "RobotModel"),
+    **dict.fromkeys(TRANSFORM_TYPES, "TF"),
+}
 DISPLAYS: Mapping[str, str] = {
-    **dict.fromkeys(DESCRIPTION_TYPES, "rviz_default_plugins/RobotModel"),
-    **dict.fromkeys(JOINT_STATE_TYPES, "rviz_default_plugins/RobotModel"),
-    **dict.fromkeys(TRANSFORM_TYPES, "rviz_default_plugins/TF"),
-    "sensor_msgs/msg/LaserScan": "rviz_default_plugins/LaserScan",
-    "sensor_msgs/msg/PointCloud": "rviz_default_plugins/PointCloud",
-    "sensor_msgs/msg/PointCloud2": "rviz_default_plugins/PointCloud2",
+    kind: f"rviz_default_plugins/{name}" for kind, name in _CLASSES.items()
 }
 """Type of messages → the class of the display that draws them.
 

@@ -36,6 +36,14 @@ class Subscriber(Protocol):
         """
         ...
 
+    @property
+    def base(self) -> str:
+        """The topic whose last message changes are made to; "" for none.
+
+        All that has come since it counts.
+        """
+        ...
+
     def take(self, message: Recorded) -> None:
         """Take a message; one that cannot be decoded is counted, and no error."""
         ...
@@ -74,6 +82,9 @@ def jump(recording: Bag, at_ns: int, subscribers: Iterable[Subscriber]) -> None:
                 one.take(message)
         rest = [topic for topic in rest if topic not in one.always]
         begin = at_ns - one.depth_ns
+        base = recording.last(one.base, at_ns) if one.base in rest else None
+        if base is not None:
+            begin = min(begin, base.log_ns)
         recent = list(recording.messages(begin, at_ns, rest)) if rest else []
         seen = {message.topic for message in recent}
         before = [recording.last(topic, begin - 1) for topic in rest]

@@ -24,11 +24,14 @@ class Subscription:
             that were drawn outdated.
         depth_s: how far back messages count after a jump [s].
         size: so many messages wait at most.
+        base: the topic whose last message changes are made to: after a jump all that
+            has come since counts; "" for none.
 
     Attributes:
         topics: as given.
         decode: as given.
         came: as given.
+        base: as given.
         waits: some that were taken wait for a transform; set by the display.
         is_outdated: the time has jumped: what was drawn is of another time.
         count: so many messages have come, by topic.
@@ -44,10 +47,12 @@ class Subscription:
         *,
         depth_s: float,
         size: int,
+        base: str = "",
     ) -> None:
         self.topics = topics
         self.decode = decode
         self.came = came
+        self.base = base
         self.depth_ns = round(depth_s * _NS)
         self.waits = False
         self.is_outdated = False
@@ -71,6 +76,9 @@ class Subscription:
             self._begin_ns = message.log_ns
         self._last[message.topic] = message
         self.count[message.topic] += 1
+        if self._waiting.maxlen == len(self._waiting) and self.base:
+            # The oldest of the changes goes, not what they are made to.
+            del self._waiting[1]
         self._waiting.append(message)
 
     def take_older(self, message: Recorded) -> None:

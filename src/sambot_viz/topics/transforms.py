@@ -66,6 +66,7 @@ class TransformTopics:
     """
 
     depth_ns = round(DURATION * 1e9)
+    base = ""
 
     def __init__(
         self,

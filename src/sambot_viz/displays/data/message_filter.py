@@ -23,6 +23,8 @@ MESSAGE, TRANSFORM = "Message", "Transform"
 INVALID_FLOATS = "Message contained invalid floating point values (nans or infs)"
 LONGEST_WAIT_NS = 1_000_000_000
 """What has waited so long while nothing is shown is said to wait [ns]."""
+MALFORMED = (AttributeError, TypeError, ValueError, IndexError, OverflowError)
+"""What comes of a message that is defined otherwise than ROS's own of its type."""
 _NEVER = ("extrapolation-past", "empty-name")
 """What will not be known later either."""
 
@@ -197,6 +199,10 @@ class MessageFilterDisplay(TopicDisplay):
             self.process(message, T_fixed_frame, one.recorded)
         except MessageRefused as refused:
             self.status.set(refused.key, "Error", refused.text)
+            return False
+        except MALFORMED as error:
+            text = f"It cannot be drawn: {error}"
+            self.status.set(MESSAGE, "Error", text)
             return False
         finally:
             one.forget()

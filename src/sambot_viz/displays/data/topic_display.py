@@ -90,6 +90,16 @@ class TopicDisplay(Display):
         """How far back messages count after a jump in a recording [s]."""
         return 1.0
 
+    @property
+    def base_topic(self) -> str:
+        """The topic whose last message begins what counts after a jump; "" for none."""
+        return ""
+
+    @property
+    def most_waiting(self) -> int:
+        """So many messages wait at most between two pictures."""
+        return MOST_WAITING
+
     def other_topics(self) -> Sequence[str]:
         """Return what it listens to beside its topic."""
         return ()
@@ -134,7 +144,11 @@ class TopicDisplay(Display):
         if messages is None or not self.topic or self.subscription is not None:
             return
         self.subscription = messages.subscribe(
-            topics, self._take, depth_s=self.depth_s, size=MOST_WAITING
+            topics,
+            self._take,
+            depth_s=self.depth_s,
+            size=self.most_waiting,
+            base=self.base_topic,
         )
         self._take()
 

@@ -41,9 +41,12 @@ class DisplayTopics:
         *,
         depth_s: float,
         size: int,
+        base: str = "",
     ) -> Subscription:
         """Ask for the messages of some topics."""
-        made = Subscription(topics, self._decode, came, depth_s=depth_s, size=size)
+        made = Subscription(
+            topics, self._decode, came, depth_s=depth_s, size=size, base=base
+        )
         self._subscriptions.append(made)
         self._begin(made)
         return made

@@ -1,0 +1,281 @@
+"""Map: an occupancy grid, such as a map or a costmap, and its updates."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.data.message_filter import (
+    MALFORMED,
+    MESSAGE,
+    TRANSFORM,
+    MessageRefused,
+    frame_and_stamp,
+)
+from sambot_viz.displays.data.message_numbers import point_of, require_finite, wxyz_of
+from sambot_viz.displays.data.topic_display import (
+    TOPIC,
+    TopicDisplay,
+    topic_property,
+)
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.maps import SCHEMES, MapNode, palette
+from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.errors import DecodeError
+from sambot_viz.frames import LookupRefused
+from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
+from sambot_viz.rviz import (
+    BoolProperty,
+    DisplayConfig,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+)
+from sambot_viz.sources.message import Recorded
+
+MAP, UPDATE = "Map", "Update"
+"""Keys of statuses."""
+UPDATE_TOPIC = "Update Topic"
+MOST_CELLS = 100_000_000
+"""A map of more cells is not drawn."""
+MOST_UPDATES = 2000
+"""So many updates since the last map are applied after a jump in a recording."""
+Cells = npt.NDArray[np.uint8]
+
+
+def unsigned(data: npt.NDArray[np.int8], rows: int, columns: int) -> Cells:
+    """Return the values of cells as the bytes that palettes are for; a copy."""
+    values = np.frombuffer(data.tobytes(), np.uint8)
+    return np.array(np.reshape(values, (rows, columns)))
+
+
+class MapDisplay(TopicDisplay):
+    """The cells of nav_msgs/OccupancyGrid, with those of map_msgs/OccupancyGridUpdate.
+
+    The map hangs below the node of its frame, so it follows the transforms.
+    """
+
+    kind = "rviz_default_plugins/Map"
+    help = "An occupancy grid, such as a map or a costmap."
+    types = frozenset({"nav_msgs/msg/OccupancyGrid"})
+    properties = (
+        topic_property(),
+        topic_property(UPDATE_TOPIC, is_filtered=False),
+        FloatProperty(
+            "Alpha",
+            default=0.7,
+            minimum=0.0,
+            maximum=1.0,
+            help="How opaque the map is.",
+        ),
+        EnumProperty(
+            "Color Scheme",
+            default="map",
+            options=SCHEMES,
+            help="The colours of the values.",
+        ),
+        BoolProperty(
+            "Draw Behind",
+            default=False,
+            help="Draw everything else over the map, as if it were far below.",
+        ),
+        BoolProperty(
+            "Use Timestamp",
+            default=False,
+            help="Place the map where its frame was at its stamp, not where it is now.",
+        ),
+        BoolProperty(
+            "Binary representation",
+            default=False,
+            help="Tell apart only what is less than the threshold, and what is not.",
+        ),
+        IntProperty(
+            "Binary threshold",
+            default=100,
+            minimum=0,
+            maximum=100,
+            help="The least value that is occupied.",
+            hidden_unless=("Binary representation", True),
+        ),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._node: MapNode | None = None
+        self._hung_at = ""
+        self._cells: Cells | None = None
+        self._resolution = 0.0
+        self._T_frame_map: Matrix = np.eye(4)
+        self._frame = ""
+        self._stamp_ns: int | None = None
+
+    @property
+    def update_topic(self) -> str:
+        """The topic of updates: the one that is set, or RViz's own choice."""
+        given = str(self.config.get(UPDATE_TOPIC))
+        return given or (f"{self.topic}_updates" if self.topic else "")
+
+    def other_topics(self) -> tuple[str, ...]:
+        """Return the topic of updates."""
+        return (self.update_topic,)
+
+    @property
+    def base_topic(self) -> str:
+        """Updates count since the last map."""
+        return self.topic
+
+    @property
+    def most_waiting(self) -> int:
+        """So many messages wait at most between two pictures."""
+        return MOST_UPDATES
+
+    def messages_came(self) -> None:
+        """Take maps and updates in their order, and draw once."""
+        if self.subscription is None:
+            return
+        came = self.subscription.drain()
+        maps = [index for index, one in enumerate(came) if one.topic == self.topic]
+        # What was before the last map is overwritten by it.
+        for one in came[maps[-1] if maps else 0 :]:
+            self._take_one(one)
+        self.redraw()
+
+    def forget(self) -> None:
+        """Take the map out of the scene."""
+        self._remove()
+        self._cells = None
+        for key in (MAP, MESSAGE, TRANSFORM, UPDATE):
+            self.status.remove(key)
+
+    def redraw(self) -> None:
+        """Draw the map as it looks now, below the node of its frame."""
+        if self._cells is None:
+            if self.context.messages is not None and self.topic:
+                if MESSAGE not in self.status.rows:
+                    self.status.set(MESSAGE, "Warn", "No map received")
+            return
+        place = self._place()
+        if place is None:
+            fixed = self.context.fixed_frame
+            text = f"No transform from [{self._frame}] to [{fixed}]"
+            self.status.set(TRANSFORM, "Error", text)
+            self._remove()
+            return
+        self.status.set(TRANSFORM, "Ok", "Transform OK")
+        above, T = place
+        if self._node is None or above != self._hung_at or self._node.is_gone:
+            self._remove()
+            self._node = MapNode(self.context.scene, f"{above}/{self.key}")
+            self._hung_at = above
+        get = self.config.get
+        scheme, threshold = str(get("Color Scheme")), int(get("Binary threshold"))
+        self._node.draw(
+            self._cells,
+            palette(scheme, bool(get("Binary representation")), threshold),
+            self._resolution,
+            alpha=float(get("Alpha")),
+            is_behind=bool(get("Draw Behind")),
+            wxyz=wxyz_from_matrix(T),
+            position=position_of(T),
+        )
+
+    def notes(self) -> dict[str, str]:
+        """Return what is known of the map."""
+        notes = dict(super().notes())
+        if self._cells is not None:
+            rows, columns = self._cells.shape
+            x, y, _ = position_of(self._T_frame_map)
+            notes[TOPIC] = (
+                f"{columns} × {rows} cells of {self._resolution:.4g} m; the first one "
+                f"is at {x:.4g}; {y:.4g} in {self._frame}"
+            )
+        return notes
+
+    def _place(self) -> tuple[str, Matrix] | None:
+        """Return the node to hang below and the pose there; None without a place."""
+        context = self.context
+        if self.config.get("Use Timestamp"):
+            try:
+                fixed = context.fixed_frame
+                found = context.tree.lookup(fixed, self._frame, self._stamp_ns)
+                return "", found.matrix @ self._T_frame_map
+            except LookupRefused:
+                # RViz falls back on the latest transform, too.
+                pass
+        if self._frame == context.fixed_frame:
+            return "", self._T_frame_map
+        if not context.nodes.connected(self._frame):
+            return None
+        return context.above(self._frame), self._T_frame_map
+
+    def _take_one(self, one: Recorded) -> None:
+        assert self.subscription is not None
+        is_map = one.topic == self.topic
+        key = MAP if is_map else UPDATE
+        try:
+            message = self.subscription.decode(one)
+            if is_map:
+                self._take_map(message)
+            else:
+                self._take_update(message)
+        except MessageRefused as refused:
+            self.status.set(refused.key, "Error", refused.text)
+        except DecodeError as error:
+            self.status.set(key, "Error", f"It cannot be decoded: {error}")
+        except MALFORMED as error:
+            self.status.set(key, "Error", f"It cannot be drawn: {error}")
+
+    def _take_map(self, message: Any) -> None:
+        info, data = message.info, np.asarray(message.data, np.int8)
+        width, height = int(info.width), int(info.height)
+        if not len(data):
+            return
+        require_finite([float(info.resolution)])
+        x, y, z = point_of(info.origin.position)
+        w, qx, qy, qz = wxyz_of(info.origin.orientation)
+        if width * height == 0:
+            raise MessageRefused(f"Map is zero-sized ({width}x{height})", MAP)
+        if width * height != len(data):
+            raise MessageRefused(
+                f"Data size doesn't match width*height: width = {width}, height = "
+                f"{height}, data size = {len(data)}",
+                MAP,
+            )
+        if len(data) > MOST_CELLS:
+            text = f"It has {len(data):,} cells: at most {MOST_CELLS:,} are drawn"
+            raise MessageRefused(text, MAP)
+        resolution = float(info.resolution)
+        if not 0.0 < resolution < math.inf:
+            raise MessageRefused(f"Its cells are {resolution:g} m wide", MAP)
+        frame, self._stamp_ns = frame_and_stamp(message)
+        self._frame = frame or "map"
+        T = np.eye(4)
+        T[:3, :3] = rotation_from_xyzw((qx, qy, qz, w))
+        T[:3, 3] = x, y, z
+        self._T_frame_map = T
+        self._cells = unsigned(data, height, width)
+        self._resolution = resolution
+        self.status.set(MESSAGE, "Ok", "Map received")
+        self.status.set(MAP, "Ok", "Map OK")
+
+    def _take_update(self, message: Any) -> None:
+        if self._cells is None:
+            return
+        rows, columns = self._cells.shape
+        x, y = int(message.x), int(message.y)
+        width, height = int(message.width), int(message.height)
+        data = np.asarray(message.data, np.int8)
+        is_inside = 0 <= x <= columns - width and 0 <= y <= rows - height
+        if not is_inside or len(data) != width * height:
+            raise MessageRefused("update area outside of original map area", UPDATE)
+        self._cells[y : y + height, x : x + width] = unsigned(data, height, width)
+        self.status.set(UPDATE, "Ok", "Update OK")
+
+    def _remove(self) -> None:
+        if self._node is not None:
+            self._node.remove()
+            self._node = None

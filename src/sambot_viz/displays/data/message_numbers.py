@@ -1,0 +1,95 @@
+"""Numbers of messages: those that cannot be drawn are refused, as RViz refuses them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.data.message_filter import INVALID_FLOATS, MessageRefused
+from sambot_viz.geometry import Vector3, Wxyz
+
+Floats = npt.NDArray[np.float64]
+UPRIGHT: Wxyz = (1.0, 0.0, 0.0, 0.0)
+MOST_POSES = 100_000
+"""So many poses of one message are drawn at most."""
+
+
+def require_finite(values: Iterable[float]) -> None:
+    """Refuse a message with a number that is NaN or infinite.
+
+    Raises:
+        MessageRefused: with RViz's sentence.
+    """
+    if not all(math.isfinite(value) for value in values):
+        raise MessageRefused(INVALID_FLOATS)
+
+
+def point_of(point: Any) -> Vector3:
+    """Return a geometry_msgs/Point or Vector3 [m].
+
+    Raises:
+        MessageRefused: it is not finite.
+    """
+    found = (float(point.x), float(point.y), float(point.z))
+    require_finite(found)
+    return found
+
+
+def points_of(points: Any) -> Floats:
+    """Return geometry_msgs/Points, (N, 3) [m].
+
+    Raises:
+        MessageRefused: one is not finite, or there are too many.
+    """
+    require_few(len(points))
+    found = np.array([(p.x, p.y, p.z) for p in points], np.float64)
+    if not np.isfinite(found).all():
+        raise MessageRefused(INVALID_FLOATS)
+    return found if len(found) else np.zeros((0, 3))
+
+
+def wxyz_of(quaternion: Any) -> Wxyz:
+    """Return a geometry_msgs/Quaternion; without a length it does not turn.
+
+    Raises:
+        MessageRefused: it is not finite.
+    """
+    found = (
+        float(quaternion.w),
+        float(quaternion.x),
+        float(quaternion.y),
+        float(quaternion.z),
+    )
+    require_finite(found)
+    norm = math.sqrt(sum(value * value for value in found))
+    if not 0.0 < norm < math.inf:
+        return UPRIGHT
+    w, x, y, z = (value / norm for value in found)
+    return (w, x, y, z)
+
+
+def poses_of(poses: Any) -> tuple[Floats, Floats]:
+    """Return the rotations w, x, y, z, (N, 4), and positions, (N, 3) [m], of poses.
+
+    Raises:
+        MessageRefused: one is not finite, or there are too many.
+    """
+    require_few(len(poses))
+    turns = np.array([wxyz_of(pose.orientation) for pose in poses], np.float64)
+    places = points_of([pose.position for pose in poses])
+    return (turns if len(turns) else np.zeros((0, 4))), places
+
+
+def require_few(count: int) -> None:
+    """Refuse a message with more than can be drawn.
+
+    Raises:
+        MessageRefused: there are too many.
+    """
+    if count > MOST_POSES:
+        text = f"It has {count:,} points or poses: at most {MOST_POSES:,} are drawn"
+        raise MessageRefused(text)

@@ -1,0 +1,205 @@
+"""Path: the way that a robot is to go, or has gone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
+from sambot_viz.displays.data.message_numbers import poses_of
+from sambot_viz.displays.data.poses.pose_shapes import metres
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.lines import LineNode, chain_segments
+from sambot_viz.displays.scene.nodes import position_of, short_id
+from sambot_viz.displays.scene.ribbons import RibbonNode
+from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Matrix, Vector3, wxyz_from_matrix
+from sambot_viz.rviz import (
+    ColorProperty,
+    DisplayConfig,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    VectorProperty,
+)
+from sambot_viz.sources.message import Recorded
+
+LINES, RIBBONS = "Lines", "Billboards"
+NONE, AXES, ARROWS = "None", "Axes", "Arrows"
+MOST_PATHS = 100
+"""So many paths are drawn at most, whatever the Buffer Length."""
+_IF_AXES, _IF_ARROWS = ("Pose Style", AXES), ("Pose Style", ARROWS)
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Path:
+    """A path and the nodes that draw it.
+
+    Attributes:
+        turns: (N, 4), w, x, y, z of its poses.
+        points: (N, 3) [m].
+        T_fixed_frame: (4, 4), of the frame they are given in.
+    """
+
+    turns: Floats
+    points: Floats
+    T_fixed_frame: Matrix
+    lines: LineNode
+    ribbon: RibbonNode
+    axes: AxesNode
+    arrows: ArrowsNode
+
+    def remove(self) -> None:
+        """Take it out of the scene."""
+        for node in (self.lines, self.ribbon, self.axes, self.arrows):
+            node.remove()
+
+
+class PathDisplay(MessageFilterDisplay):
+    """The poses of nav_msgs/Path as a line, with axes or arrows."""
+
+    kind = "rviz_default_plugins/Path"
+    help = "The path that a robot is to follow."
+    types = frozenset({"nav_msgs/msg/Path"})
+    properties = (
+        topic_property(),
+        EnumProperty(
+            "Line Style",
+            default=LINES,
+            options=(LINES, RIBBONS),
+            help="Lines are one pixel wide, billboards have a width.",
+        ),
+        FloatProperty(
+            "Line Width",
+            default=0.03,
+            minimum=0.001,
+            unit="m",
+            help="Width of billboards.",
+            hidden_unless=("Line Style", RIBBONS),
+        ),
+        ColorProperty("Color", default=(25, 255, 0), help="The colour of the line."),
+        FloatProperty("Alpha", default=1.0, help="How opaque the line is."),
+        IntProperty(
+            "Buffer Length",
+            default=1,
+            minimum=1,
+            help=f"So many of the newest paths are shown, up to {MOST_PATHS}.",
+            acts_up_to=MOST_PATHS,
+        ),
+        VectorProperty(
+            "Offset",
+            default=(0.0, 0.0, 0.0),
+            unit="m",
+            help="Moves what is drawn, along the axes of the fixed frame.",
+        ),
+        EnumProperty(
+            "Pose Style",
+            default=NONE,
+            options=(NONE, AXES, ARROWS),
+            help="What is drawn at each pose.",
+        ),
+        metres("Length", 0.3, "Length of each axis.", _IF_AXES),
+        metres("Radius", 0.03, "Diameter of each axis, as RViz.", _IF_AXES),
+        ColorProperty(
+            "Pose Color",
+            default=(255, 85, 255),
+            help="The colour of the arrows.",
+            hidden_unless=_IF_ARROWS,
+        ),
+        metres("Shaft Length", 0.1, "Length of the shafts.", _IF_ARROWS),
+        metres("Head Length", 0.2, "Length of the heads.", _IF_ARROWS),
+        metres("Shaft Diameter", 0.1, "Diameter of the shafts.", _IF_ARROWS),
+        metres("Head Diameter", 0.3, "Diameter of the heads.", _IF_ARROWS),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._paths: list[_Path] = []
+        self._made = 0
+
+    @property
+    def needs_last_only(self) -> bool:
+        """Whether one path is shown."""
+        return self._most == 1
+
+    @property
+    def depth_s(self) -> float:
+        """How far back paths count after a jump in a recording [s]."""
+        return 1.0 if self._most == 1 else 60.0
+
+    @property
+    def _most(self) -> int:
+        return int(self.config.acting("Buffer Length"))
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Draw a path; the oldest one that is too many goes."""
+        turns, points = poses_of([one.pose for one in message.poses])
+        # With one path its nodes are used again.
+        while len(self._paths) > self._most:
+            self._paths.pop(0).remove()
+        T = T_fixed_frame.matrix
+        if len(self._paths) == self._most:
+            old = self._paths.pop(0)
+            nodes = (old.lines, old.ribbon, old.axes, old.arrows)
+        else:
+            self._made += 1
+            name, scene = f"/{self.key}{short_id(self._made)}", self.context.scene
+            nodes = (
+                LineNode(scene, f"{name}l"),
+                RibbonNode(scene, f"{name}r"),
+                AxesNode(scene, f"{name}x"),
+                ArrowsNode(scene, f"{name}a"),
+            )
+        self._paths.append(_Path(turns, points, T, *nodes))
+        self._show(self._paths[-1])
+
+    def drop(self) -> None:
+        """Take all paths out of the scene."""
+        for path in self._paths:
+            path.remove()
+        self._paths.clear()
+
+    def redraw(self) -> None:
+        """Draw the paths as they look now."""
+        super().redraw()
+        while len(self._paths) > self._most:
+            self._paths.pop(0).remove()
+        for path in self._paths:
+            self._show(path)
+
+    def _show(self, path: _Path) -> None:
+        get = self.config.get
+        offset: Vector3 = get("Offset")
+        T = np.array(path.T_fixed_frame)
+        T[:3, 3] += offset
+        place: dict[str, Any] = {
+            "wxyz": wxyz_from_matrix(T),
+            "position": position_of(T),
+        }
+        color, alpha = get("Color"), min(max(float(get("Alpha")), 0.0), 1.0)
+        if get("Line Style") == RIBBONS:
+            path.lines.remove()
+            width = float(get("Line Width"))
+            path.ribbon.draw(path.points, width, color, alpha=alpha, **place)
+        else:
+            path.ribbon.remove()
+            path.lines.draw(chain_segments(path.points), color, alpha=alpha, **place)
+        style, poses = str(get("Pose Style")), (path.turns, path.points)
+        if style == AXES:
+            sizes = float(get("Length")), float(get("Radius"))
+            path.axes.draw(*poses, *sizes, **place)
+        else:
+            path.axes.remove()
+        if style == ARROWS:
+            shaft = float(get("Shaft Length")), float(get("Shaft Diameter"))
+            head = float(get("Head Length")), float(get("Head Diameter"))
+            path.arrows.draw(*poses, shaft, head, get("Pose Color"), **place)
+        else:
+            path.arrows.remove()

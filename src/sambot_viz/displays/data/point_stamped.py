@@ -1,0 +1,54 @@
+"""PointStamped: single points, such as one that was clicked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sambot_viz.displays.data.kept_solids import KeptSolidsDisplay
+from sambot_viz.displays.data.message_numbers import UPRIGHT, point_of
+from sambot_viz.displays.data.poses.pose_shapes import alpha_property, metres
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.solid_nodes import Solid
+from sambot_viz.geometry import Matrix, Vector3
+from sambot_viz.rviz import ColorProperty, IntProperty
+
+MOST_POINTS = 10_000
+
+
+class PointStampedDisplay(KeptSolidsDisplay):
+    """The points of geometry_msgs/PointStamped as balls."""
+
+    kind = "rviz_default_plugins/PointStamped"
+    help = "A single point."
+    types = frozenset({"geometry_msgs/msg/PointStamped"})
+    length = "History Length"
+    properties = (
+        topic_property(),
+        ColorProperty("Color", default=(204, 41, 204), help="The colour of the ball."),
+        alpha_property(),
+        metres("Radius", 0.2, "The diameter of the ball, as RViz."),
+        IntProperty(
+            "History Length",
+            default=1,
+            minimum=1,
+            maximum=100_000,
+            acts_up_to=MOST_POINTS,
+            help=f"So many points stay; here up to {MOST_POINTS:,}.",
+        ),
+    )
+
+    def measured(self, message: Any) -> Vector3:
+        """Return the point [m]."""
+        return point_of(message.point)
+
+    def solid(self, measured: Any, T_fixed_frame: Matrix) -> Solid:
+        """Return a ball at the point."""
+        T = np.array(T_fixed_frame)
+        T[:3, 3] += T[:3, :3] @ np.array(measured)
+        size = float(self.config.get("Radius"))
+        color, alpha = self.config.get("Color"), float(self.config.get("Alpha"))
+        sizes = (size, size, size)
+        return Solid("sphere", UPRIGHT, position_of(T), sizes, color, alpha)

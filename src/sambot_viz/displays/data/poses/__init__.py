@@ -1,0 +1,1 @@
+"""Displays that draw poses: as arrows or axes, one or many, with their uncertainty."""

@@ -1,0 +1,216 @@
+"""Odometry: where the robot was, as it says itself."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.data.message_filter import (
+    MessageFilterDisplay,
+    MessageRefused,
+)
+from sambot_viz.displays.data.message_numbers import point_of, require_finite
+from sambot_viz.displays.data.poses.covariance import COVARIANCE, covariance_look
+from sambot_viz.displays.data.poses.pose_shapes import (
+    ARROW,
+    AXES,
+    PoseShapes,
+    alpha_property,
+    arrow_properties,
+    axes_properties,
+    color_property,
+    look_of,
+)
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
+from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode, products, rotated
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Matrix, Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.rviz import DisplayConfig, EnumProperty, FloatProperty, IntProperty
+from sambot_viz.sources.message import Recorded
+
+_IF_ARROW, _IF_AXES = ("Shape", ARROW), ("Shape", AXES)
+_UNNORMALIZED = 0.01
+MOST_KEPT = 10_000
+"""In place of an unlimited number of poses."""
+
+
+class _Kept:
+    """A pose that stays where it was.
+
+    Attributes:
+        wxyz: its rotation in the frame of its message.
+        position: there [m].
+        fixed: its rotation and its position in the fixed frame.
+    """
+
+    def __init__(
+        self,
+        wxyz: Wxyz,
+        position: Vector3,
+        T_fixed_frame: Matrix,
+        covariance: npt.NDArray[np.float64],
+    ) -> None:
+        self.wxyz, self.position = wxyz, position
+        self._frame = wxyz_from_matrix(T_fixed_frame)
+        self._at = position_of(T_fixed_frame)
+        self.fixed = (
+            _product(self._frame, wxyz),
+            _moved(self._frame, self._at, position),
+        )
+        self._covariance = covariance
+        self._look: CovarianceLook | None = None
+        self._solids: list[Solid] = []
+
+    def solids(self, look: CovarianceLook) -> list[Solid]:
+        """Return the shapes of its covariance in the fixed frame."""
+        if look != self._look:
+            found = covariance_solids(self._covariance, self.wxyz, self.position, look)
+            self._solids = [_placed(solid, self._frame, self._at) for solid in found]
+            self._look = look
+        return self._solids
+
+
+class OdometryDisplay(MessageFilterDisplay):
+    """The poses of nav_msgs/Odometry that are apart from each other."""
+
+    kind = "rviz_default_plugins/Odometry"
+    help = "Current and past robot poses, as arrows or axes."
+    types = frozenset({"nav_msgs/msg/Odometry"})
+    properties = (
+        topic_property(),
+        FloatProperty(
+            "Position Tolerance",
+            default=0.1,
+            minimum=0.0,
+            unit="m",
+            help="A pose that is nearer to the last one is left out, if it is not "
+            "turned either.",
+        ),
+        FloatProperty(
+            "Angle Tolerance",
+            default=0.1,
+            minimum=0.0,
+            unit="rad",
+            help="A pose that is turned by less is left out, if it is near, too.",
+        ),
+        IntProperty(
+            "Keep",
+            default=100,
+            minimum=0,
+            help=f"So many poses stay; 0 for all, here up to {MOST_KEPT:,}.",
+        ),
+        EnumProperty(
+            "Shape",
+            default=ARROW,
+            options=(ARROW, AXES),
+            help="How poses are drawn.",
+            children=(
+                color_property(shape=_IF_ARROW),
+                alpha_property(hidden_unless=_IF_ARROW),
+                *arrow_properties(_IF_ARROW),
+                *axes_properties(_IF_AXES),
+            ),
+        ),
+        COVARIANCE,
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._shapes = PoseShapes(context.scene, f"/{key}")
+        self._solids = SolidsNode(context.scene, f"/{key}c")
+        self._kept: list[_Kept] = []
+
+    @property
+    def needs_last_only(self) -> bool:
+        """Return False: earlier poses stay."""
+        return False
+
+    @property
+    def depth_s(self) -> float:
+        """How far back poses count after a jump in a recording [s]."""
+        return 60.0
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Keep a pose if it is apart from the last one."""
+        pose = message.pose.pose
+        q = pose.orientation
+        x, y, z, w = float(q.x), float(q.y), float(q.z), float(q.w)
+        position = point_of(pose.position)
+        require_finite((x, y, z, w))
+        if abs(x * x + y * y + z * z + w * w - 1.0) >= _UNNORMALIZED:
+            raise MessageRefused(
+                "Message contained unnormalized quaternion (squares of values don't "
+                "add to 1)"
+            )
+        wxyz = (w, x, y, z)
+        if self._kept and not self._is_apart(wxyz, position):
+            return
+        covariance = np.array(message.pose.covariance, np.float64)
+        self._kept.append(_Kept(wxyz, position, T_fixed_frame.matrix, covariance))
+        self._limit()
+        self._show()
+
+    def drop(self) -> None:
+        """Take all poses out of the scene."""
+        self._kept.clear()
+        self._shapes.remove()
+        self._solids.remove()
+
+    def redraw(self) -> None:
+        """Draw the poses as they look now."""
+        super().redraw()
+        self._limit()
+        self._show()
+
+    def _limit(self) -> None:
+        keep = int(self.config.get("Keep")) or MOST_KEPT
+        del self._kept[: -min(keep, MOST_KEPT)]
+
+    def _is_apart(self, wxyz: Wxyz, position: Vector3) -> bool:
+        last = self._kept[-1]
+        if math.dist(position, last.position) >= self._tolerance("Position"):
+            return True
+        turned = products(np.array([wxyz]), np.array(_conjugate(last.wxyz)))[0]
+        angle = 2 * math.atan2(float(np.linalg.norm(turned[1:])), float(turned[0]))
+        return angle >= self._tolerance("Angle")
+
+    def _tolerance(self, of: str) -> float:
+        return float(self.config.get(f"{of} Tolerance"))
+
+    def _show(self) -> None:
+        if not self._kept:
+            self._shapes.remove()
+            self._solids.remove()
+            return
+        turns, places = zip(*(one.fixed for one in self._kept), strict=True)
+        self._shapes.draw(look_of(self.config, "Shape/"), turns, places)
+        look = covariance_look(self.config)
+        self._solids.draw([solid for one in self._kept for solid in one.solids(look)])
+
+
+def _conjugate(wxyz: Wxyz) -> Wxyz:
+    w, x, y, z = wxyz
+    return (w, -x, -y, -z)
+
+
+def _product(one: Wxyz, other: Wxyz) -> Wxyz:
+    w, x, y, z = products(np.array([one]), np.array(other))[0].tolist()
+    return (w, x, y, z)
+
+
+def _moved(wxyz: Wxyz, at: Vector3, point: Vector3) -> Vector3:
+    x, y, z = (rotated(np.array([wxyz]), np.array(point))[0] + at).tolist()
+    return (x, y, z)
+
+
+def _placed(solid: Solid, wxyz: Wxyz, at: Vector3) -> Solid:
+    """Return a solid of a frame where that frame was."""
+    turn, position = _product(wxyz, solid.wxyz), _moved(wxyz, at, solid.position)
+    return Solid(solid.kind, turn, position, solid.scale, solid.color, solid.alpha)

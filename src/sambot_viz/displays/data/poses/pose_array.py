@@ -1,0 +1,87 @@
+"""PoseArray: many poses, such as the particles of a localisation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
+from sambot_viz.displays.data.message_numbers import poses_of
+from sambot_viz.displays.data.poses.pose_shapes import (
+    AXES,
+    FLAT_ARROW,
+    SOLID_ARROW,
+    PoseShapes,
+    alpha_property,
+    arrow_properties,
+    axes_properties,
+    color_property,
+    look_of,
+    metres,
+)
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import wxyz_from_matrix
+from sambot_viz.rviz import DisplayConfig, EnumProperty
+from sambot_viz.sources.message import Recorded
+
+_IF_ARROW = ("Shape", (FLAT_ARROW, SOLID_ARROW))
+_IF_SOLID = ("Shape", SOLID_ARROW)
+
+
+class PoseArrayDisplay(MessageFilterDisplay):
+    """The poses of geometry_msgs/PoseArray; the newest message alone."""
+
+    kind = "rviz_default_plugins/PoseArray"
+    help = "Many poses, such as the particles of a localisation."
+    types = frozenset({"geometry_msgs/msg/PoseArray"})
+    properties = (
+        topic_property(),
+        EnumProperty(
+            "Shape",
+            default=FLAT_ARROW,
+            options=(FLAT_ARROW, SOLID_ARROW, AXES),
+            help="How each pose is drawn.",
+        ),
+        color_property(shape=_IF_ARROW),
+        alpha_property(hidden_unless=_IF_ARROW),
+        metres(
+            "Arrow Length", 0.3, "Length of the arrows.", shape=("Shape", FLAT_ARROW)
+        ),
+        *arrow_properties(_IF_SOLID, (0.23, 0.01, 0.07, 0.03), order=(3, 2, 1, 0)),
+        *axes_properties(("Shape", AXES), 0.3, 0.01),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._shapes = PoseShapes(context.scene, f"/{key}")
+        self._poses = np.zeros((0, 4)), np.zeros((0, 3))
+        self._frame = Transform.identity()
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Draw the poses in the place of those before."""
+        self._poses = poses_of(message.poses)
+        self._frame = T_fixed_frame
+        self._show()
+
+    def drop(self) -> None:
+        """Take the poses out of the scene."""
+        self._poses = np.zeros((0, 4)), np.zeros((0, 3))
+        self._shapes.remove()
+
+    def redraw(self) -> None:
+        """Draw the poses as they look now."""
+        super().redraw()
+        self._show()
+
+    def _show(self) -> None:
+        T = self._frame.matrix
+        look = look_of(self.config)
+        look = replace(look, flat=float(self.config.get("Arrow Length")))
+        place = wxyz_from_matrix(T), position_of(T)
+        self._shapes.draw(look, *self._poses, *place)

@@ -1,0 +1,201 @@
+"""Arrows and axes at poses, and the properties that say how they look."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import viser
+
+from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN
+from sambot_viz.displays.scene.lines import LineNode
+from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode, rotated
+from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.rviz import ColorProperty, ConfigItem, FloatProperty, Property
+
+Floats = npt.NDArray[np.float64]
+ARROW, AXES = "Arrow", "Axes"
+FLAT_ARROW, SOLID_ARROW = "Arrow (Flat)", "Arrow (3D)"
+COLOR = (255, 25, 0)
+_FLAT = np.array(
+    [
+        [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)],
+        [(1.0, 0.0, 0.0), (0.75, 0.2, 0.0)],
+        [(1.0, 0.0, 0.0), (0.75, -0.2, 0.0)],
+    ]
+)
+"""The three lines of a flat arrow of length 1, each from its start to its end."""
+
+
+@dataclass(frozen=True, slots=True)
+class PoseLook:
+    """How poses are drawn.
+
+    Attributes:
+        shape: `ARROW`, `SOLID_ARROW`, `FLAT_ARROW` or `AXES`.
+        color: of arrows, 0 to 255.
+        alpha: of arrows, 0 to 1.
+        shaft: length and diameter [m].
+        head: length and diameter [m].
+        axes: length and diameter [m].
+        flat: length of flat arrows [m].
+    """
+
+    shape: str
+    color: Rgb = COLOR
+    alpha: float = 1.0
+    shaft: tuple[float, float] = (1.0, 0.05)
+    head: tuple[float, float] = (0.3, 0.1)
+    axes: tuple[float, float] = (1.0, 0.1)
+    flat: float = 0.3
+
+
+class PoseShapes:
+    """Draws poses; a node for each kind of shape.
+
+    Args:
+        scene: where to draw.
+        name: what the names of the nodes begin with.
+    """
+
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        self._arrows = ArrowsNode(scene, f"{name}a")
+        self._axes = AxesNode(scene, f"{name}x")
+        self._lines = LineNode(scene, f"{name}l")
+
+    def draw(
+        self,
+        look: PoseLook,
+        wxyzs: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw poses, and nothing else.
+
+        Args:
+            look: how.
+            wxyzs: (N, 4), their rotations.
+            positions: (N, 3) [m].
+            wxyz: rotation of all in the frame of the node above.
+            position: there [m].
+        """
+        is_solid = look.shape in (ARROW, SOLID_ARROW)
+        turns: Floats = np.reshape(np.asarray(wxyzs, np.float64), (-1, 4))
+        places: Floats = np.reshape(np.asarray(positions, np.float64), (-1, 3))
+        pose: dict[str, Any] = {"wxyz": wxyz, "position": position}
+        if is_solid and len(turns):
+            shaft, head, color = look.shaft, look.head, look.color
+            self._arrows.draw(
+                turns, places, shaft, head, color, alpha=look.alpha, **pose
+            )
+        else:
+            self._arrows.remove()
+        if look.shape == AXES and len(turns):
+            self._axes.draw(turns, places, *look.axes, **pose)
+        else:
+            self._axes.remove()
+        if look.shape == FLAT_ARROW and len(turns):
+            flat = look.flat * _FLAT
+            ends = [places + rotated(turns, end) for line in flat for end in line]
+            lines = np.stack(ends, axis=1)
+            self._lines.draw(
+                np.reshape(lines, (-1, 2, 3)), look.color, alpha=look.alpha, **pose
+            )
+        else:
+            self._lines.remove()
+
+    def remove(self) -> None:
+        """Take all out of the scene."""
+        for node in (self._arrows, self._axes, self._lines):
+            node.remove()
+
+
+def alpha_property(default: float = 1.0, **more: Any) -> FloatProperty:
+    """Return the property of an alpha between 0 and 1."""
+    return FloatProperty(
+        "Alpha",
+        default=default,
+        minimum=0.0,
+        maximum=1.0,
+        help="How opaque it is.",
+        **more,
+    )
+
+
+def metres(name: str, default: float, help: str, shape: Any = None) -> FloatProperty:
+    """Return the property of a length [m].
+
+    Args:
+        name: of the property.
+        default: [m].
+        help: a sentence.
+        shape: path and values of the property that must be chosen; None for always.
+    """
+    return FloatProperty(
+        name, default=default, minimum=0.0, unit="m", help=help, hidden_unless=shape
+    )
+
+
+def arrow_properties(
+    shape: Any,
+    lengths: tuple[float, float, float, float] = (1.0, 0.05, 0.3, 0.1),
+    order: tuple[int, ...] = (0, 1, 2, 3),
+) -> tuple[Property, ...]:
+    """Return the sizes of an arrow.
+
+    Args:
+        shape: as for `metres`.
+        lengths: length and diameter of the shaft, then of the head [m].
+        order: in which they stand.
+    """
+    made = (
+        metres("Shaft Length", lengths[0], "Length of the shaft.", shape),
+        metres("Shaft Radius", lengths[1], "Diameter of the shaft, as RViz.", shape),
+        metres("Head Length", lengths[2], "Length of the head.", shape),
+        metres("Head Radius", lengths[3], "Diameter of the head, as RViz.", shape),
+    )
+    return tuple(made[index] for index in order)
+
+
+def axes_properties(
+    shape: Any, length: float = 1.0, radius: float = 0.1
+) -> tuple[Property, ...]:
+    """Return the sizes of axes (see `metres`)."""
+    return (
+        metres("Axes Length", length, "Length of each axis.", shape),
+        metres("Axes Radius", radius, "Diameter of each axis, as RViz.", shape),
+    )
+
+
+def color_property(default: Rgb = COLOR, shape: Any = None) -> ColorProperty:
+    """Return the colour of arrows."""
+    return ColorProperty(
+        "Color", default=default, help="The colour.", hidden_unless=shape
+    )
+
+
+def look_of(config: ConfigItem, path: str = "") -> PoseLook:
+    """Return how a display draws poses.
+
+    Args:
+        config: of the display.
+        path: what the paths of its properties begin with.
+    """
+
+    def get(name: str) -> Any:
+        return config.get(path + name)
+
+    shape = config.declared["Shape"].property
+    meaning = getattr(shape, "meaning", str)(config.get("Shape"))
+    return PoseLook(
+        shape=str(meaning),
+        color=get("Color"),
+        alpha=float(get("Alpha")),
+        shaft=(float(get("Shaft Length")), float(get("Shaft Radius"))),
+        head=(float(get("Head Length")), float(get("Head Radius"))),
+        axes=(float(get("Axes Length")), float(get("Axes Radius"))),
+    )

@@ -1,0 +1,112 @@
+"""Recorded cases, and messages of our own, opened without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from inside import session_of
+
+from sambot_viz import Visualizer
+from sambot_viz.displays.display import Display
+
+MESSAGES = Path(__file__).parents[2] / "golden" / "messages"
+START = 1_700_000_000
+
+
+class Opened:
+    """A page's session that shows a recording; the first display is looked at.
+
+    Attributes:
+        viz: what was opened, at the end of the recording.
+    """
+
+    def __init__(self, viz: Visualizer, kind: str) -> None:
+        self.viz = viz
+        self._kind = kind
+        viz.player.jump(viz.player.duration)
+
+    @property
+    def display(self) -> Any:
+        displays: list[Display] = session_of(self.viz).scene.displays
+        kinds = (one for one in displays if one.kind.endswith(f"/{self._kind}"))
+        return next(kinds)
+
+    @property
+    def statuses(self) -> dict[str, tuple[str, str]]:
+        rows = self.display.status.rows
+        return {key: (row.level, row.text) for key, row in rows.items()}
+
+    def set(self, path: str, value: object) -> None:
+        """Set a property as a user does."""
+        session_of(self.viz).display_edits.set_property(self.display, path, value)
+
+    def node_names(self) -> list[str]:
+        """The nodes that the display has in the scene."""
+        names = self.viz.viser.scene._handle_from_node_name  # pyright: ignore[reportPrivateUsage]
+        return sorted(name for name in names if f"/{self.display.key}" in name)
+
+
+@pytest.fixture
+def opened() -> Iterator[Callable[[str, str], Opened]]:
+    """Opens a recorded case of a display."""
+    with ExitStack() as stack:
+
+        def open_case(name: str, kind: str) -> Opened:
+            folder = MESSAGES / name
+            source, config = f"bag:{folder / 'messages.mcap'}", folder / "config.rviz"
+            viz = Visualizer(source=source, config=config, port=0)
+            return Opened(stack.enter_context(viz), kind)
+
+        yield open_case
+
+
+@pytest.fixture
+def messages(tmp_path: Path) -> Iterator[Callable[..., Opened]]:
+    """Opens messages of a topic /a in a display of it, in the fixed frame map."""
+    from mcap.writer import Writer
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    with ExitStack() as stack:
+
+        def open_messages(
+            kind: str,
+            *made: Callable[[Any], tuple[str, str, object]],
+            frame: str = "map",
+            **values: object,
+        ) -> Opened:
+            path = tmp_path / "messages.mcap"
+            with path.open("wb") as stream:
+                writer = Writer(stream)
+                writer.start()
+                channels: dict[str, int] = {}
+                for number, make in enumerate(made):
+                    topic, name, message = make(store.types)
+                    if topic not in channels:
+                        text = store.generate_msgdef(name)[0].encode()
+                        schema = writer.register_schema(name, "ros2msg", text)
+                        channels[topic] = writer.register_channel(topic, "cdr", schema)
+                    data = bytes(store.serialize_cdr(message, name))
+                    time = START * 10**9 + number * 10**8
+                    writer.add_message(channels[topic], time, data, time)
+                writer.finish()
+            shown = {
+                "Class": f"rviz_default_plugins/{kind}",
+                "Name": kind,
+                "Enabled": True,
+                "Topic": {"Value": "/a"},
+                **values,
+            }
+            options = {"Fixed Frame": frame}
+            manager = {"Class": "", "Displays": [shown], "Global Options": options}
+            config = tmp_path / "messages.rviz"
+            config.write_text(yaml.safe_dump({"Visualization Manager": manager}))
+            viz = Visualizer(source=f"bag:{path}", config=config, port=0)
+            return Opened(stack.enter_context(viz), kind)
+
+        yield open_messages
