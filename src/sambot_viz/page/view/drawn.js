@@ -20,8 +20,23 @@ const KINDS = {
   text: dressText,
 };
 
+const seen = new WeakSet();
+
+/** Free what an object has on the graphics card when it goes: viser does so for meshes alone.
+ * @param {any} object */
+function freeWhenGone(object) {
+  if (seen.has(object)) return;
+  seen.add(object);
+  object.parent?.addEventListener("removed", () => {
+    object.geometry?.dispose();
+    object.material?.dispose();
+  });
+}
+
 /** Make a picture of an object, if it is one of ours. @param {any} object */
 export function dressDrawn(object) {
   const kind = object.userData?.drawAs;
-  if (kind !== undefined) KINDS[kind]?.(object);
+  if (kind === undefined) return;
+  freeWhenGone(object);
+  KINDS[kind]?.(object);
 }

@@ -29,6 +29,7 @@ const look = {
   frames: 0,
   labels: 0,
   backgrounds: 0,
+  geometries: 0,
 };
 window.sambotVizLook = look;
 
@@ -244,6 +245,7 @@ const hook = () => {
     look.labels = labels;
     look.waiting = finishStudio(studio, scene, camera, background, tags);
     if (look.waiting) mutable.requestRender?.();
+    look.geometries = renderer.info.memory.geometries;
     look.frames += 1;
   };
   if (mutable.requestRender) mutable.requestRender();

@@ -40,7 +40,7 @@ MOST_KEPT = 10_000
 """In place of an unlimited number of poses."""
 
 
-class _Kept:
+class _PastPose:
     """A pose that stays where it was.
 
     Attributes:
@@ -125,7 +125,7 @@ class OdometryDisplay(MessageFilterDisplay):
         super().__init__(context, config, key)
         self._shapes = PoseShapes(context.scene, f"/{key}")
         self._solids = SolidsNode(context.scene, f"/{key}c")
-        self._kept: list[_Kept] = []
+        self._kept: list[_PastPose] = []
 
     @property
     def needs_last_only(self) -> bool:
@@ -153,7 +153,7 @@ class OdometryDisplay(MessageFilterDisplay):
         if self._kept and not self._is_apart(wxyz, position):
             return
         covariance = np.array(message.pose.covariance, np.float64)
-        self._kept.append(_Kept(wxyz, position, T_fixed_frame.matrix, covariance))
+        self._kept.append(_PastPose(wxyz, position, T_fixed_frame.matrix, covariance))
         self._limit()
         self._show()
 
