@@ -21,7 +21,12 @@ from sambot_viz.errors import (
     SourceError,
     UsageError,
 )
-from sambot_viz.moved_by import named_descriptions, open_live, open_recorded
+from sambot_viz.moved_by import (
+    named_descriptions,
+    open_live,
+    open_recorded,
+    refuse_time_of_live,
+)
 from sambot_viz.options import Options, PathLike
 from sambot_viz.robot.model_source import (
     OpenedModel,
@@ -119,6 +124,8 @@ class Inputs:
         self._options = options
         model, config = options.model, options.config
         text = model if isinstance(model, str) and looks_like_text(model) else None
+        if listen is None:
+            refuse_time_of_live(options)
         self.live = open_live(options)
         self.recorded = None if self.live is not None else open_recorded(options)
         self._listened: Listened | None = None
@@ -234,7 +241,7 @@ class Inputs:
             return ()
         found = recorded.problems
         if self._listened is not None:
-            found = (*found, *self._listened.missing)
+            found = (*found, *self._listened.lost, *self._listened.missing)
         if self._options.model is None:
             return found
         return tuple(p for p in found if p.code != "no-description")

@@ -34,6 +34,7 @@ class Listened:
         recorded: what came; None when that was nothing.
         packages: a folder with the files of the robot that its source hands out.
         missing: what is wrong with these files.
+        lost: that the robot left before the time was over.
         seconds: as given.
 
     Raises:
@@ -45,6 +46,7 @@ class Listened:
         self.topics: Mapping[str, SourceTopic] = MappingProxyType({})
         self.recorded: RecordedRobot | None = None
         self.missing: tuple[Problem, ...] = ()
+        self.lost: tuple[Problem, ...] = ()
         self._folder = tempfile.TemporaryDirectory(prefix="sambot-viz-live-")
         self.packages = Path(self._folder.name, "packages")
         try:
@@ -78,8 +80,12 @@ class Listened:
         source.open()
         try:
             self._wait_for_topics(live, changed)
-            until = time.monotonic() + self.seconds
-            while (left := until - time.monotonic()) > 0:
+            begin = time.monotonic()
+            while (left := begin + self.seconds - time.monotonic()) > 0:
+                if not source.status.is_connected:
+                    heard = time.monotonic() - begin
+                    self.lost = (_left(live.name, heard, source.status.sentence),)
+                    break
                 changed.wait(left)
                 changed.clear()
         finally:
@@ -93,10 +99,18 @@ class Listened:
 
     def _wait_for_topics(self, live: LiveRobot, changed: threading.Event) -> None:
         source, until = live.source, time.monotonic() + CONNECTED_WITHIN
-        while not (source.status.is_connected and source.topics()):
+        # It may have left already: then what it said until then is shown.
+        while not source.topics():
             left = until - time.monotonic()
             if left <= 0:
                 none = "; it has no topic" if source.status.is_connected else ""
                 raise SourceError(f"{source.status.sentence}{none}")
             changed.wait(left)
             changed.clear()
+
+
+def _left(name: str, seconds: float, sentence: str) -> Problem:
+    """Say that a robot left while it was listened to."""
+    message = f"the connection was lost after {seconds:.1f} s: {sentence}"
+    hint = "this is what came until then; look at the robot, and run the command again"
+    return Problem("warning", "connection-lost", message, hint, name)

@@ -43,6 +43,18 @@ def open_live(options: Options) -> LiveRobot | None:
     return LiveRobot(open_source(options.live_sources[0]), types, folder)
 
 
+def refuse_time_of_live(options: Options) -> None:
+    """Refuse to look at a time of a robot that is live.
+
+    Raises:
+        UsageError: the options name such a robot, and a time.
+    """
+    if options.at is not None and options.live_sources:
+        raise UsageError(
+            "--at is a time of a recording; of a live robot the last messages are shown"
+        )
+
+
 def open_recorded(options: Options) -> RecordedRobot | None:
     """Open the recordings of the options; None when there are none.
 

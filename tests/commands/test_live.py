@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import re
+import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import count
 from pathlib import Path
 
 import pytest
-from live_peers import FoxglovePeer, free_port
-from patience import patience
+from live_peers import WAIT, FoxglovePeer, free_port
+from patience import patience, until
+from program import address, running
+from protocol_client import ProtocolClient
 from robot_peer import BusyPeer, square_peer
 
 from sambot_viz import listened
@@ -154,7 +157,44 @@ def test_an_address_as_the_model_says_where_it_belongs(
     assert "write --source foxglove+wss://127.0.0.1:1" in capsys.readouterr().err
 
 
-def test_topics_of_a_live_robot_have_no_time_to_look_at(capsys: Capture) -> None:
+@pytest.mark.parametrize("words", [["topics"], []])
+def test_a_live_robot_has_no_time_to_look_at(words: list[str], capsys: Capture) -> None:
     source = "foxglove://127.0.0.1:1"
-    assert main(["topics", "--source", source, "--at", "3"]) == 2
+    assert main([*words, "--source", source, "--at", "3"]) == 2
     assert "--at is a time of a recording" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["topics"], ["frames"]])
+def test_a_robot_that_leaves_while_it_is_listened_to_is_said(
+    words: list[str], busy: BusyPeer, capsys: Capture
+) -> None:
+    def leave() -> None:
+        until(lambda: {"/tf", "/scan"} <= set(busy.subscribed()), WAIT)
+        busy.stop()
+
+    leaving = threading.Thread(target=leave)
+    leaving.start()
+    # What came is shown at once, and not after these seconds.
+    assert main([*words, "--source", busy.uri, "--for", "600"]) == 0
+    leaving.join()
+    out, err = capsys.readouterr()
+    assert "base_link" in out or "/scan" in out
+    assert "warning[connection-lost]: the connection was lost after" in err
+
+
+def test_a_recording_of_the_command_line_says_what_it_has(
+    peer: FoxglovePeer, tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    peer.advertise("/chatter", latched=True)
+    peer.publish("/chatter", "one")
+    path = tmp_path / "one.mcap"
+    words = ("--source", peer.uri, "--record", str(path), "--port", "0")
+    with running(*words, cwd=tmp_path) as process:
+        page = protocol(int(address(process).rsplit(":", 1)[1]))
+        # What is loaded by then can be ended, too.
+        page.wait_until(lambda: "joints/none" in page.rows)
+        until(lambda: path.stat().st_size > 200, WAIT)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=patience(20))
+    (said,) = err.splitlines()
+    assert f"recorded {path}: 1 messages in " in said

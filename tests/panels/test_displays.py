@@ -367,7 +367,7 @@ def test_a_display_is_added_and_the_page_learns_which_it_is(
     assert displays.order()[-1] == "My group"
 
 
-@pytest.mark.parametrize("kind", ["x/Y", "rviz_default_plugins/Path"])
+@pytest.mark.parametrize("kind", ["x/Y", "rviz_default_plugins/DepthCloud"])
 def test_a_type_that_is_not_shown_cannot_be_added(
     displays: Displays, kind: str
 ) -> None:

@@ -272,5 +272,5 @@ def test_a_recording_needs_a_live_robot(peer: RobotPeer, tmp_path: Path) -> None
     there.touch()
     with pytest.raises(UsageError, match="is there already"):
         Visualizer(source=peer.uri, record=there)
-    with pytest.raises(UsageError, match="is not a folder for recordings"):
+    with pytest.raises(UsageError, match="make it with mkdir -p"):
         Visualizer(source=peer.uri, record_dir=tmp_path / "none")

@@ -39,6 +39,7 @@ class Parser(argparse.ArgumentParser):
     Args:
         prog: the command, such as "sambot-viz check".
         groups: which of the `Options` it takes; with any, it takes a MODEL.
+        model: what MODEL is.
         rest: as for `argparse.ArgumentParser`.
 
     Attributes:
@@ -46,16 +47,20 @@ class Parser(argparse.ArgumentParser):
             without one.
     """
 
-    def __init__(self, prog: str, groups: Sequence[Group] = (), **rest: Any) -> None:
+    def __init__(
+        self,
+        prog: str,
+        groups: Sequence[Group] = (),
+        model: str = "model file or package folder",
+        **rest: Any,
+    ) -> None:
         if groups:
             rest.setdefault("epilog", _ABOUT_MODELS)
         super().__init__(prog=prog, **rest)
         self.options = [o for o in declared(Options) if _is_taken(flag_of(o), groups)]
         if groups:
             add = self.add_argument
-            add(
-                "model", nargs="?", metavar="MODEL", help="model file or package folder"
-            )
+            add("model", nargs="?", metavar="MODEL", help=model)
             add(
                 "--model", dest="model_option", metavar="PATH", help="the same, by name"
             )

@@ -108,6 +108,7 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:
         listener.close()
+    _report_recording(inputs)
     return 0
 
 
@@ -124,6 +125,20 @@ def parser() -> Parser:
     add("--version", action="version", version=f"sambot-viz {__version__}")
     add("--open", action="store_true", help="open the page in this machine's browser")
     return made
+
+
+def _report_recording(inputs: Inputs) -> None:
+    """Write what a recording of the command line has, when it has ended."""
+    live, path = inputs.live, inputs.options.record
+    status = None if live is None else live.recorder.status
+    if status is None or path is None or status.is_running:
+        return
+    lacks = status.trouble or status.missing
+    sys.stderr.write(
+        f"sambot-viz: recorded {path}: {status.messages:,} messages in "
+        f"{status.seconds:.1f} s, {status.size / 1e6:.1f} MB"
+        f"{f'; {lacks}' if lacks else ''}\n"
+    )
 
 
 def _refuse_early(inputs: Inputs) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.listened import Listened
-from sambot_viz.moved_by import open_live, open_recorded
+from sambot_viz.moved_by import open_live, open_recorded, refuse_time_of_live
 from sambot_viz.options import Options
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
@@ -47,10 +47,7 @@ def _looked_at(
     options: Options, seconds: float
 ) -> tuple[list[TopicStatus], list[Problem]]:
     """Return what is to be said of each topic, and what is wrong with all of it."""
-    if options.at is not None and options.live_sources:
-        raise UsageError(
-            "--at is a time of a recording; of a live robot the last messages are shown"
-        )
+    refuse_time_of_live(options)
     live = open_live(options)
     if live is not None:
         with closing(Listened(live, seconds, None)) as listened:
@@ -93,7 +90,8 @@ def _of_live(listened: Listened) -> tuple[list[TopicStatus], list[Problem]]:
         rows, found = _of_recording(recorded, recorded.recording.end_ns)
         came = {row.name: row for row in rows}
     silent = silent_topics(listened.topics, came, listened.seconds)
-    return sorted([*came.values(), *silent], key=attrgetter("name")), found
+    rows = sorted([*came.values(), *silent], key=attrgetter("name"))
+    return rows, [*listened.lost, *found]
 
 
 def parser() -> Parser:
@@ -101,6 +99,7 @@ def parser() -> Parser:
     made = Parser(
         prog="sambot-viz topics",
         groups=("model", "source"),
+        model="recording (see below)",
         description="List the topics of a recording or of a live robot: type, number "
         "and rate [Hz] of the messages, and why nothing of a topic is seen. Some of "
         "the first messages are decoded. Exit status: 0 listed, 1 errors found, "

@@ -39,6 +39,8 @@ class SourcePanel(Panel):
         if robot is None:
             return []
         status, sentence = robot.source.status, robot.sentence
+        if status.retry_s is not None and not status.is_connected:
+            sentence += f"; next attempt in {max(1, round(status.retry_s))} s"
         if self._live.doubt is not None:
             sentence += f"; {self._live.doubt.text}"
         behind = lagging(status.dropped + self._live.lost, "this computer")

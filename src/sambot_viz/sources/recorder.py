@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import shlex
 import threading
 from collections.abc import Callable
 from datetime import datetime
@@ -127,7 +128,11 @@ def check_folder(folder: Path) -> None:
         UsageError: it is not a folder, or may not be written.
     """
     if not folder.is_dir():
-        raise UsageError(f"{text(str(folder))} is not a folder for recordings")
+        name = text(str(folder))
+        if not os.path.lexists(folder):
+            made = shlex.quote(name)
+            raise UsageError(f"there is no folder {name}: make it with mkdir -p {made}")
+        raise UsageError(f"{name} is not a folder for recordings")
     if not os.access(folder, os.W_OK):
         raise UsageError(f"the folder {text(str(folder))} may not be written to")
 

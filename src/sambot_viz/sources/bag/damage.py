@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Literal
 
@@ -104,12 +105,14 @@ class Damage:
                 f"{name} was cut off and has no index: {shown} of it can be shown; "
                 "'rosbag reindex' makes the file whole again"
             )
-            hint = f"run 'rosbag reindex {name}' where ROS 1 is installed"
+            command = f"rosbag reindex {shlex.quote(str(self.path))}"
+            hint = f"run '{command}' where ROS 1 is installed"
             return [Problem("warning", "file-cut", message, hint, str(self.path))]
         if self.end == "sqlite":
             how = f"is cut off ({self.lacks})" if self.lacks else "is damaged"
             message = f"{name} {how}: {shown} of it can be shown"
-            hint = "copy the file again; 'sqlite3 FILE .recover' may find more"
+            command = f"sqlite3 {shlex.quote(str(self.path))} .recover"
+            hint = f"copy the file again; '{command}' may find more"
             return [
                 Problem("warning", "file-sqlite-broken", message, hint, str(self.path))
             ]

@@ -6,6 +6,7 @@ It is missing when the recorder was killed, and wrong when somebody has renamed 
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -71,7 +72,8 @@ def _stale(
         return [Problem("warning", "file-missing", _missing(missing), hint, where)]
     verb = "was found and is shown" if len(others) == 1 else "were found and are shown"
     message = f"metadata.yaml names {_listing(missing)}; {_listing(others)} {verb}"
-    hint = f"run 'ros2 bag reindex {folder.name}' to write metadata.yaml again"
+    command = f"ros2 bag reindex {shlex.quote(str(folder))}"
+    hint = f"run '{command}' to write metadata.yaml again"
     return [Problem("info", "metadata-stale", message, hint, where)]
 
 

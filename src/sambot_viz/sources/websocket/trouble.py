@@ -113,6 +113,13 @@ def _lost(error: ConnectionClosed, place: str) -> str:
     return f"{place} has ended the connection" + (f": {reason}" if reason else "")
 
 
+_WITH_TLS = {
+    "foxglove": "tls:=true certfile:=FILE keyfile:=FILE",
+    "rosbridge": "ssl:=true certfile:=FILE keyfile:=FILE",
+}
+"""The arguments of the launch files with which bridges speak TLS."""
+
+
 def _tls(error: Exception, address: Address) -> str:
     place, words = address.label, str(error)
     if isinstance(error, ssl.SSLCertVerificationError):
@@ -154,7 +161,8 @@ def _unreachable(error: OSError, address: Address) -> str:
     if isinstance(error, ConnectionResetError | BrokenPipeError):
         if address.is_secure:
             return (
-                f"{place} breaks off while it connects: if it does not speak TLS, "
+                f"{place} breaks off while it connects: does it speak TLS? Start the "
+                f"bridge with {_WITH_TLS[address.protocol]}, or leave TLS out: "
                 f"--source {address.with_tls(False)}"
             )
         return f"{place} breaks off while it connects: is {start} still running there?"
