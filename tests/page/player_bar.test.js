@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   clock,
+  clocks,
   keyGoes,
   liveTime,
   sizeText,
@@ -17,6 +18,11 @@ test("times are minutes and seconds", () => {
   assert.equal(clock(3723.4), "62:03.4");
   assert.equal(clock(9.9996, 3), "0:10.000");
   assert.equal(clock(7.1234, 3), "0:07.123");
+});
+
+test("a time has the same digits as the length: thousandths at rest", () => {
+  assert.equal(clocks(7.1234, 20.0004, true), "0:07.1 / 0:20.0");
+  assert.equal(clocks(7.1234, 20.0004, false), "0:07.123 / 0:20.000");
 });
 
 test("the time goes on from what was told, and not past the end", () => {

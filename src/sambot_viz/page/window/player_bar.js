@@ -20,6 +20,14 @@ export function clock(seconds, digits = 1) {
   return `${minutes}:${rest < 10 * unit ? "0" : ""}${(rest / unit).toFixed(digits)}`;
 }
 
+/** A time and the length of its recording with the same digits. A step between two messages is
+ * often a few milliseconds: they are only shown at rest.
+ * @param {number} seconds @param {number} most [s] @param {boolean} playing */
+export function clocks(seconds, most, playing) {
+  const digits = playing ? 1 : 3;
+  return `${clock(seconds, digits)} / ${clock(most, digits)}`;
+}
+
 /** Where the time of the recording is, from what was told of it and when.
  * @param {{value: number, at: number}} told @param {number} rate @param {number} most
  * @param {number} now [ms] */
@@ -107,7 +115,7 @@ function LiveTime() {
   firstRos = Math.min(firstRos, ros());
   return html`<span class="time"><${Popup} name="Time" role="dialog" title="ROS and wall time"
     label=${`${clock.simulated ? "Simulated " : ""}${ros().toFixed(1)} s`}>
-    ${() => html`<${Times} ros=${ros} />`}<//></span>`;
+    ${() => html`<${Times} ros=${ros} first=${() => firstRos} />`}<//></span>`;
 }
 
 /** What is recorded, and the button for it where the command line allows it.
@@ -160,15 +168,13 @@ function Controls({ time }) {
   const now = () => (playing ? timeNow(told.current, rate, most, performance.now()) : time.value);
   bar = () => ({ shown: now(), most });
   const shown = now();
-  if (begin) firstRos = Math.min(firstRos, begin + shown);
   /** @param {Key} event */
   const key = (event) => {
     if (keyGoes(event.key, most) === undefined) return;
     event.preventDefault();
     seek(event.key);
   };
-  // A step between two messages is often a few milliseconds.
-  const short = `${clock(shown, playing ? 1 : 3)} / ${clock(most)}`;
+  const short = clocks(shown, most, playing);
   const words = `${clock(shown)} of ${clock(most)}`;
   return html`
     <button class="play needs-control" aria-keyshortcuts="Space" title=${`${playing ? "Pause" : "Play"} (space bar)`}
@@ -186,7 +192,7 @@ function Controls({ time }) {
         go(Number(event.currentTarget.value), gesture.current)}
       onKeyDown=${key} />
     <span class="time"><${Popup} name="Time" role="dialog" title="ROS and wall time" label=${short}>
-      ${() => html`<${Times} ros=${() => begin + now()} />`}<//></span>
+      ${() => html`<${Times} ros=${() => begin + now()} first=${() => begin} />`}<//></span>
     <label class="rate">Rate <select class="needs-control" aria-label="Rate" value=${String(rate)}
       onChange=${(/** @type {any} */ event) => send("player/rate", Number(event.currentTarget.value))}>
       ${[...new Set([...RATES, rate])]
@@ -199,11 +205,12 @@ function Controls({ time }) {
 
 /** When the page was opened [s since 1970]. */
 const OPENED = Date.now() / 1000;
-/** The time of the recording when the page first had it, or that of a jump back before it. */
+/** The time of a live robot when the page first had it, or that of a reset before it [s]. */
 let firstRos = Infinity;
 
-/** What RViz's Time panel shows: seconds since 1970 and since the page was opened, of the
- * recording and of the wall. @param {number} ros @param {number} wall @param {number} first
+/** What RViz's Time panel shows: seconds since 1970 and since the first of them, of the messages
+ * and of the wall. @param {number} ros @param {number} wall
+ * @param {number} first the begin of a recording, so that what elapsed is the time of the player
  * @returns {[string, string][]} */
 export const times = (ros, wall, first, opened = OPENED) => [
   ["ROS Time", ros.toFixed(2)],
@@ -212,14 +219,14 @@ export const times = (ros, wall, first, opened = OPENED) => [
   ["Wall Elapsed", (wall - opened).toFixed(2)],
 ];
 
-/** @param {{ros: () => number}} props */
-function Times({ ros }) {
+/** @param {{ros: () => number, first: () => number}} props */
+function Times({ ros, first }) {
   const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
   useEffect(() => {
     const timer = setInterval(() => again(0), 100);
     return () => clearInterval(timer);
   }, []);
-  return html`<table class="times">${times(ros(), Date.now() / 1000, firstRos).map(
+  return html`<table class="times">${times(ros(), Date.now() / 1000, first()).map(
     ([name, seconds]) =>
       html`<tr key=${name}><th scope="row">${name}</th><td>${seconds} s</td></tr>`,
   )}</table>`;

@@ -78,11 +78,14 @@ export function Popup({ label, name, role, title, opened, children }) {
   </span>`;
 }
 
-/** Below the button, inside the window. @param {HTMLElement} button @param {HTMLElement} panel */
+/** Below the button, inside the window. What is in the bar below the view opens above all of it:
+ * on a phone the tabs are next below it. @param {HTMLElement} button @param {HTMLElement} panel */
 function place(button, panel) {
+  const bar = button.closest(".player-bar");
   const at = button.getBoundingClientRect();
   const size = panel.getBoundingClientRect();
-  const below = at.bottom + size.height + EDGE < innerHeight;
+  const above = (bar || button).getBoundingClientRect().top - size.height - 2;
+  const below = !bar && at.bottom + size.height + EDGE < innerHeight;
   panel.style.left = `${Math.max(EDGE, Math.min(at.left, innerWidth - size.width - EDGE))}px`;
-  panel.style.top = `${below ? at.bottom + 2 : Math.max(EDGE, at.top - size.height - 2)}px`;
+  panel.style.top = `${below ? at.bottom + 2 : Math.max(EDGE, above)}px`;
 }
