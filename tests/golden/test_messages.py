@@ -1,9 +1,12 @@
 """Displays of messages beside the pictures of the real RViz (recorded by the project).
 
-Two measures for every case:
+Three measures for every case:
 
 - probes: of the pixels whose colour a formula of RViz says, those that are in a flat
   place of its picture, the part that has that colour within 8 of 255 in ours;
+- colours: of the pixels that differ from the background in RViz's picture, the part
+  that has a pixel of about that colour in ours within one pixel (thin lines and dots
+  are smoothed differently);
 - outline: of the pixels that differ from the background in one picture, the part that
   has such a pixel of the other within one pixel.
 
@@ -33,6 +36,7 @@ DATA = Path(__file__).parent / "messages"
 DIFFERENT = 12
 """A channel this far from the background belongs to something that is drawn."""
 SAME = 8
+ABOUT = 40
 BACKGROUND = 48
 
 Image = npt.NDArray[np.int16]
@@ -44,6 +48,7 @@ class Limits:
     """The least a case may reach, and why it is not 1."""
 
     probes: float = 1.0
+    colors: float = 0.9
     outline: float = 0.99
     reason: str = ""
 
@@ -101,6 +106,31 @@ def outline(ours: Image, golden: Image, counts: Mask) -> float:
     return float(near / max(1, a.sum() + b.sum()))
 
 
+def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) -> None:
+    """The outline of a footprint is green, and the costmap is blended over the rest."""
+    folder = DATA / "nav2_scene_top"
+    golden = picture(folder / "render.png")
+    ours = drawn_by_us(chromium, folder, golden)
+
+    def green(image: Image) -> int:
+        red, green, blue = (image[..., channel] for channel in range(3))
+        return int(((green > 180) & (red < 90) & (blue < 90)).sum())
+
+    assert green(ours) == pytest.approx(green(golden), rel=0.1)
+
+
+def colors(ours: Image, golden: Image, counts: Mask) -> float:
+    wanted = shown(golden) & counts
+    height, width = wanted.shape
+    padded = np.pad(ours, ((1, 1), (1, 1), (0, 0)), "edge")
+    found = np.zeros_like(wanted)
+    for y in range(3):
+        for x in range(3):
+            near = padded[y : y + height, x : x + width]
+            found |= np.abs(near - golden).max(axis=-1) <= ABOUT
+    return float((found & wanted).sum() / max(1, wanted.sum()))
+
+
 @pytest.mark.parametrize("name", list(CASES))
 def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
     folder, limits = DATA / name, CASES[name]
@@ -114,6 +144,7 @@ def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
     # A line along the border belongs to the picture or does not, by a rounding.
     counts[[0, -1]] = counts[:, [0, -1]] = False
     assert outline(ours, golden, counts) >= limits.outline, limits.reason
+    assert colors(ours, golden, counts) >= limits.colors, limits.reason
     wrong = [
         (probe["name"], ours[y, x].tolist(), probe["render_rgb"])
         for probe in probes(folder)

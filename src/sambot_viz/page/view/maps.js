@@ -114,7 +114,11 @@ export function dressTile(object) {
     Object.assign(material, { blending, transparent, needsUpdate: true });
   }
   material.depthWrite = opaque && !map.behind;
-  // Away from the camera: lines in its plane are in front of it.
-  Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 16 });
+  // Away from the camera: lines in its plane are in front of it. Where depth is reversed three.js
+  // turns the factor round, and not the units.
+  Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1 });
+  object.onBeforeRender = (/** @type {any} */ renderer) => {
+    material.polygonOffsetUnits = renderer.capabilities.reversedDepthBuffer ? -16 : 16;
+  };
   object.renderOrder = map.behind ? BEHIND : 0;
 }
