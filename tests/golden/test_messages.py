@@ -116,7 +116,8 @@ def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) 
         red, green, blue = (image[..., channel] for channel in range(3))
         return int(((green > 180) & (red < 90) & (blue < 90)).sum())
 
-    assert green(ours) == pytest.approx(green(golden), rel=0.1)
+    # The two smooth thin lines differently; behind the costmap it is a seventh.
+    assert green(ours) > 0.6 * green(golden)
 
 
 def colors(ours: Image, golden: Image, counts: Mask) -> float:
