@@ -109,7 +109,7 @@ ROOMS: Mapping[str, Row] = {
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "displays": Row(
-        "frames meshes robot rviz sources topics viser_private", "numpy viser"
+        "frames meshes robot rviz sources topics viser_private", "PIL numpy viser"
     ),
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),

@@ -18,6 +18,7 @@ import numpy as np
 import viser
 
 from sambot_viz.displays.picking.pick_geometry import Part, PickGeometry, Selectable
+from sambot_viz.displays.pictures import Pictures
 from sambot_viz.displays.robot_display import (
     Descriptions,
     ModelReader,
@@ -144,6 +145,7 @@ class DisplayContext:
         highlighted: links of that robot that a program highlights.
         messages: those that displays draw; None where none come.
         now: the time of messages [s since 1970]; None where no messages come.
+        pictures: those that panels show beside the view.
         apply: runs a function that draws, from any thread, and sends what it draws.
     """
 
@@ -163,6 +165,7 @@ class DisplayContext:
     highlighted: set[str] = field(default_factory=set[str])
     messages: TopicMessages | None = None
     now: Callable[[], float] | None = None
+    pictures: Pictures = field(default_factory=Pictures)
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
 
     def color_of(self, link: str) -> Rgb | None:

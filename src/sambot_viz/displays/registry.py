@@ -11,6 +11,7 @@ from sambot_viz.displays.data.cloud.point_clouds import (
     PointCloud2Display,
     PointCloudDisplay,
 )
+from sambot_viz.displays.data.image.image import ImageDisplay
 from sambot_viz.displays.data.map import MapDisplay
 from sambot_viz.displays.data.path import PathDisplay
 from sambot_viz.displays.data.point_stamped import PointStampedDisplay
@@ -52,7 +53,6 @@ NOT_SHOWN: dict[str, str] = {
         "FluidPressure": "Pressures as coloured points.",
         "GridCells": "Cells of a grid, such as obstacles.",
         "Illuminance": "Brightnesses as coloured points.",
-        "Image": "The picture of a camera in a window.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
         "Marker": "Shapes and texts that a program draws.",
         "MarkerArray": "Many shapes and texts that a program draws.",
@@ -71,6 +71,7 @@ DISPLAYS: dict[str, type[Display]] = {
         AxesDisplay,
         GridDisplay,
         GroupDisplay,
+        ImageDisplay,
         LaserScanDisplay,
         MapDisplay,
         OdometryDisplay,

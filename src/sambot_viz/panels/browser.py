@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
+from sambot_viz.panels.images import ImagesPanel
 from sambot_viz.panels.joints.poses import GhostPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
@@ -41,6 +42,7 @@ class BrowserPanels:
 
     Attributes:
         store: the rows, for the page.
+        pictures: those of cameras, for the page.
         item: finds a row, data or command of this browser by its id.
         close: follows the browser no longer.
     """
@@ -60,7 +62,9 @@ class BrowserPanels:
         self._shared_row = shared_row
         self._client = client
         self._sync: RowSync | None = None
-        panels = self._panels(session, files, ask_page)
+        images = ImagesPanel(session.scene, session.document)
+        self.pictures = images.pictures
+        panels = [images, *self._panels(session, files, ask_page)]
         if invite is not None:
             roles, number = session.roles, client.client_id
             panels.append(InvitePanel(roles, number, invite, self._remake))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import gzip
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Literal
+from typing import Literal, Protocol
 
 import msgspec
 
@@ -20,7 +20,7 @@ LONG = 4096
 """A longer patch is sent compressed, in a binary frame [bytes]."""
 COMPRESSED = b"\1"
 """The first byte of a binary frame: a message in JSON, compressed by gzip. Other
-numbers are for what is not JSON, such as images."""
+numbers are for what is not JSON, such as pictures (`displays.pictures`)."""
 
 Scope = Literal["session", "browser"]
 
@@ -136,23 +136,42 @@ def _packed(patch: Json) -> str | bytes:
     return COMPRESSED + gzip.compress(content, 6, mtime=0)
 
 
+class Versioned(Protocol):
+    """What a page lacks is asked for by the number of what it has; as of a RowStore."""
+
+    listeners: list[Callable[[], object]]
+
+    @property
+    def version(self) -> int:
+        """The number of the last change."""
+        ...
+
+    def since(self, version: int) -> tuple[int, str | bytes | None]:
+        """Return the number of what the page has then, and what it lacks, if any."""
+        ...
+
+
 class ClientRows:
     """All rows that one client sees: those of its session, and its own.
 
     Args:
         stores: both, in this order.
+        others: what else is sent to it.
     """
 
-    def __init__(self, stores: Sequence[RowStore]) -> None:
+    def __init__(
+        self, stores: Sequence[RowStore], others: Sequence[Versioned] = ()
+    ) -> None:
         self.stores = tuple(stores)
+        self.sent: tuple[Versioned, ...] = (*stores, *others)
 
     def listen(self, listener: Callable[[], object]) -> Callable[[], None]:
         """Call a listener after changes; returns a function that ends that."""
-        for store in self.stores:
+        for store in self.sent:
             store.listeners.append(listener)
 
         def end() -> None:
-            for store in self.stores:
+            for store in self.sent:
                 store.listeners.remove(listener)
 
         return end

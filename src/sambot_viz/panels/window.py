@@ -144,7 +144,7 @@ class Window:
         browser = self._browsers.get(client_id)
         if browser is None:
             return None
-        return ClientRows((self._shared.store, browser.store))
+        return ClientRows((self._shared.store, browser.store), (browser.pictures,))
 
     # What browsers send
 

@@ -102,7 +102,7 @@ class Channel:
                     loop.call_soon_threadsafe(self._news.set)
 
         end = rows.listen(wake)
-        versions = dict.fromkeys(rows.stores, 0)
+        versions = dict.fromkeys(rows.sent, 0)
         try:
             while True:
                 # Cleared first: what changes from here on is sent in the next round.

@@ -49,6 +49,8 @@ _CLASSES = {
     "nav_msgs/msg/OccupancyGrid": "Map",
     "nav_msgs/msg/Odometry": "Odometry",
     "nav_msgs/msg/Path": "Path",
+    "sensor_msgs/msg/CompressedImage": "Image",
+    "sensor_msgs/msg/Image": "Image",
     "sensor_msgs/msg/LaserScan": "LaserScan",
     "sensor_msgs/msg/PointCloud": "PointCloud",
     "sensor_msgs/msg/PointCloud2": "PointCloud2",

@@ -5,6 +5,7 @@ import { html } from "../vendor/preact.js";
 import { DisplaysPanel } from "../panels/displays.js";
 import { DrivePanel } from "../panels/drive.js";
 import { FramesPanel } from "../panels/frames.js";
+import { ImagesPanel } from "../panels/images.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
 import { TopicsPanel } from "../panels/topics.js";
@@ -25,6 +26,7 @@ export const tab = new Cell("joints", "tab");
 export const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   frames: { title: "Frames", content: FramesPanel },
+  images: { title: "Images", content: ImagesPanel },
   topics: { title: "Topics", content: TopicsPanel },
   selection: {
     title: "Selection",

@@ -135,7 +135,7 @@ function useBelow(names, current) {
   const { height } = room.use();
   const joints = rows.panels.get("joints") || [];
   const fits = height >= HIGH && current === "joints" && joints.length <= FEW_JOINTS;
-  return fits ? ["drive", "frames"].find((name) => names.includes(name)) : undefined;
+  return fits ? ["images", "drive", "frames"].find((name) => names.includes(name)) : undefined;
 }
 
 function Sheet() {

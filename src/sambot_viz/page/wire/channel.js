@@ -2,6 +2,7 @@
 /* The way between the rows and the server: rows arrive, and edits leave, on the page's own
  * websocket. Edits wait here while there is no connection. */
 
+import { pictures } from "./pictures.js";
 import { Rows, same } from "./rows.js";
 import { Socket } from "./socket.js";
 
@@ -140,7 +141,7 @@ export function mayChange() {
 /** Take rows from now on. @param {string} [address] of the server */
 export function connect(address = window.sambotSocket || "") {
   socket = new Socket(address, {
-    take: (part) => rows.take(part.of, part),
+    take: (part) => (part.picture ? pictures.take(part.picture) : rows.take(part.of, part)),
     // Who hears it notes how things were, and holds edits back.
     lost: () => rows.notify(CUT),
     removed: () => rows.notify(REMOVED),

@@ -5,6 +5,7 @@
  * knows that both belong to one client. The server closes it when viser's connection ends.
  */
 
+import { PICTURE, unpacked } from "./pictures.js";
 import { retries } from "./retries.js";
 
 const SUBPROTOCOL = "sambot-viz-1";
@@ -129,10 +130,11 @@ export class Socket {
   }
 }
 
-/** What a frame says: JSON, in a binary frame behind its kind. @param {string | ArrayBuffer} data */
+/** What a frame says: JSON, in a binary frame behind its kind, or a picture. @param {string | ArrayBuffer} data */
 async function decoded(data) {
   if (typeof data === "string") return JSON.parse(data);
   const [kind] = new Uint8Array(data, 0, 1);
+  if (kind === PICTURE) return { picture: unpacked(data) };
   if (kind !== 1) throw new Error(`unknown kind of frame: ${kind}`);
   const packed = new Blob([new Uint8Array(data, 1)]).stream();
   return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).json();

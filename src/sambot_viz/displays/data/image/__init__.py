@@ -1,0 +1,1 @@
+"""The display of camera pictures, in a panel of the page."""

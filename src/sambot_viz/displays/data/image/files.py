@@ -1,0 +1,87 @@
+"""Files of pictures: those of sensor_msgs/CompressedImage, and those we make."""
+
+from __future__ import annotations
+
+import io
+import struct
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from sambot_viz.displays.data.image.encodings import (
+    IMAGE,
+    Bytes,
+    Values,
+    require_size,
+)
+from sambot_viz.displays.data.message_filter import MessageRefused
+from sambot_viz.displays.pictures import CameraPicture
+
+FEW_PIXELS = 100_000
+"""Up to so many the pixels are kept exactly; a larger picture becomes a JPEG."""
+QUALITY = 90
+_DEPTH_HEADER = 12
+_TYPES = {"JPEG": "image/jpeg", "PNG": "image/png"}
+
+
+def file_of(pixels: Bytes) -> CameraPicture:
+    """Return pixels as a file, (H, W) grey or (H, W, 3) RGB."""
+    from PIL import Image
+
+    image = Image.fromarray(np.ascontiguousarray(pixels))
+    stream = io.BytesIO()
+    is_small = image.width * image.height <= FEW_PIXELS
+    if is_small:
+        image.save(stream, "PNG", compress_level=1)
+    else:
+        image.save(stream, "JPEG", quality=QUALITY, subsampling=0)
+    kind = _TYPES["PNG" if is_small else "JPEG"]
+    return CameraPicture(kind, image.width, image.height, stream.getvalue())
+
+
+def compressed(message: Any, scale: Callable[[Values], Bytes]) -> CameraPicture:
+    """Return a sensor_msgs/CompressedImage for browsers, as it came where they read it.
+
+    Args:
+        message: with its fields.
+        scale: makes grey of 16-bit and float values, (H, W).
+
+    Raises:
+        MessageRefused: it cannot be shown, and why.
+    """
+    content, of = bytes(message.data), str(message.format)
+    if "compressedDepth" in of:
+        return _depth(content, of, scale)
+    image = _open(content, of)
+    if image.mode.startswith(("I", "F")):
+        return file_of(scale(np.asarray(image, np.uint16)))
+    return CameraPicture(_TYPES[image.format], image.width, image.height, content)
+
+
+def _open(content: bytes, of: str) -> Any:
+    """Return a file as an image, of which only the head is read."""
+    from PIL import Image
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            image = Image.open(io.BytesIO(content), formats=tuple(_TYPES))
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError):
+        text = f"The image of the format '{of[:60]}' is not a JPEG or PNG that is read"
+        raise MessageRefused(text, IMAGE) from None
+    require_size(image.width, image.height)
+    return image
+
+
+def _depth(content: bytes, of: str, scale: Callable[[Values], Bytes]) -> CameraPicture:
+    """Return the file of a picture with depths behind a short head of their own."""
+    image = _open(content[_DEPTH_HEADER:], of)
+    stored = np.asarray(image, np.uint16)
+    if not of.startswith("32FC1"):
+        return file_of(scale(stored))
+    quant_a, quant_b = struct.unpack_from("<ff", content, 4)
+    with np.errstate(all="ignore"):
+        metres = quant_a / (stored.astype(np.float32) - quant_b)
+    return file_of(scale(np.where(stored == 0, np.nan, metres).astype(np.float32)))

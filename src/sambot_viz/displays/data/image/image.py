@@ -1,0 +1,155 @@
+"""Image: the pictures of a camera, in a panel beside the view."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values, read_image
+from sambot_viz.displays.data.image.files import compressed, file_of
+from sambot_viz.displays.data.image.ranges import MOST_FRAMES, Ranges, scaled
+from sambot_viz.displays.data.message_filter import MALFORMED, MessageRefused
+from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.pictures import NO_PICTURE
+from sambot_viz.errors import DecodeError
+from sambot_viz.rviz import BoolProperty, DisplayConfig, FloatProperty, IntProperty
+from sambot_viz.sources.message import Recorded
+
+NONE_YET = "No Image received"
+NORMALIZE = "Normalize Range"
+
+
+class ImageDisplay(TopicDisplay):
+    """The newest picture of sensor_msgs/Image or CompressedImage.
+
+    It is decoded while some page shows it.
+    """
+
+    kind = "rviz_default_plugins/Image"
+    help = "The pictures of a camera, in the panel Images."
+    types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
+    properties = (
+        topic_property(is_filtered=False),
+        BoolProperty(
+            NORMALIZE,
+            default=True,
+            help="Show 16-bit and float values from the least to the greatest one.",
+        ),
+        FloatProperty(
+            "Min Value",
+            default=0.0,
+            help="The whole number that is black.",
+            hidden_unless=(NORMALIZE, False),
+        ),
+        FloatProperty(
+            "Max Value",
+            default=1.0,
+            help="The whole number that is white.",
+            hidden_unless=(NORMALIZE, False),
+        ),
+        IntProperty(
+            "Median window",
+            default=5,
+            minimum=1,
+            maximum=MOST_FRAMES,
+            help="The range is the median over so many pictures.",
+            hidden_unless=(NORMALIZE, True),
+        ),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is decoded before somebody looks."""
+        super().__init__(context, config, key)
+        self._newest: Recorded | None = None
+        self._ranges = Ranges()
+        self._measured: Recorded | None = None
+        self._made: tuple[object, ...] | None = None
+
+    @property
+    def most_waiting(self) -> int:
+        """Return 1: only the newest picture is shown."""
+        return 1
+
+    def draw(self) -> None:
+        """Listen to the topic, and show what has come."""
+        self.context.pictures.begin(self.key, self._wake)
+        super().draw()
+
+    def clear(self) -> None:
+        """Listen no longer."""
+        super().clear()
+        self.context.pictures.end(self.key)
+
+    def messages_came(self) -> None:
+        """Show the newest picture, if somebody looks."""
+        if self.subscription is None:
+            return
+        if came := self.subscription.drain():
+            self._newest = came[-1]
+        self.redraw()
+
+    def forget(self) -> None:
+        """Show no picture."""
+        self._newest = self._measured = self._made = None
+        self._ranges.clear()
+        self.status.remove(IMAGE)
+        if self.key in self.context.pictures:
+            self.context.pictures.put(self.key, NO_PICTURE)
+
+    def redraw(self) -> None:
+        """Make the picture again when a setting is another one."""
+        pictures = self.context.pictures
+        if self._newest is None:
+            if self.context.messages is not None and self.topic:
+                self.status.set(IMAGE, "Warn", NONE_YET)
+            return
+        if not pictures.is_wanted(self.key):
+            self.status.remove(IMAGE)
+            return
+        names = (NORMALIZE, "Min Value", "Max Value", "Median window")
+        made = (self._newest, *(self.config.get(name) for name in names))
+        if self._made is not None and all(map(_same, made, self._made)):
+            return
+        self._made = made
+        try:
+            self._show(self._newest)
+        except MessageRefused as refused:
+            self._refuse(refused.text)
+        except DecodeError as error:
+            self._refuse(f"It cannot be decoded: {error}")
+        # Files of pictures break in more ways than those of a message.
+        except (*MALFORMED, OSError, SyntaxError) as error:
+            self._refuse(f"It cannot be shown: {error}")
+        else:
+            self.status.remove(IMAGE)
+
+    def _wake(self) -> None:
+        self.redraw()
+
+    def _refuse(self, text: str) -> None:
+        self.status.set(IMAGE, "Error", text)
+        self.context.pictures.put(self.key, NO_PICTURE)
+
+    def _show(self, came: Recorded) -> None:
+        if self.subscription is None:
+            return
+        message = self.subscription.decode(came)
+        if hasattr(message, "format"):
+            picture = compressed(message, self._grey)
+        else:
+            picture = file_of(read_image(message, self._grey))
+        self.context.pictures.put(self.key, picture)
+
+    def _grey(self, values: Values) -> Bytes:
+        get: Any = self.config.get
+        if not get(NORMALIZE):
+            return scaled(values, (get("Min Value"), get("Max Value")))
+        if self._measured is not self._newest:
+            self._measured = self._newest
+            self._ranges.add(values)
+        return scaled(values, self._ranges.median(int(get("Median window"))))
+
+
+def _same(one: object, other: object) -> bool:
+    # Of messages only the identity counts: to compare them means all their bytes.
+    return one is other if isinstance(one, Recorded) else one == other
