@@ -80,6 +80,23 @@ def test_a_broken_config_is_served_with_the_default_displays_until_it_is_fixed(
         assert read_until(process, "fixed") == "sambot-viz: all problems are fixed\n"
 
 
+def test_a_problem_that_stays_is_written_once(tmp_path: Path) -> None:
+    model, config = tmp_path / "arm.urdf", tmp_path / "own.rviz"
+    model.write_text(ARM)
+    config.write_text(BROKEN_RVIZ)
+    words = ("arm.urdf", "-d", "own.rviz", "--port", "0")
+    with running(*words, cwd=tmp_path) as process:
+        assert "error[config-yaml]" in read_until(process, "the page is open")
+        model.write_text(NOT_XML)
+        said = read_until(process, "error[xml-")
+        model.write_text(ARM)
+        said += read_until(process, "fixed; what is left is listed above")
+        assert "config-yaml" not in said
+        # Another mistake in it is news.
+        config.write_text(f"# mine\n{BROKEN_RVIZ}")
+        assert "own.rviz:4:2" in read_until(process, "error[config-yaml]")
+
+
 @pytest.mark.parametrize(
     ("model", "config", "words", "said"),
     [

@@ -102,7 +102,7 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer.of_inputs(inputs, listener):
-            _report_start(inputs)
+            _report_start(inputs, report)
             stop.wait()
     except KeyboardInterrupt:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
@@ -163,12 +163,12 @@ def _refuse_early(inputs: Inputs) -> None:
             options.start_pose.state(inputs.robot())
 
 
-def _report_start(inputs: Inputs) -> None:
+def _report_start(inputs: Inputs, report: _Reports) -> None:
     """Write what is wrong with the model, the config and the start pose."""
     from sambot_viz.commands.command_line import start_state
 
     options = inputs.options
-    write_problems(inputs.problems(), model=options.model)
+    report.write(inputs.problems())
     if inputs.refusal() is None:
         start_state(inputs.robot(), options)
     if inputs.refusal() is not None or inputs.broken_config is not None:
@@ -176,7 +176,7 @@ def _report_start(inputs: Inputs) -> None:
 
 
 class _Reports:
-    """Writes what is wrong after a reload, on the terminal as in the page.
+    """Writes what is wrong, at the start and after a reload, each problem once.
 
     Attributes:
         model: the model as the user wrote it.
@@ -184,11 +184,22 @@ class _Reports:
 
     model: object = None
 
+    def __init__(self) -> None:
+        self._written: set[Problem] = set()
+
     def __call__(self, problems: Sequence[Problem]) -> None:
-        if problems:
-            write_problems(problems, model=self.model)
-        else:
+        """Write what a reload has changed."""
+        if not problems:
             sys.stderr.write("sambot-viz: all problems are fixed\n")
+        elif self._written.issuperset(problems):
+            sys.stderr.write("sambot-viz: fixed; what is left is listed above\n")
+        self.write(problems)
+
+    def write(self, problems: Sequence[Problem]) -> None:
+        """Write those problems that are not on the terminal as the last ones."""
+        new = [problem for problem in problems if problem not in self._written]
+        self._written = set(problems)
+        write_problems(new, model=self.model)
 
 
 def _announce(url: str, open_it: bool, whose: str = "") -> None:
