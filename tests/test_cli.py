@@ -44,6 +44,7 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
     [
         (["exprt", "x.urdf"], "did you mean 'export'?"),
         (["chek"], "did you mean 'check'?"),
+        (["--config", "own.rviz"], "unrecognized arguments: --config"),
         (["--prot", "80"], "did you mean --port?"),
         (["check", "--formt=json"], "did you mean --format?"),
         (["--zzz"], "unrecognized arguments: --zzz; see sambot-viz --help"),
@@ -63,6 +64,46 @@ def test_a_mistyped_word_is_answered_with_the_nearest(
         code = end.code
     assert code == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "offered"),
+    [
+        (["-d", "arn.rviz"], "did you mean 'arm.rviz'?"),
+        (["config", "arn.rviz"], "did you mean 'arm.rviz'?"),
+        (["-d", "arm.urdf.bak"], "known: 'arm.rviz', 'k.rviz'"),
+        # A robot is no config, and the ending says nothing of the name.
+        (["-d", "robot.rviz"], "known: 'arm.rviz', 'k.rviz'"),
+        (["robot.rviz"], "known: 'arm.rviz', 'k.rviz'"),
+        (["arm.rvi"], "did you mean 'arm.urdf'?"),
+        (["arn.urdf.xacro"], "did you mean 'arm.urdf.xacro'?"),
+        (["xyz.urdf"], "known: 'arm.urdf', 'arm.urdf.xacro', 'robots.urdf'"),
+    ],
+)
+def test_a_mistyped_file_is_answered_with_one_of_its_kind(
+    words: list[str],
+    offered: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("arm.urdf", "arm.urdf.xacro", "robots.urdf", "arm.rviz", "k.rviz"):
+        Path(name).touch()
+    assert main(words) == 2
+    assert capsys.readouterr().err.endswith(f"there is no such file; {offered}\n")
+
+
+@pytest.mark.parametrize("name", ["notes.mcap", "notes.db3", "notes.bag", "none.mcap"])
+def test_what_is_wrong_with_a_recording_is_said_as_that_of_a_model(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if name.startswith("notes"):
+        Path(name).write_text("a note\n")
+    assert main(["topics", "--source", f"bag:{name}"]) == 1
+    err = capsys.readouterr().err
+    assert err.startswith(f"{name}: error[file-") and err.count("error") == 1
 
 
 def test_a_model_whose_name_is_nearly_a_command_is_a_model(

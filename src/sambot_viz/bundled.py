@@ -30,6 +30,7 @@ DEFAULT_MODEL = "sam_bot.urdf.xacro"
 DEFAULT_CONFIG = "urdf_config.rviz"
 """The config that is used when none is given."""
 
+_CONFIG_ENDING = ".rviz"
 _CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
 
 
@@ -137,11 +138,11 @@ def find(model: Path | None, config: Path | None = None) -> Found:
     """
     # os.path answers for names that no file system takes; Path raises OSError.
     if config is not None and not os.path.isfile(config):
-        raise UsageError(_missing("config", config))
+        raise UsageError(missing("config", config))
     if model is None:
         return Found(model_path(), config)
     if not os.path.exists(model):
-        raise UsageError(_missing("model", model))
+        raise UsageError(missing("model", model))
     if not model.is_dir():
         return Found(model, config)
     found = _model_in(model)
@@ -168,7 +169,7 @@ def _model_in(folder: Path) -> Path:
 
 def _config_in(folder: Path) -> Path | None:
     for name in _CONFIG_FOLDERS:
-        files = _files(folder / name, (".rviz",))
+        files = _files(folder / name, (_CONFIG_ENDING,))
         for path in files:
             if path.name == DEFAULT_CONFIG:
                 return path
@@ -184,16 +185,27 @@ def _files(folder: Path, endings: Iterable[str]) -> list[Path]:
     return sorted(p for p in folder.iterdir() if p.name.endswith(ends) and p.is_file())
 
 
-def _missing(what: str, path: Path) -> str:
+def missing(what: str, path: Path) -> str:
+    """Say that a model or a config does not exist, and which file may be meant."""
+    endings = MODEL_ENDINGS
+    if what == "config" or path.suffix == _CONFIG_ENDING:
+        what, endings = "config", (_CONFIG_ENDING,)
+    elif path.suffix in RECORDING_ENDINGS:
+        what, endings = "recording", RECORDING_ENDINGS
     folder = path.parent
     if not folder.is_dir():
         return f"no {what} '{path}': the folder '{folder}' does not exist"
-    endings = MODEL_ENDINGS if what == "model" else (".rviz",)
-    if what == "model" and path.suffix in RECORDING_ENDINGS:
-        what, endings = "recording", RECORDING_ENDINGS
     names = [p.name for p in _files(folder, endings)]
-    near = did_you_mean(path.name, names) if names else f"'{folder}' has no {what}"
+    near = f"'{folder}' has no {what}"
+    if names:
+        near = did_you_mean(path.name, names, _before_ending)
     return f"no {what} '{path}': there is no such file; {near}"
+
+
+def _before_ending(name: str) -> str:
+    """Return a name without its ending, which all files of a kind share."""
+    known = (e for e in MODEL_ENDINGS if name.endswith(e))
+    return name.removesuffix(next(known, Path(name).suffix))
 
 
 def poses_beside(model: Path) -> Path:

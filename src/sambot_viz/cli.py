@@ -20,6 +20,7 @@ from sambot_viz.errors import (
     Problem,
     RobotError,
     SambotVizError,
+    SourceError,
     UsageError,
     nearest,
 )
@@ -59,11 +60,13 @@ def main(argv: Sequence[str] | None = None, notes: Sequence[Problem] = ()) -> in
 def _run(words: list[str], notes: Sequence[Problem]) -> int:
     name = words.pop(0) if words and words[0] in COMMANDS else "show"
     try:
-        if name == "show" and words:
+        if name == "show" and words and not words[0].startswith("-"):
             _refuse_mistyped(words[0])
         command = importlib.import_module(f"sambot_viz.commands.{name}")
         return int(command.run(words, notes) if notes else command.run(words))
-    except (RobotError, ConfigError) as error:
+    except (RobotError, ConfigError, SourceError) as error:
+        if not error.problems:
+            return _complain(error, ERRORS)
         write_problems(error.problems)
         return ERRORS
     except UsageError as error:

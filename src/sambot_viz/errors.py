@@ -34,7 +34,7 @@ from __future__ import annotations
 
 import difflib
 import traceback
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
@@ -252,12 +252,15 @@ def nearest(name: str, names: Iterable[str], likeness: float = 0.6) -> str | Non
     return near[0] if near else None
 
 
-def did_you_mean(name: str, names: Iterable[str]) -> str:
+def did_you_mean(
+    name: str, names: Iterable[str], part: Callable[[str], str] = str
+) -> str:
     """Return a sentence that offers the nearest valid names.
 
     Args:
         name: what was asked for.
         names: what exists.
+        part: the part of a name that is compared, such as that before its ending.
 
     Returns:
         "did you mean 'base_link'?", or the list of what exists, or "there are none".
@@ -265,7 +268,9 @@ def did_you_mean(name: str, names: Iterable[str]) -> str:
     known: Sequence[str] = list(names)
     if not known:
         return "there are none"
-    if near := nearest(name, known):
+    like = nearest(part(name), map(part, known))
+    same = (one for one in known if part(one) == like)
+    if near := nearest(name, same, likeness=0.0):
         return f"did you mean '{near}'?"
     shown = ", ".join(f"'{n}'" for n in known[:8])
     return f"known: {shown}" + (", …" if len(known) > 8 else "")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os.path
 import sys
 from pathlib import Path
 
+from sambot_viz.bundled import missing
 from sambot_viz.commands.command_line import Parser
 from sambot_viz.errors import UsageError
 from sambot_viz.problems import write_problems
@@ -14,8 +16,8 @@ from sambot_viz.problems import write_problems
 def run(words: list[str]) -> int:
     """Report on a config; 0 when it can be shown, 1 when it is not a .rviz document."""
     options = parser().parse_args(words)
-    if not Path(options.file).is_file():
-        raise UsageError(f"no config '{options.file}': there is no such file")
+    if not os.path.isfile(options.file):
+        raise UsageError(missing("config", Path(options.file)))
     from sambot_viz.inputs import load_config
     from sambot_viz.rviz.support_report import config_report
 
