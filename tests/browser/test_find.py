@@ -73,7 +73,15 @@ def test_ctrl_k_goes_to_a_display_a_joint_and_a_frame(user: User) -> None:
         go_to(user, typed)
         user.until(lambda row=row: focused_row(user) == row)
     go_to(user, "tf marker")
-    user.until(lambda: user.row("Displays", "TF", "Marker Scale").state("focused"))
+    scale = ("Displays", "TF", "Marker Scale")
+    user.until(lambda: user.row(*scale).state("focused"))
+    # The keys are still for tools, until Enter.
+    user.keys("m")
+    user.until(lambda: user.find("button", "Move Camera").state("pressed"))
+    user.keys("i", "Enter")
+    user.until(lambda: user.row(*scale).one("textbox").state("focused"))
+    user.keys("Escape")
+    user.until(lambda: user.row(*scale).state("focused"))
 
 
 def test_ctrl_k_runs_a_command_and_accepts_what_is_typed_meanwhile(user: User) -> None:

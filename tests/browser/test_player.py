@@ -57,6 +57,22 @@ def test_keys_go_through_a_recording_where_nothing_else_has_them(
     user.until(lambda: "ROS Elapsed 18.97" in user.find("dialog", "Time").text)
 
 
+def alerts(user: User) -> str:
+    return " ".join(alert.text for alert in user.see().all("alert"))
+
+
+def test_a_press_on_a_slider_that_a_recording_moves_says_what_moves_it(
+    viewer: ViewerPage,
+) -> None:
+    user, said = viewer.user, "square.mcap moves this joint. Untick Follow"
+    left, top, width, height = user.box(user.find("slider", "drivewhl_l_joint"))
+    user.page.mouse.click(round(left + 0.8 * width), round(top + height / 2))
+    user.until(lambda: said in alerts(user))
+    user.has_tip(said)
+    user.click("checkbox", "Follow square.mcap")
+    user.until(lambda: said not in alerts(user))
+
+
 def test_on_a_phone_the_time_bar_is_as_wide_as_the_screen_and_its_times_cover_nothing(
     viz: Visualizer, chromium: Chromium
 ) -> None:

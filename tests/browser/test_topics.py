@@ -29,7 +29,10 @@ def test_a_topic_that_shows_nothing_says_why_and_a_search_finds_it(user: User) -
     user.until(lambda: "/scan" in user.rows("Topics"))
     assert "/tf" in user.rows("Topics")
     user.click_on(user.find("searchbox", "Search topics"))
+    # Enter goes to what is found, though nothing is until the server has searched.
     user.type("scan")
+    user.keys("Enter")
     user.until(
         lambda: "/scan" in user.rows("Topics") and "/tf" not in user.rows("Topics")
     )
+    user.until(lambda: user.row("Topics", "/scan").state("focused"))

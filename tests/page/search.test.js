@@ -4,7 +4,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { fold } from "../../src/sambot_viz/page/state.js";
-import { isFound, matches, wordsOf } from "../../src/sambot_viz/page/tree/search.js";
+import {
+  firstFound,
+  isFound,
+  matches,
+  searchKey,
+  wordsOf,
+} from "../../src/sambot_viz/page/tree/search.js";
 import { visible } from "../../src/sambot_viz/page/tree/tree.js";
 import { rows } from "../../src/sambot_viz/page/wire/channel.js";
 
@@ -89,4 +95,40 @@ test("letters in their order find a long name, after all that has the words", ()
   assert.deepEqual(names("drivl"), ["drivl", "arm_drivl", "drivewhl_l_joint"]);
   assert.deepEqual(names("lvird"), []);
   assert.deepEqual(names("rivl"), ["drivl", "arm_drivl"]);
+});
+
+test("what is found first may be limited, and is nothing without a text or a hit", () => {
+  take();
+  assert.equal(firstFound("displays", "alpha"), "g/a");
+  assert.equal(
+    firstFound("displays", "w", (one) => one.in === "r/l"),
+    "r/l/w",
+  );
+  assert.equal(firstFound("displays", "  "), undefined);
+  assert.equal(firstFound("displays", "xyzzy"), undefined);
+  assert.equal(firstFound("nowhere", "alpha"), undefined);
+});
+
+test("Enter in a search goes to what is found, and nowhere without a hit or a text", () => {
+  take();
+  const asked = [];
+  globalThis.CSS = { escape: (id) => id };
+  globalThis.document = { querySelector: (which) => void asked.push(which) };
+  const press = (key, value) => {
+    const cleared = [];
+    const event = { key, target: { value }, preventDefault() {}, stopPropagation() {} };
+    searchKey(event, "displays", { clear: () => cleared.push(key) });
+    return [...asked.splice(0), ...cleared];
+  };
+  try {
+    assert.deepEqual(press("Enter", "wheel"), ['[data-panel="displays"] [data-row="r/l/w"]']);
+    assert.deepEqual(press("Enter", "xyzzy"), []);
+    assert.deepEqual(press("Enter", ""), []);
+    assert.deepEqual(press("ArrowDown", "xyzzy"), []);
+    assert.deepEqual(press("ArrowDown", ""), ['[data-panel="displays"] [data-row]']);
+    assert.deepEqual(press("Escape", "x"), ["Escape"]);
+  } finally {
+    delete globalThis.CSS;
+    delete globalThis.document;
+  }
 });

@@ -4,6 +4,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { edits } from "../../src/sambot_viz/page/tree/row_view.js";
+import { treeKey } from "../../src/sambot_viz/page/tree/tree_keys.js";
+import { rows } from "../../src/sambot_viz/page/wire/channel.js";
 
 const row = (kind, more = {}) => ({ id: "a", in: "", kind, ...more });
 
@@ -25,4 +27,28 @@ test("Space and named keys do not type, Delete does; what cannot be set takes no
   assert.ok(edits(row("float"), "Delete"));
   assert.ok(!edits(row("float", { fixed: true }), "p"));
   assert.ok(!edits(row("float", { off: true }), "p"));
+});
+
+/** Press a key on the row of a number; tells whether its field got the focus, and whether the key
+ * is left to the tools. */
+function press(key, led) {
+  rows.take("session", { all: true, panels: { displays: [{ ...row("float"), value: 0.5 }] } });
+  const field = { focused: false, focus: () => (field.focused = true) };
+  const event = {
+    key,
+    left: true,
+    target: { matches: () => false, dataset: { row: "a" }, querySelector: () => field },
+    preventDefault() {},
+    stopPropagation: () => (event.left = false),
+  };
+  treeKey(event, { ids: ["a"], current: "a", led, go() {}, openMenu() {} });
+  return [field.focused, event.left];
+}
+
+test("a number that the user was led to is edited by Enter and F2; other keys are for tools", () => {
+  assert.deepEqual(press("m", undefined), [true, false]);
+  assert.deepEqual(press("m", "a"), [false, true]);
+  assert.deepEqual(press("7", "a"), [false, true]);
+  for (const key of ["Enter", "F2"]) assert.deepEqual(press(key, "a"), [true, false]);
+  assert.deepEqual(press("m", "another"), [true, false]);
 });

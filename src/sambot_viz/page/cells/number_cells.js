@@ -4,6 +4,7 @@
 import { html, useRef, useState } from "../vendor/preact.js";
 import { act, newGesture, rows, send } from "../wire/channel.js";
 import { Field } from "./field.js";
+import { Slide, useFollowed } from "./followed.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import {
@@ -15,7 +16,7 @@ import {
   stepped,
   writtenNumber,
 } from "./numbers.js";
-import { degrees, useData, useRow } from "../state.js";
+import { degrees, useData } from "../state.js";
 import { formula, outside, shownUnit, withinTurn } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
@@ -160,7 +161,7 @@ export function SliderCell({ row, tab }) {
   const over =
     !row.wheel &&
     (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
-  return html`<span class=${`slide${over ? " over" : ""}`}>
+  return html`<${Slide} look=${`slide${over ? " over" : ""}`} off=${row.off}>
     ${
       row.follows
         ? html`<span class="formula" title=${formula(row)}>${formula(row)}
@@ -169,7 +170,7 @@ export function SliderCell({ row, tab }) {
     }
     <${NumberField} row=${row} tab=${tab} held=${held} room=${row.fixed ? NARROW - 1 : NARROW} />
     ${row.wheel && html`<${TurnButton} row=${row} tab=${tab} />`}
-  </span>`;
+  <//>`;
 }
 
 /** How far a finger goes before it is known whether it slides or scrolls [px]. */
@@ -287,7 +288,7 @@ function TurnButton({ row, tab }) {
   const turning = (useData("joints/turning") || []).includes(row.id);
   const label = `${turning ? "Stop" : "Turn"} ${row.name}`;
   // What messages move is theirs.
-  const free = !useRow("joints/follow")?.value;
+  const free = !useFollowed();
   return html`<button class="flat turn needs-control" disabled=${!free} aria-pressed=${String(turning)} aria-label=${label}
     title=${label} tabindex=${tab}
     onClick=${() => act("joints/turn", [row.id])}><${Icon} name=${turning ? "stop" : "turn"} />

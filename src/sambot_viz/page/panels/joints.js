@@ -5,6 +5,7 @@ import { html, useLayoutEffect, useMemo, useRef, useState } from "../vendor/prea
 import { act, rows } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
+import { useFollowed } from "../cells/followed.js";
 import { NARROW, NumberCell } from "../cells/number_cells.js";
 import { Popup } from "../window/popup.js";
 import { Cell, degrees, fold, folds, isOpen, selected, useData, useRow } from "../state.js";
@@ -49,7 +50,7 @@ export function JointsPanel() {
   const names = useMemo(() => longestName(ids) + (grouped ? INDENT : 0), [ids]);
   const width = useWidth(panel);
   useGlowEnd();
-  const free = !useRow("joints/follow")?.value;
+  const free = !useFollowed();
   if (rows.get("joints/none")) return html`<${Tree} panel="joints" label="Joints" />`;
   const many = ids.filter((id) => isSlider(rowOf(id))).length > SEARCH_FROM;
   const wheels = Boolean(rows.get("joints/rate"));
@@ -173,9 +174,10 @@ function Help() {
   degrees.use();
   const id = hovered.use() || selected.use().joints || "";
   const row = useRow(id || "none");
+  const followed = useFollowed();
   return html`<div class="help">${
     row?.kind === "slider" &&
-    html`<b>${row.name}</b><br />
+    html`<b>${row.name}</b>${followed && html`<br />${followed}`}<br />
     ${row.help}<br />
     ${row.follows ? `position ${formula(row)}; ` : ""}
       ${row.wheel ? `turns without limits, shown as ${limits(row)}` : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`

@@ -102,6 +102,43 @@ function useWholeLists(panel, text) {
   });
 }
 
+/** The first row of a panel that a text finds; undefined for none, also without a text.
+ * @param {string} panel @param {string} text @param {(row: Row) => boolean} [finds] */
+export function firstFound(panel, text, finds = () => true) {
+  const words = wordsOf(text);
+  return rows.panels.get(panel)?.find((id) => {
+    const row = rowOf(id);
+    return !row.apart && finds(row) && isFound(row, words);
+  });
+}
+
+/**
+ * The keys of a search field: Enter and the arrow go to what is found first, the arrow without a
+ * text to the first row of the panel.
+ * @param {Key} event @param {string} panel
+ * @param {{finds?: (row: Row) => boolean, enter?: string, clear: () => void}} does
+ *   enter: what of a row has the focus after Enter
+ * @returns {boolean | undefined} whether a row has the focus now; undefined for any other key
+ */
+export function searchKey(event, panel, { finds, enter, clear }) {
+  const text = /** @type {HTMLInputElement} */ (event.target).value;
+  let gone;
+  if (event.key === "Escape" && text) clear();
+  else if (event.key === "Enter" || event.key === "ArrowDown") {
+    // The text decides: keys come faster than the page is drawn.
+    const first = firstFound(panel, text, finds);
+    const any = event.key === "ArrowDown" && !text.trim() ? "[data-row]" : null;
+    const which = first ? `[data-row="${CSS.escape(first)}"]` : any;
+    const row = which ? document.querySelector(`[data-panel="${panel}"] ${which}`) : null;
+    const inside = enter && row?.querySelector(enter);
+    /** @type {HTMLElement | null} */ (inside || row)?.focus();
+    gone = Boolean(row);
+  } else return undefined;
+  event.preventDefault();
+  event.stopPropagation();
+  return gone;
+}
+
 /**
  * The field; what it finds is shown by the tree of the panel.
  * @param {{panel: string, what: string, finds?: (row: Row) => boolean, enter?: string}} props
@@ -118,20 +155,9 @@ export function Search({ panel, what, finds, enter }) {
     if (box.current.value !== text) box.current.value = text;
   });
   useAfter(() => () => search(panel, ""), []);
-  const first = wanted && rows.panels.get(panel)?.find((id) => wanted(rowOf(id)));
   /** @param {Key} event */
-  const key = (event) => {
-    if (event.key === "Escape" && box.current.value) search(panel, "");
-    else if (event.key === "Enter" || event.key === "ArrowDown") {
-      const tree = document.querySelector(`[data-panel="${panel}"]`);
-      const row = tree?.querySelector(first ? `[data-row="${CSS.escape(first)}"]` : "[data-row]");
-      const inside = enter && row?.querySelector(enter);
-      /** @type {HTMLElement | null} */ (inside || row)?.focus();
-    } else return;
-    event.preventDefault();
-    event.stopPropagation();
-  };
-  const none = wanted && !first;
+  const key = (event) => searchKey(event, panel, { finds, enter, clear: () => search(panel, "") });
+  const none = wanted && !rows.panels.get(panel)?.some((id) => wanted(rowOf(id)));
   return html`<input type="search" class="search" placeholder=${`Search ${what}`}
       aria-label=${`Search ${what}`} ref=${box} autocomplete="off" spellcheck=${false}
       aria-invalid=${none ? "true" : undefined} onMouseDown=${focusWhole}

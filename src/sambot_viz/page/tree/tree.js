@@ -91,10 +91,13 @@ export function Tree(props) {
   const [opened, setOpened] = useState(/** @type {{row: Row, at: Place} | null} */ (null));
   const shown = visible(panel, wanted);
   const current = shown.some(({ id }) => id === chosen) ? chosen : shown[0]?.id;
+  /** The row that `reveal` has led to, until it is touched. */
+  const led = useRef("");
 
   /** @param {string | undefined} id */
   const go = (id) => {
     if (!id) return;
+    led.current = "";
     select(panel, id);
     const row = rowElement(element.current, id);
     row?.focus();
@@ -121,13 +124,25 @@ export function Tree(props) {
   });
   useLazy(panel, shown);
   useKeptFocus(panel, shown, chosen, element);
-  useWantedFocus(panel, element, go);
+  useWantedFocus(panel, element, (id) => {
+    go(id);
+    led.current = id;
+  });
+  const { onKey } = props;
   /** @param {Key} event */
   const key = (event) =>
-    treeKey(event, { ids: shown.map(({ id }) => id), current, go, openMenu, onKey: props.onKey });
+    treeKey(event, {
+      ids: shown.map(({ id }) => id),
+      current,
+      led: led.current,
+      go,
+      openMenu,
+      onKey,
+    });
   return html`<div class="treebox" style=${`--split: ${(ratio * 100).toFixed(1)}%`}>
     <div class=${shown.length > MANY ? "tree many" : "tree"} role="treegrid" aria-label=${label}
-      data-panel=${panel} ref=${element} onKeyDown=${key}></div>
+      data-panel=${panel} ref=${element} onKeyDown=${key}
+      onPointerDown=${() => (led.current = "")}></div>
     ${split && html`<${Divider} panel=${panel} ratio=${ratio} />`}
     ${
       opened &&

@@ -8,10 +8,12 @@ import { edits } from "./row_view.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 /**
- * @typedef {{ids: string[], current: string | undefined, go: (id: string | undefined) => void,
+ * @typedef {{ids: string[], current: string | undefined, led?: string,
+ *   go: (id: string | undefined) => void,
  *   openMenu: (event: Key, row: Row) => void,
  *   onKey?: (event: Key, row: Row) => boolean | void}} KeyedTree
- *   ids: of the rows that are shown; onKey: the keys of the panel
+ *   ids: of the rows that are shown; onKey: the keys of the panel; led: the row that the user was
+ *   led to, and has not touched yet: only Enter and F2 begin to edit it, other keys are for tools
  */
 
 const FAR = 10;
@@ -71,15 +73,15 @@ function keyOnRow(event, row, tree) {
     if (open) fold(row.id, false);
     else go(row.in);
   } else if (event.target.dataset?.row !== row.id) return false;
-  else return changeByKey(event, row);
+  else return changeByKey(event, row, tree.led !== row.id);
   return true;
 }
 
-/** Toggle, edit, or begin to type. @param {Key} event @param {Row} row */
-function changeByKey(event, row) {
+/** Toggle, edit, or begin to type. @param {Key} event @param {Row} row @param {boolean} types */
+function changeByKey(event, row, types) {
   if (event.key === " " && typeof row.value === "boolean") toggle(row);
   else if (event.key === "Enter" || event.key === "F2") edit(event, row);
-  else if (edits(row, event.key)) {
+  else if (types && edits(row, event.key)) {
     /** @type {HTMLElement | null} */ (event.target.querySelector("input.field"))?.focus();
     return "types";
   } else return false;
