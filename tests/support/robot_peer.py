@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -39,10 +39,15 @@ class RobotPeer(FoxglovePeer):
         for message in recording.latched():
             self._latched[message.topic].append(bytes(message.payload))
 
-    def play(self, until_s: float, from_s: float = 0.0) -> None:
+    def play(
+        self,
+        until_s: float,
+        from_s: float = 0.0,
+        topics: Sequence[str] = ("/tf", "/joint_states"),
+    ) -> None:
         """Publish all that moves, between two times [s]."""
         begin, end = (START + round(time * 1e9) for time in (from_s, until_s))
-        for message in self.recording.messages(begin, end, ("/tf", "/joint_states")):
+        for message in self.recording.messages(begin, end, topics):
             self._channels[message.topic].log(bytes(message.payload))
 
 

@@ -7,10 +7,17 @@ from __future__ import annotations
 
 from sambot_viz.displays.axes import AxesDisplay
 from sambot_viz.displays.data.cloud.laser_scan import LaserScanDisplay
+from sambot_viz.displays.data.cloud.measurements import (
+    FluidPressureDisplay,
+    IlluminanceDisplay,
+    RelativeHumidityDisplay,
+    TemperatureDisplay,
+)
 from sambot_viz.displays.data.cloud.point_clouds import (
     PointCloud2Display,
     PointCloudDisplay,
 )
+from sambot_viz.displays.data.grid_cells import GridCellsDisplay
 from sambot_viz.displays.data.image.image import ImageDisplay
 from sambot_viz.displays.data.map import MapDisplay
 from sambot_viz.displays.data.path import PathDisplay
@@ -50,14 +57,9 @@ NOT_SHOWN: dict[str, str] = {
         "CameraInfo": "What a camera sees, as a pyramid.",
         "DepthCloud": "The points of a depth image.",
         "Effort": "The efforts of the joints as arrows about their axes.",
-        "FluidPressure": "Pressures as coloured points.",
-        "GridCells": "Cells of a grid, such as obstacles.",
-        "Illuminance": "Brightnesses as coloured points.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
         "Marker": "Shapes and texts that a program draws.",
         "MarkerArray": "Many shapes and texts that a program draws.",
-        "RelativeHumidity": "Humidities as coloured points.",
-        "Temperature": "Temperatures as coloured points.",
         "TwistStamped": "A velocity as arrows.",
         "Wrench": "A force and a torque as arrows.",
     }.items()
@@ -69,9 +71,12 @@ DISPLAYS: dict[str, type[Display]] = {
     display.kind: display
     for display in (
         AxesDisplay,
+        FluidPressureDisplay,
+        GridCellsDisplay,
         GridDisplay,
         GroupDisplay,
         ImageDisplay,
+        IlluminanceDisplay,
         LaserScanDisplay,
         MapDisplay,
         OdometryDisplay,
@@ -84,7 +89,9 @@ DISPLAYS: dict[str, type[Display]] = {
         PoseDisplay,
         PoseWithCovarianceDisplay,
         RangeDisplay,
+        RelativeHumidityDisplay,
         RobotModelDisplay,
+        TemperatureDisplay,
         TfDisplay,
     )
 }

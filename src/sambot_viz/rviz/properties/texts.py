@@ -182,7 +182,6 @@ FILTER_SIZE = IntProperty(
     default=10,
     minimum=1,
     help="How many messages wait for their transform.",
-    support="none",
 )
 """One more child of the topics of displays that wait for transforms."""
 

@@ -23,7 +23,10 @@ _COORDINATES = "Autocompute Value Bounds"
 
 CLOUD_PROPERTIES: tuple[Property, ...] = (
     BoolProperty(
-        "Selectable", default=True, help="Whether the points can be selected."
+        "Selectable",
+        default=True,
+        help="Whether the points can be selected; here none can.",
+        support="none",
     ),
     EnumProperty(
         "Style",
