@@ -153,14 +153,33 @@ def test_bytes_behind_a_message_are_tolerated(types: MessageTypes, more: bytes) 
     assert decoder.note is None
 
 
-@pytest.mark.parametrize("text", ["uint8 level\n", "string a\n", "{", "", "No such\n"])
-def test_the_standard_type_is_taken_when_the_definition_is_wrong(text: str) -> None:
+NO_SUCH = "is broken (no definition of sensor_msgs/msg/No, the type of a field)"
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("uint8 level\n", "does not fit its messages"),
+        ("string a\n", "does not fit its messages"),
+        ("", "does not fit its messages"),
+        ("{", "is broken (its definition cannot be parsed)"),
+        ("No such\n", NO_SUCH),
+        ("No such {text\n", NO_SUCH),
+    ],
+)
+def test_the_standard_type_is_taken_when_the_definition_is_wrong(
+    text: str, fault: str
+) -> None:
     schema = Schema("sensor_msgs/msg/JointState", "ros2msg", text)
     decoder = MessageTypes().decoder(schema, "cdr")
     for _ in range(2):
         assert decoder.decode(JOINTS).position.tolist() == [0.25, 0.25]
     assert decoder.note is not None and decoder.note.code == "definition-wrong"
-    assert "sensor_msgs/msg/JointState" in decoder.note.text
+    assert decoder.note.text == (
+        f"the definition that came with it {fault}, so the standard "
+        "sensor_msgs/msg/JointState is used; record with the same version of the "
+        "package as the publisher"
+    )
 
 
 def test_types_that_have_changed_are_read_without_a_definition() -> None:

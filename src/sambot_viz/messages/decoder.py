@@ -187,16 +187,19 @@ class FieldDecoder(Decoder):
                 self._layouts = (layout, *rest)
                 if self._own is not None and layout.definition != self._own:
                     self.note = definition_wrong(
-                        "the definition that came with it does not fit its messages",
-                        self.type_name,
+                        "does not fit its messages", self.type_name
                     )
                 return (message,)
         return None
 
 
-def definition_wrong(cause: str, type_name: str) -> Reason:
+def definition_wrong(fault: str, type_name: str) -> Reason:
     """Return the note of messages that are read by another definition than theirs."""
-    return Reason("definition-wrong", f"{cause}; the standard {type_name} is used")
+    return Reason(
+        "definition-wrong",
+        f"the definition that came with it {fault}, so the standard {type_name} is "
+        "used; record with the same version of the package as the publisher",
+    )
 
 
 def _cause(error: Exception) -> str:

@@ -82,7 +82,8 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
         if one not in known:
             known |= find(one) or {}
         if one not in known:
-            raise DecodeError(f"no definition of {one}")
+            of_field = "" if one == name else ", the type of a field"
+            raise DecodeError(f"no definition of {one}{of_field}")
         if len(needed) == _MOST_TYPES:
             raise DecodeError(f"the definition has more than {_MOST_TYPES} types")
         needed[one] = known[one]

@@ -91,7 +91,7 @@ class MessageTypes:
             if not (known := others()):
                 raise
             decoder = FieldDecoder(name, encoding, known)
-            decoder.note = definition_wrong(str(error), name)
+            decoder.note = definition_wrong(f"is broken ({error})", name)
             return decoder
         return FieldDecoder(name, encoding, [own], others)
 
