@@ -14,6 +14,9 @@ import { makeDisplay } from "./selected_display.js";
 /** The server searches the names of topics, not what is below them. @param {Row} row */
 const isTopic = (row) => !row.in;
 
+/** The topic that a row is of: its own, or the one that it is below. @param {Row | undefined} row */
+export const topicOf = (row) => (row?.in ? rows.get(row.in) : row);
+
 /** The search. The server searches: of thousands of topics the page has only those that are found. */
 function Search() {
   useRow("panel:topics");
@@ -49,10 +52,9 @@ export function TopicsPanel() {
     if (shown === false) act("topics/show", [true]);
   }, [shown]);
   useEffect(() => () => act("topics/show", [false]), []);
-  const chosen = useRow(selected.use().topics || "none");
-  const topic = chosen?.display ? chosen : rows.get(chosen?.in || "");
+  const topic = topicOf(useRow(selected.use().topics || "none"));
   const kind = topic?.display;
-  const name = topic?.label || "";
+  const name = topic?.name || "";
   useEffect(() => {
     act("topics/choose", [name]);
   }, [name]);
