@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -55,6 +56,31 @@ class ColorOptions:
     in_fixed_frame: bool = True
 
 
+_STEPS = 5 * 255
+"""The rainbow has so many colours, and one more: 255 from each corner to the next."""
+
+
+@cache
+def _rainbow_table() -> Colors:
+    """Return all colours of the rainbow, (1276, 3) uint8, from magenta to red."""
+    height = np.arange(_STEPS + 1) / 255 + 1
+    part = np.floor(height)
+    rest = height - part
+    rest = np.where(part % 2 == 0, 1 - rest, rest)
+    n, zero, one = 1 - rest, np.zeros_like(rest), np.ones_like(rest)
+    parts = [part <= 1, part == 2, part == 3, part == 4, part >= 5]
+    red, green, blue = (
+        np.select(parts, channel)
+        for channel in (
+            (n, zero, zero, n, one),
+            (zero, n, one, one, n),
+            (one, one, n, zero, zero),
+        )
+    )
+    table = np.stack([red, green, blue], axis=1)
+    return np.round(255 * table).astype(np.uint8)
+
+
 def rainbow(values: Floats) -> Colors:
     """Return RViz's rainbow: 0 is magenta, 0.2 blue, …, 0.8 yellow, 1 red.
 
@@ -64,19 +90,8 @@ def rainbow(values: Floats) -> Colors:
     Returns:
         (N, 3) uint8.
     """
-    height = _clipped(values) * 5 + 1
-    part = np.floor(height)
-    rest = height - part
-    rest = np.where(part % 2 == 0, 1 - rest, rest)
-    n, zero, one = 1 - rest, np.zeros_like(rest), np.ones_like(rest)
-    parts = [part <= 1, part == 2, part == 3, part == 4, part >= 5]
-    channels = (
-        (n, zero, zero, n, one),
-        (zero, n, one, one, n),
-        (one, one, n, zero, zero),
-    )
-    colors = np.stack([np.select(parts, channel) for channel in channels], axis=1)
-    return np.round(255 * colors).astype(np.uint8)
+    nearest = np.ceil(_STEPS * _clipped(values) - 0.5)
+    return _rainbow_table()[nearest.astype(np.intp)]
 
 
 def transformers_of(cloud: Cloud) -> tuple[str, ...]:
