@@ -62,7 +62,11 @@ def test_echo_and_frames_look_at_the_last_that_came(
     assert pose["translation"] == pytest.approx([1.0, 1.0, 0.15], abs=0.01)
     drawn = tmp_path / "frames.json"
     assert main(["frames", *source, "-o", str(drawn)]) == 0
-    assert '"odom"' in drawn.read_text("utf-8")
+    transforms = json.loads(drawn.read_text("utf-8"))["transforms"]
+    rates = {edge["child"]: edge["rate"] for edge in transforms}
+    assert rates["base_link"] == pytest.approx(30.0, rel=0.01)
+    assert rates["drivewhl_l_link"] == pytest.approx(20.0, rel=0.01)
+    assert rates["lidar_link"] is None
     assert capsys.readouterr().err == ""
     assert busy.subscribed() == []
 

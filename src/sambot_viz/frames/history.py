@@ -210,6 +210,10 @@ class FrameHistory:
             return self._samples.latest(child)
         return self._static.get(child)
 
+    def stamps(self, child: str) -> Sequence[int]:
+        """Return the stamps of the samples that are kept of a frame [ns], ascending."""
+        return self._samples.stamps(child) if child in self._samples else ()
+
     def is_static(self, child: str) -> bool:
         """Return whether a frame has a transform that holds at all times."""
         return child in self._static and child not in self._samples

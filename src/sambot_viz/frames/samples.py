@@ -211,6 +211,11 @@ class Samples:
         group, row = max(places, key=lambda at: (at[0].stamps[-1], at[0].orders[-1]))
         return group.sample(-1, row)
 
+    def stamps(self, child: str) -> list[int]:
+        """Return the times of the samples of a frame that has some [ns], ascending."""
+        kept = sorted(time for group, _ in self._places[child] for time in group.stamps)
+        return kept[bisect.bisect_left(kept, kept[-1] - self._duration) :]
+
     def at(self, child: str, time: int) -> Sample | Gap:
         """Return where a frame with samples was at a time [ns], as tf2 finds it.
 

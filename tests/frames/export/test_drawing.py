@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.frames import FrameHistory, FrameTree, Transform
 from sambot_viz.frames.export.drawing import tree_dot, tree_json, tree_json_text
 from sambot_viz.frames.export.svg import tidy_tree, tree_svg
 from sambot_viz.frames.robot_frames import robot_frames
@@ -38,6 +38,7 @@ def test_json_has_every_transform_with_its_joint(tree: FrameTree, robot: Robot) 
         "joint": "wheel_joint",
         "type": "continuous",
         "static": False,
+        "rate": None,
         "xyz": [-0.12, 0.18, -0.05],
         "rpy": pytest.approx([0, 0, 1.5]),
         "rotation_xyzw": tree.hop("wheel").transform.rotation_xyzw.tolist(),
@@ -64,6 +65,45 @@ def test_dot_has_joint_pose_and_view_frames_lines_at_the_edges(
         'Most recent transform: 0.0", color=blue];\n'
     ) in dot
     assert '  "a \\"quoted\\" <name>\\\\" -> "센서\N{REPLACEMENT CHARACTER}" [' in dot
+
+
+def test_frames_that_messages_move_have_their_rate() -> None:
+    history = FrameHistory()
+    poses = np.array([[1.0, 0, 0, 0, 0, 0, 1]])
+    # The first one is older than the ten seconds that are kept.
+    for tenth in (-18_000, *range(0, 41, 2)):
+        history.add(tenth * 100_000_000, (("odom", "base_link"),), poses)
+    history.add(4_000_000_000, (("odom", "once"),), poses)
+    tree = FrameTree(history)
+    for child in ("base_link", "once"):
+        tree.set("odom", child, Transform.identity(), 4.0)
+    tree.set_static("base_link", "laser", Transform.identity())
+    assert {edge["child"]: edge["rate"] for edge in tree_json(tree)["transforms"]} == {
+        "base_link": 5.0,
+        "once": None,
+        "laser": None,
+    }
+    assert (
+        '"odom" -> "base_link" [label="transform\\nxyz 0 0 0\\nrpy 0 0 0\\n'
+        "Broadcaster: default_authority\\nAverage rate: 5.000\\n"
+        "Buffer length: 4.000\\nMost recent transform: 4.000000\\n"
+        'Oldest transform: 0.000000"'
+    ) in tree_dot(tree)
+    assert tree_svg(tree).count(">5.0 Hz<") == tree_svg(tree).count(" Hz<") == 1
+
+
+def test_a_rate_is_that_of_all_who_publish_a_frame() -> None:
+    history = FrameHistory()
+    poses = np.array([[1.0, 0, 0, 0, 0, 0, 1]] * 2)
+    for second in range(5):
+        time = second * 1_000_000_000
+        history.add(time, (("odom", "a"), ("odom", "b")), poses)
+        history.add(time + 500_000_000, (("odom", "a"),), poses[:1])
+    tree = FrameTree(history)
+    for child in ("a", "b"):
+        tree.set("odom", child, Transform.identity(), 4.0)
+    rates = {edge["child"]: edge["rate"] for edge in tree_json(tree)["transforms"]}
+    assert rates == {"a": 2.0, "b": 1.0}
 
 
 def test_without_frames_dot_and_svg_say_so() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TypedDict
 
 from sambot_viz.frames.frame_tree import FrameTree, Hop
@@ -20,13 +21,17 @@ NO_DATA = "No tf data received"
 
 
 class EdgeJson(TypedDict):
-    """One transform of the JSON drawing; metres and radians."""
+    """One transform of the JSON drawing; metres, radians and Hz.
+
+    The rate is that of the messages; None for what is static or has less than two.
+    """
 
     parent: str
     child: str
     joint: str | None
     type: str | None
     static: bool
+    rate: float | None
     xyz: list[float]
     rpy: list[float]
     rotation_xyzw: list[float]
@@ -50,11 +55,12 @@ def tree_json(tree: FrameTree, robot: Robot | None = None) -> TreeJson:
     return {
         "frames": list(tree.frames),
         "roots": list(tree.roots),
-        "transforms": [_edge_json(hop, robot) for hop in _hops(tree)],
+        "transforms": [_edge_json(tree, hop, robot) for hop in _hops(tree)],
     }
 
 
-def _edge_json(hop: Hop, robot: Robot | None) -> EdgeJson:
+def _edge_json(tree: FrameTree, hop: Hop, robot: Robot | None) -> EdgeJson:
+    span = _stamp_span(tree, hop)
     joint = joint_between(robot, hop.parent, hop.child)
     return {
         "parent": hop.parent,
@@ -62,6 +68,7 @@ def _edge_json(hop: Hop, robot: Robot | None) -> EdgeJson:
         "joint": joint.name if joint else None,
         "type": joint.type if joint else None,
         "static": hop.static,
+        "rate": None if span is None else round(span.rate, 3),
         "xyz": hop.transform.translation.tolist(),
         "rpy": list(hop.transform.rpy),
         "rotation_xyzw": hop.transform.rotation_xyzw.tolist(),
@@ -80,15 +87,25 @@ def tree_dot(tree: FrameTree, robot: Robot | None = None) -> str:
         lines.append(f"  {_quoted(NO_DATA)};")
     lines += [f"  {_quoted(frame)};" for frame in tree.frames]
     for hop in _hops(tree):
-        label = _quoted("\n".join((*edge_lines(hop, robot), *_broadcast(hop))))
+        label = _quoted("\n".join((*_pose_lines(hop, robot), *_broadcast(tree, hop))))
         style = "" if hop.static else ", color=blue"
         edge = f"{_quoted(hop.parent)} -> {_quoted(hop.child)}"
         lines.append(f"  {edge} [label={label}{style}];")
     return "\n".join([*lines, "}", ""])
 
 
-def edge_lines(hop: Hop, robot: Robot | None) -> tuple[str, ...]:
-    """Return the text at an edge: joint, type, xyz [m], rpy [rad]."""
+def edge_lines(tree: FrameTree, frame: str, robot: Robot | None) -> tuple[str, ...]:
+    """Return the text at the edge above a frame.
+
+    Joint, type, xyz [m] and rpy [rad], and where messages move it their rate [Hz].
+    """
+    hop = tree.hop(frame)
+    span = _stamp_span(tree, hop)
+    rate = () if span is None else (f"{span.rate:.1f} Hz",)
+    return (*_pose_lines(hop, robot), *rate)
+
+
+def _pose_lines(hop: Hop, robot: Robot | None) -> tuple[str, ...]:
     joint = joint_between(robot, hop.parent, hop.child)
     if joint is not None:
         head = (joint.name, joint.type)
@@ -101,7 +118,39 @@ def edge_lines(hop: Hop, robot: Robot | None) -> tuple[str, ...]:
     )
 
 
-def _broadcast(hop: Hop) -> tuple[str, ...]:
+@dataclass(frozen=True, slots=True)
+class _StampSpan:
+    """The samples that are kept of a moving frame, at least two.
+
+    Attributes:
+        count: so many.
+        oldest: stamp of the first one [s].
+        newest: stamp of the last one [s].
+        length: the time between these [s].
+    """
+
+    count: int
+    oldest: float
+    newest: float
+    length: float
+
+    @property
+    def rate(self) -> float:
+        """The average rate [Hz]; view_frames counts one sample more."""
+        return (self.count - 1) / self.length
+
+
+def _stamp_span(tree: FrameTree, hop: Hop) -> _StampSpan | None:
+    stamps = () if tree.history is None else tree.history.stamps(hop.child)
+    if hop.static or not stamps or stamps[0] == stamps[-1]:
+        return None
+    oldest, newest = stamps[0], stamps[-1]
+    return _StampSpan(
+        len(stamps), oldest * 1e-9, newest * 1e-9, (newest - oldest) * 1e-9
+    )
+
+
+def _broadcast(tree: FrameTree, hop: Hop) -> tuple[str, ...]:
     """view_frames' label lines, as far as they are known here."""
     if hop.static:
         # view_frames divides by at least 100 µs, hence its rate of 10000.
@@ -112,7 +161,15 @@ def _broadcast(hop: Hop) -> tuple[str, ...]:
             "Most recent transform: 0.0",
             "Oldest transform: 0.0",
         )
-    return ("Broadcaster: default_authority", f"Most recent transform: {hop.stamp}")
+    if (span := _stamp_span(tree, hop)) is None:
+        return ("Broadcaster: default_authority", f"Most recent transform: {hop.stamp}")
+    return (
+        "Broadcaster: default_authority",
+        f"Average rate: {span.rate:.3f}",
+        f"Buffer length: {span.length:.3f}",
+        f"Most recent transform: {span.newest:.6f}",
+        f"Oldest transform: {span.oldest:.6f}",
+    )
 
 
 def _hops(tree: FrameTree) -> Iterator[Hop]:

@@ -59,7 +59,7 @@ class _Drawing:
     def __init__(self, tree: FrameTree, robot: Robot | None) -> None:
         self._tree = tree
         self._lines = {
-            frame: edge_lines(tree.hop(frame), robot)
+            frame: edge_lines(tree, frame, robot)
             for frame in tree.frames
             if tree.parent(frame) is not None
         }
