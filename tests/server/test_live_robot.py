@@ -109,6 +109,26 @@ def test_without_a_robot_the_joints_say_that_none_has_come(
         assert "No robot has come yet" in page.row("joints/none")["value"]
 
 
+def test_the_fixed_frame_is_ok_only_when_a_robot_has_it(
+    peer: RobotPeer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    peer.stop()
+    with Visualizer(source=peer.uri, port=0) as viz:
+        page, said = protocol(viz.viser.get_port()), "status/Fixed Frame"
+        waits = "No tf data.  Actual error: Frame [base_link] does not exist"
+        assert page.row(said)["value"] == waits
+        assert page.row(said)["level"] == "warn"
+        statuses = [page.row(said)["value"]]
+
+        def is_ok() -> bool:
+            statuses.append(page.row(said)["value"])
+            return statuses[-1] == "OK"
+
+        peer.start()
+        eventually(is_ok)
+        assert set(statuses) == {waits, "OK"}
+
+
 def test_a_recording_without_a_robot_says_so_in_the_joints(
     shared: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:

@@ -22,6 +22,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Clock, Throttle, Worker
+from sambot_viz.topics.robot_topics import STAND_IN_NAME
 
 
 class RobotState:
@@ -116,7 +117,11 @@ class RobotState:
         joints = () if self._is_placed else None
         kinematics, positions = self.joints.kinematics, self.joints.positions
         self._prefix = self._data.prefix_of(self.model)
-        hang_robot(self._tree, self.model, kinematics, positions, joints, self._prefix)
+        # Nobody publishes a frame of what is in place of a robot that is still to come.
+        if self.model.name != STAND_IN_NAME:
+            hang_robot(
+                self._tree, self.model, kinematics, positions, joints, self._prefix
+            )
         refused = self._added.set_again()
         self._data.set_again()
         self._scene.publish()
