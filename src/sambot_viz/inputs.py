@@ -354,7 +354,8 @@ class Inputs:
         listened = Listened(live, seconds, self._options.at)
         if listened.recorded is None:
             listened.close()
-            raise SourceError(f"{live.name}: {nothing_came(seconds)}")
+            lost = [problem.message for problem in listened.lost]
+            raise SourceError(f"{live.name}: {''.join(lost) or nothing_came(seconds)}")
         self._listened, self.recorded, self.live = listened, listened.recorded, None
 
     def _load_opened(self, opened: OpenedModel) -> Robot:

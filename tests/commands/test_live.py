@@ -178,12 +178,13 @@ def test_a_robot_that_leaves_while_it_is_listened_to_is_said(
 
     leaving = threading.Thread(target=leave)
     leaving.start()
-    # What came is shown at once, and not after these seconds.
-    assert main([*words, "--source", busy.uri, "--for", "600"]) == 0
+    # It is said at once, and not after these seconds.
+    status = main([*words, "--source", busy.uri, "--for", "600"])
     leaving.join()
     out, err = capsys.readouterr()
-    assert "base_link" in out or "/scan" in out
-    assert "warning[connection-lost]: the connection was lost after" in err
+    assert "the connection was lost after" in err
+    # It may have left before anything of it was written.
+    assert status == 1 or "base_link" in out or "/scan" in out
 
 
 def test_a_recording_of_the_command_line_says_what_it_has(

@@ -63,7 +63,8 @@ def test_scans_are_drawn_where_they_were_measured(
 ) -> None:
     peer.play(3.0, topics=("/tf", "/scan"))
     eventually(lambda: "from [1] messages" in said(viz, "Points"))
-    assert said(viz, "Transform") == "Transform OK"
+    # Scans that come before their transforms may have been too many to wait.
+    eventually(lambda: said(viz, "Transform") == "Transform OK")
 
 
 def test_a_scan_waits_for_its_transform(peer: RobotPeer, viz: Visualizer) -> None:
