@@ -323,6 +323,9 @@ class Display:
         """Some frames have a new pose in their parents; the nodes are moved already."""
         del frames
 
+    def assets_read(self) -> None:
+        """Draw mesh files and textures that were read in the background."""
+
     def time_passed(self) -> None:
         """Look at the time; called twice a second where messages come."""
 

@@ -20,6 +20,10 @@ from sambot_viz.displays.data.cloud.point_clouds import (
 from sambot_viz.displays.data.grid_cells import GridCellsDisplay
 from sambot_viz.displays.data.image.image import ImageDisplay
 from sambot_viz.displays.data.map import MapDisplay
+from sambot_viz.displays.data.markers.marker_displays import (
+    MarkerArrayDisplay,
+    MarkerDisplay,
+)
 from sambot_viz.displays.data.path import PathDisplay
 from sambot_viz.displays.data.point_stamped import PointStampedDisplay
 from sambot_viz.displays.data.polygon import PolygonDisplay
@@ -58,8 +62,6 @@ NOT_SHOWN: dict[str, str] = {
         "DepthCloud": "The points of a depth image.",
         "Effort": "The efforts of the joints as arrows about their axes.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
-        "Marker": "Shapes and texts that a program draws.",
-        "MarkerArray": "Many shapes and texts that a program draws.",
         "TwistStamped": "A velocity as arrows.",
         "Wrench": "A force and a torque as arrows.",
     }.items()
@@ -79,6 +81,8 @@ DISPLAYS: dict[str, type[Display]] = {
         IlluminanceDisplay,
         LaserScanDisplay,
         MapDisplay,
+        MarkerArrayDisplay,
+        MarkerDisplay,
         OdometryDisplay,
         PathDisplay,
         PointCloud2Display,

@@ -144,7 +144,3 @@ class RobotDisplay(Protocol):
     def publish(self) -> bool:
         """Set the transforms of `own_robot`, and return whether any were new."""
         ...
-
-    def assets_read(self) -> None:
-        """Draw mesh files and textures that were read in the background."""
-        ...

@@ -60,6 +60,8 @@ _CLASSES = {
     "sensor_msgs/msg/Range": "Range",
     "sensor_msgs/msg/RelativeHumidity": "RelativeHumidity",
     "sensor_msgs/msg/Temperature": "Temperature",
+    "visualization_msgs/msg/Marker": "Marker",
+    "visualization_msgs/msg/MarkerArray": "MarkerArray",
     **dict.fromkeys(DESCRIPTION_TYPES, "RobotModel"),
     **dict.fromkeys(JOINT_STATE_TYPES, "RobotModel"),
     **dict.fromkeys(TRANSFORM_TYPES, "TF"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from sambot_viz.displays.data.topic_display import (
@@ -90,6 +90,10 @@ class MessageFilterDisplay(TopicDisplay):
         """Whether only the newest message that has a place is drawn."""
         return True
 
+    def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:
+        """Return those of some messages that are worth a look, the oldest first."""
+        return came
+
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
         """Draw a message.
 
@@ -144,7 +148,8 @@ class MessageFilterDisplay(TopicDisplay):
         if self.subscription is None:
             return
         decode = self.subscription.decode
-        self._held.extend(_Held(one, decode) for one in self.subscription.drain())
+        came = self.wanted(self.subscription.drain())
+        self._held.extend(_Held(one, decode) for one in came)
         self._try()
 
     def time_passed(self) -> None:
@@ -174,7 +179,7 @@ class MessageFilterDisplay(TopicDisplay):
                 kept.append(one)
             elif last_only:
                 break
-        size = int(self.config.get(f"{TOPIC}/Filter size"))
+        size = int(self.config.get(f"{TOPIC}/Filter size")) if kept else 0
         for dropped in kept[size:]:
             if dropped.refused is not None:
                 self.status.set(TRANSFORM, "Error", dropped.refused.rviz_text)

@@ -20,16 +20,22 @@ MOST_WAITING = 100
 """So many messages wait between two pictures, of a display that draws each of them."""
 
 
-def topic_property(name: str = TOPIC, *, is_filtered: bool = True) -> TopicProperty:
+def topic_property(
+    name: str = TOPIC, *, is_filtered: bool = True, default: str = ""
+) -> TopicProperty:
     """Return the property that names a topic, with its quality of service.
 
     Args:
         name: of the property.
         is_filtered: whether messages wait for their transform.
+        default: the topic of a new display.
     """
     children = (*QOS_PROPERTIES, FILTER_SIZE) if is_filtered else QOS_PROPERTIES
     return TopicProperty(
-        name, default="", help="The topic whose messages are drawn.", children=children
+        name,
+        default=default,
+        help="The topic whose messages are drawn.",
+        children=children,
     )
 
 

@@ -18,6 +18,7 @@ const KINDS = {
   points: dressPoints,
   ribbon: dressRibbon,
   text: dressText,
+  triangles: ({ material }) => rawColors(material, "lines"),
 };
 
 const seen = new WeakSet();

@@ -168,8 +168,8 @@ export function dressPoints(object) {
     });
   };
   material.customProgramCacheKey = () => `sambot-points ${head}`;
-  // Squares have no back: they turn to the eye.
-  material.side = 2;
+  // Squares have no back: they turn to the eye. That of a box is not seen through its front.
+  material.side = style.shape === "Boxes" ? 0 : 2;
   material.needsUpdate = true;
   Object.assign(object, { geometry, isPoints: false, isMesh: true, frustumCulled: false });
   object.raycast = () => {};

@@ -208,7 +208,7 @@ class Scene:
     def _assets_read(self) -> None:
         """Draw mesh files and textures that have been read in the background."""
         with self._change(self.statuses):
-            for display in robot_displays(self.displays):
+            for display in self.displays:
                 display.assets_read()
 
     def _finish(self) -> None:

@@ -1,0 +1,1 @@
+"""The displays Marker and MarkerArray."""

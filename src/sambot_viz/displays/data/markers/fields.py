@@ -1,0 +1,111 @@
+"""Fields of markers as numbers: poses, colours, points."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.displays.scene.glb_node import IDENTITY
+from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meshes.glb import OPAQUE_FROM
+
+
+class MarkerPose:
+    """The pose of the frame of markers in the fixed frame.
+
+    Args:
+        T_fixed_frame: that pose; None for markers that are drawn in their own frame.
+    """
+
+    __slots__ = ("_at", "_turn", "_wxyz")
+
+    def __init__(self, T_fixed_frame: Transform | None = None) -> None:
+        self._turn: list[list[float]] | None = None
+        self._at: Vector3 = (0.0, 0.0, 0.0)
+        self._wxyz: Wxyz = IDENTITY
+        if T_fixed_frame is not None:
+            self._turn = T_fixed_frame.matrix[:3, :3].tolist()
+            self._at = position_of(T_fixed_frame.matrix)
+            x, y, z, w = T_fixed_frame.rotation_xyzw
+            self._wxyz = (w, x, y, z)
+
+    def of(self, pose: Any) -> tuple[Wxyz, Vector3]:
+        """Return a geometry_msgs/Pose in the frame that it is drawn in."""
+        p, q = pose.position, pose.orientation
+        norm = math.sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z)
+        turn: Wxyz = IDENTITY
+        if 0.0 < norm < math.inf:
+            turn = (q.w / norm, q.x / norm, q.y / norm, q.z / norm)
+        if self._turn is None:
+            return turn, (p.x, p.y, p.z)
+        a, b, c = self._turn
+        x, y, z = self._at
+        at = (
+            a[0] * p.x + a[1] * p.y + a[2] * p.z + x,
+            b[0] * p.x + b[1] * p.y + b[2] * p.z + y,
+            c[0] * p.x + c[1] * p.y + c[2] * p.z + z,
+        )
+        return product(self._wxyz, turn), at
+
+
+def product(a: Wxyz, b: Wxyz) -> Wxyz:
+    """Return the rotation that turns by b, then by a."""
+    aw, ax, ay, az = a
+    bw, bx, by, bz = b
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    )
+
+
+def turned(wxyz: Wxyz, v: Vector3) -> Vector3:
+    """Return a vector turned by a rotation."""
+    w, x, y, z = wxyz
+    cx = 2.0 * (y * v[2] - z * v[1])
+    cy = 2.0 * (z * v[0] - x * v[2])
+    cz = 2.0 * (x * v[1] - y * v[0])
+    return (
+        v[0] + w * cx + y * cz - z * cy,
+        v[1] + w * cy + z * cx - x * cz,
+        v[2] + w * cz + x * cy - y * cx,
+    )
+
+
+def rgb_of(color: Any) -> Rgb:
+    """Return the colour of a std_msgs/ColorRGBA, 0 to 255."""
+    red, green, blue = (
+        min(255, max(0, int(255.0 * c + 0.5))) for c in (color.r, color.g, color.b)
+    )
+    return (red, green, blue)
+
+
+def alpha_of(color: Any) -> float:
+    """Return the alpha of a std_msgs/ColorRGBA; 1 from where RViz draws it opaque."""
+    return 1.0 if color.a >= OPAQUE_FROM else max(0.0, float(color.a))
+
+
+def points_of(marker: Any) -> npt.NDArray[np.float32]:
+    """Return the points of a marker, (N, 3) [m]."""
+    points = marker.points
+    flat = np.fromiter(
+        (c for p in points for c in (p.x, p.y, p.z)), np.float64, 3 * len(points)
+    )
+    with np.errstate(over="ignore"):
+        return np.reshape(flat, (-1, 3)).astype(np.float32)
+
+
+def rgba_of(colors: Any) -> npt.NDArray[np.uint8]:
+    """Return colours with alpha, (N, 4), 0 to 255."""
+    flat = np.fromiter(
+        (v for c in colors for v in (c.r, c.g, c.b, c.a)), np.float64, 4 * len(colors)
+    )
+    scaled = np.nan_to_num(np.reshape(flat, (-1, 4)) * 255.0)
+    return np.round(scaled.clip(0, 255)).astype(np.uint8)

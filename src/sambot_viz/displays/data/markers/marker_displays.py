@@ -1,0 +1,213 @@
+"""Marker and MarkerArray: shapes, lines and texts that programs draw."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+from sambot_viz.displays.data.markers.markers import Markers
+from sambot_viz.displays.data.markers.namespaces import NAMESPACES, Namespaces
+from sambot_viz.displays.data.message_filter import (
+    TRANSFORM,
+    MessageFilterDisplay,
+    MessageRefused,
+)
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.display import DisplayContext, EntryList
+from sambot_viz.frames import Transform
+from sambot_viz.rviz import DisplayConfig, GroupProperty, Property
+from sambot_viz.sources.message import Recorded
+
+DUPLICATES = "Duplicate Marker Check"
+DEPTH_S = 60.0
+"""After a jump in a recording, older markers are not looked for [s]."""
+MOST_BYTES = 8_000_000
+"""After a jump so much of the newest messages is looked at [bytes]."""
+_NAMESPACES = GroupProperty(
+    NAMESPACES,
+    help="The namespaces of markers, each with a box to show or hide them.",
+    children=(),
+    open_keys=True,
+)
+
+
+class MarkerDisplay(MessageFilterDisplay):
+    """The markers of a topic, and of another one with arrays of markers."""
+
+    kind = "rviz_default_plugins/Marker"
+    help = "Shapes and texts that a program draws."
+    types = frozenset({"visualization_msgs/msg/Marker"})
+    properties: ClassVar[tuple[Property, ...]] = (topic_property(), _NAMESPACES)
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        # What is drawn is kept by its markers.
+        self._drawn = deque(maxlen=1)
+        self._namespaces = Namespaces(config)
+        self._markers = Markers(
+            context, self.status, self._namespaces, key, self._files_found
+        )
+
+    @property
+    def needs_last_only(self) -> bool:
+        """Whether only the newest message is drawn: each one changes the markers."""
+        return False
+
+    @property
+    def depth_s(self) -> float:
+        """How far back messages count after a jump in a recording [s]."""
+        return DEPTH_S
+
+    @property
+    def most_waiting(self) -> int:
+        """How many messages wait between two pictures, or after a jump."""
+        return 10_000
+
+    def other_topics(self) -> Sequence[str]:
+        """Return the topic of arrays beside the one of single markers."""
+        return (f"{self.topic}_array",)
+
+    def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:
+        """Leave out what later messages make good for nothing."""
+        kept: list[Recorded] = []
+        seen: set[bytes] = set()
+        size = 0
+        for one in reversed(came):
+            payload = bytes(one.payload)
+            size += len(payload)
+            if kept and size > MOST_BYTES:
+                break
+            if payload not in seen:
+                seen.add(payload)
+                kept.append(one)
+        return kept[::-1]
+
+    def place(self, message: Any) -> Transform:
+        """Return where the frame of a marker is; those of arrays have one each."""
+        if hasattr(message, "markers"):
+            return Transform.identity()
+        return super().place(message)
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Do what a message asks for."""
+        markers = getattr(message, "markers", None)
+        if markers is not None:
+            self._look_for_duplicates(markers)
+            for marker in markers:
+                self._markers.apply(marker, came.log_ns)
+        elif hasattr(message, "action"):
+            locked = bool(message.frame_locked)
+            place = None if locked else T_fixed_frame
+            self._markers.apply(message, self._arrived(message, came), place)
+        else:
+            raise MessageRefused("It has no markers")
+
+    def _arrived(self, message: Any, came: Recorded) -> int:
+        """Return when a marker came [ns]; one of the future waited for its time."""
+        messages, stamp = self.context.messages, message.header.stamp
+        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
+        if messages is not None and came.log_ns < stamp_ns <= messages.now_ns():
+            return stamp_ns
+        return came.log_ns
+
+    def _is_done(self, one: Any) -> bool:
+        done = super()._is_done(one)
+        if done:
+            self.status.remove(TRANSFORM)
+        return done
+
+    def messages_came(self) -> None:
+        """Apply what has come, and draw the markers that are other ones."""
+        super().messages_came()
+        self._draw_now()
+
+    def time_passed(self) -> None:
+        """Let markers vanish after their lifetime."""
+        super().time_passed()
+        if self.shown:
+            self._draw_now()
+
+    def _draw_now(self) -> None:
+        messages = self.context.messages
+        if messages is not None:
+            self._markers.expire(messages.now_ns())
+        self._markers.draw()
+        if self.subscription is not None and self._markers.some_grow_old:
+            self.subscription.waits = True
+
+    def redraw(self) -> None:
+        """Place the markers again in another fixed frame, or below other nodes."""
+        if self.context.fixed_frame != self._drawn_in:
+            self._drawn_in = self.context.fixed_frame
+            self._markers.place_again()
+            self._try()
+        self._markers.follow_frames()
+        self._markers.files_read()
+
+    def drop(self) -> None:
+        """Take all markers out of the scene."""
+        self._markers.clear()
+        self.status.remove(DUPLICATES)
+
+    def assets_read(self) -> None:
+        """Draw meshes that were read in the background."""
+        self._files_found()
+
+    def _files_found(self) -> None:
+        if self.shown:
+            self._markers.files_read()
+
+    def _look_for_duplicates(self, markers: Sequence[Any]) -> None:
+        seen: set[tuple[str, int]] = set()
+        for marker in markers:
+            if marker.action != 0:
+                continue
+            key = (marker.ns, marker.id)
+            if key in seen:
+                text = (
+                    "Multiple Markers in the same MarkerArray message had the same ns "
+                    f"and id: ({key[0]}, {key[1]})"
+                )
+                self.status.set(DUPLICATES, "Error", text)
+                return
+            seen.add(key)
+        self.status.remove(DUPLICATES)
+
+    # Namespaces
+
+    def entries(self) -> tuple[EntryList, ...]:
+        """Return the namespaces."""
+        return (self._namespaces.entries(self._ticked, self._facts),)
+
+    def values_put_back(self) -> None:
+        """Hide what belongs to a namespace whose box was unticked again."""
+        for name in self._namespaces.names:
+            self._ticked(name)
+        super().values_put_back()
+
+    def _facts(self, namespace: str) -> Mapping[str, str]:
+        return {"Markers": str(self._markers.count_of(namespace))}
+
+    def _ticked(self, namespace: str) -> None:
+        """Drop the markers of a namespace that is off; RViz waits for others too."""
+        if self.shown and not self._namespaces.is_on(namespace):
+            self._markers.remove_all(namespace)
+            self._markers.draw()
+
+
+class MarkerArrayDisplay(MarkerDisplay):
+    """The markers of a topic with arrays of them; none waits for its transform."""
+
+    kind = "rviz_default_plugins/MarkerArray"
+    help = "Many shapes and texts that a program draws."
+    types = frozenset({"visualization_msgs/msg/MarkerArray"})
+    properties = (
+        topic_property(is_filtered=False, default="visualization_marker_array"),
+        _NAMESPACES,
+    )
+
+    def other_topics(self) -> Sequence[str]:
+        """Return nothing: arrays are what its topic has."""
+        return ()

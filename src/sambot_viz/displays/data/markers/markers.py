@@ -1,0 +1,260 @@
+"""The markers of one display: added, replaced, deleted, grown old."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable
+from typing import Any
+
+from sambot_viz.displays.data.markers.checks import check_of
+from sambot_viz.displays.data.markers.fields import MarkerPose
+from sambot_viz.displays.data.markers.meshes import MeshFinder
+from sambot_viz.displays.data.markers.namespaces import Namespaces
+from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes, Shown
+from sambot_viz.displays.data.message_filter import frame_and_stamp
+from sambot_viz.displays.display import DisplayContext, StatusList
+from sambot_viz.frames import LookupRefused, Transform
+
+ADD, DELETE, DELETE_ALL = 0, 2, 3
+_NS = 1_000_000_000
+SHORTEST_LIFE_NS = 100_000
+"""A lifetime that is not longer is none [ns]."""
+MOST_MARKERS = 20_000
+MOST_ROWS = 100
+"""So many markers have a status of their own."""
+MARKERS = "Markers"
+
+
+class Markers:
+    """What is shown of the markers that have come.
+
+    Args:
+        context: what to draw with.
+        status: takes what is said of markers.
+        namespaces: which are shown.
+        key: what the names of nodes begin with.
+        files_found: called when mesh files are known.
+    """
+
+    def __init__(
+        self,
+        context: DisplayContext,
+        status: StatusList,
+        namespaces: Namespaces,
+        key: str,
+        files_found: Callable[[], None],
+    ) -> None:
+        self.shown: dict[Key, Shown] = {}
+        self._context = context
+        self._status = status
+        self._namespaces = namespaces
+        self._nodes = MarkerNodes(context, key)
+        self._files_found = files_found
+        self._finders: dict[str, MeshFinder] = {}
+        self._changed: dict[Key, None] = {}
+        self._places: dict[tuple[str, int | None], MarkerPose] = {}
+        self._rows: set[str] = set()
+        self._free: list[int] = []
+
+    # What messages ask for
+
+    def apply(
+        self, marker: Any, arrived_ns: int, T_fixed_frame: Transform | None = None
+    ) -> None:
+        """Do what a marker asks for; `draw` shows it.
+
+        Args:
+            marker: the message.
+            arrived_ns: when it came [ns].
+            T_fixed_frame: the pose of its frame, where that is known.
+        """
+        action = int(marker.action)
+        key = (str(marker.ns), int(marker.id))
+        if action == ADD:
+            self._add(key, marker, arrived_ns, T_fixed_frame)
+        elif action == DELETE:
+            self._remove(key)
+        elif action == DELETE_ALL:
+            self.remove_all(key[0] or None)
+
+    def _add(self, key: Key, marker: Any, arrived_ns: int, T: Transform | None) -> None:
+        if not self._namespaces.is_on(key[0]):
+            return
+        check = check_of(marker)
+        if check.is_ignored:
+            self._say(key, check.level, check.text)
+            return
+        if not check.is_drawn:
+            self._remove(key)
+            self._say(key, check.level, check.text)
+            return
+        if key not in self.shown and len(self.shown) >= MOST_MARKERS:
+            text = f"More than the {MOST_MARKERS} markers that are drawn"
+            self._status.set(MARKERS, "Error", text)
+            return
+        place, why = self._place(marker, T)
+        if why:
+            self._say(key, "Error", why)
+        elif check.text:
+            self._say(key, check.level, check.text)
+        else:
+            self._unsay(key)
+        if place is None:
+            self._remove(key, says=True)
+            return
+        before = self.shown.get(key)
+        self.shown[key] = Shown(
+            marker,
+            frame_and_stamp(marker)[0] if marker.frame_locked else None,
+            place,
+            _until(marker, arrived_ns),
+            self._slot() if before is None else before.slot,
+        )
+        self._changed[key] = None
+
+    def _place(self, marker: Any, T: Transform | None) -> tuple[MarkerPose | None, str]:
+        """Return where the frame of a marker is, and why that is not known."""
+        frame, stamp_ns = frame_and_stamp(marker)
+        if marker.frame_locked:
+            return MarkerPose(), self._context.lookup_problem(frame) or ""
+        known = self._places.get((frame, stamp_ns))
+        if known is not None:
+            return known, ""
+        tree, fixed = self._context.tree, self._context.fixed_frame
+        try:
+            found = T or tree.lookup(fixed, frame, stamp_ns)
+        except LookupRefused as refused:
+            return None, refused.rviz_text
+        place = self._places[frame, stamp_ns] = MarkerPose(found)
+        return place, ""
+
+    def _remove(self, key: Key, *, says: bool = False) -> None:
+        if not says:
+            self._unsay(key)
+        gone = self.shown.pop(key, None)
+        if gone is not None:
+            heapq.heappush(self._free, gone.slot)
+            self._changed[key] = None
+
+    def remove_all(self, namespace: str | None = None) -> None:
+        """Remove the markers of a namespace, or all of them."""
+        for key in [k for k in self.shown if namespace is None or k[0] == namespace]:
+            self._remove(key)
+        if namespace is None:
+            for row in tuple(self._rows):
+                self._status.remove(row)
+            self._rows.clear()
+
+    def _slot(self) -> int:
+        # All slots below the number of markers are taken or free.
+        return heapq.heappop(self._free) if self._free else len(self.shown)
+
+    # What time and frames do
+
+    @property
+    def some_grow_old(self) -> bool:
+        """Whether some have a lifetime."""
+        return any(one.until_ns is not None for one in self.shown.values())
+
+    def expire(self, now_ns: int) -> None:
+        """Remove those whose time is over."""
+        over = [
+            key
+            for key, one in self.shown.items()
+            if one.until_ns is not None and one.until_ns <= now_ns
+        ]
+        for key in over:
+            self._remove(key)
+
+    def place_again(self) -> None:
+        """Place all of them in another fixed frame."""
+        for key, one in tuple(self.shown.items()):
+            place, why = self._place(one.marker, None)
+            if why:
+                self._say(key, "Error", why)
+            if place is None:
+                self._remove(key, says=True)
+            else:
+                one.place = place
+                self._changed[key] = None
+
+    def follow_frames(self) -> None:
+        """Look at the nodes again of those that follow a frame."""
+        for key, one in self.shown.items():
+            if one.frame is not None:
+                self._changed[key] = None
+                why = self._context.lookup_problem(one.frame)
+                if why:
+                    self._say(key, "Error", why)
+                elif f"{key[0]}/{key[1]}" in self._rows:
+                    check = check_of(one.marker)
+                    self._say(key, check.level, check.text)
+
+    # What is drawn
+
+    def draw(self) -> None:
+        """Draw what has changed."""
+        self._places.clear()
+        if not self._changed:
+            return
+        changed, self._changed = self._changed, {}
+        self._nodes.update(self.shown, changed, self._finder)
+        self._report_meshes()
+
+    def files_read(self) -> None:
+        """Draw what waits for files."""
+        for key in self._nodes.meshes:
+            self._changed[key] = None
+        self.draw()
+
+    def clear(self) -> None:
+        """Forget all markers."""
+        self.remove_all()
+        self._status.remove(MARKERS)
+        self._changed.clear()
+        self._free.clear()
+        self._finders.clear()
+        self._nodes.remove()
+
+    def count_of(self, namespace: str) -> int:
+        """Return how many markers of a namespace are shown."""
+        return sum(key[0] == namespace for key in self.shown)
+
+    def _finder(self, resource: str) -> MeshFinder:
+        found = self._finders.get(resource)
+        if found is None:
+            found = MeshFinder(self._context, resource, self._files_found)
+            self._finders[resource] = found
+        return found
+
+    def _report_meshes(self) -> None:
+        for key, nodes in self._nodes.meshes.items():
+            if nodes.is_missing:
+                resource = self.shown[key].marker.mesh_resource
+                name = f"{key[0]}/{key[1]}"
+                text = f"Mesh resource marker [{name}] could not load [{resource}]"
+                self._say(key, "Error", text)
+
+    # What is said
+
+    def _say(self, key: Key, level: Any, text: str) -> None:
+        row = f"{key[0]}/{key[1]}"
+        if not text:
+            self._unsay(key)
+        elif row in self._rows or len(self._rows) < MOST_ROWS:
+            self._rows.add(row)
+            self._status.set(row, level, text)
+        else:
+            more = f"More markers than the {MOST_ROWS} that have a row here are wrong"
+            self._status.set(MARKERS, "Warn", more)
+
+    def _unsay(self, key: Key) -> None:
+        row = f"{key[0]}/{key[1]}"
+        if row in self._rows:
+            self._rows.discard(row)
+            self._status.remove(row)
+
+
+def _until(marker: Any, arrived_ns: int) -> int | None:
+    lifetime = marker.lifetime.sec * _NS + marker.lifetime.nanosec
+    return arrived_ns + lifetime if lifetime > SHORTEST_LIFE_NS else None

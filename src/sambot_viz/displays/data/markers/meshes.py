@@ -1,0 +1,215 @@
+"""Mesh files that markers name: found, read and allowed as those of a robot are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+from xml.sax.saxutils import quoteattr
+
+from sambot_viz import viser_private
+from sambot_viz.displays.data.markers.fields import alpha_of, rgb_of
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.robot_display import Description, ModelRequest, ModelResult
+from sambot_viz.displays.robot_model.shape_solids import rgb255
+from sambot_viz.displays.scene.nodes import Handle, NodeCache, placed
+from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.errors import RobotError
+from sambot_viz.geometry import Rgba, Vector3, Wxyz
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.cache import Content
+from sambot_viz.meshes.glb import OPAQUE_FROM, to_glb
+from sambot_viz.meshes.mesh import GREY, WHITE, Mesh, MeshPart, apply_scale
+from sambot_viz.robot.model import asset_of
+
+_STRONGEST_TINT = 0.5
+_LONGEST_NAME = 2000
+
+
+class MeshFinder:
+    """Finds one mesh file.
+
+    The name is looked up as that of a robot with a single shape would be, so markers
+    open what a robot of a topic may open, and no more; a live robot hands it out.
+
+    Args:
+        context: reads models.
+        resource: as the marker names it.
+        found: called when the file is known, or known to be missing.
+    """
+
+    def __init__(
+        self, context: DisplayContext, resource: str, found: Callable[[], None]
+    ) -> None:
+        self.asset: Asset | None = None
+        self.is_done = False
+        self._apply = context.apply
+        self._found = found
+        if context.models is None or len(resource) > _LONGEST_NAME:
+            self.is_done = True
+            return
+        text = (
+            '<robot name="marker"><link name="marker"><visual><geometry>'
+            f"<mesh filename={quoteattr(resource)}/>"
+            "</geometry></visual></link></robot>"
+        )
+        described = Description("", text, label="marker")
+        context.models.read(ModelRequest(self, described, False, self._take))
+
+    def _take(self, result: ModelResult) -> None:
+        """Take what was read; called in the thread that reads."""
+        if not isinstance(result, RobotError):
+            visuals = [v for link in result.links.values() for v in link.visuals]
+            if visuals:
+                self.asset = asset_of(visuals[0], result.file_roots)
+        self.is_done = True
+        self._apply(self._found)
+
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """How a mesh is coloured.
+
+    Attributes:
+        color: of all of it, or what is blended over its own colours.
+        tint: how much of that; None for all of it.
+        alpha: 0 to 1.
+    """
+
+    color: Rgb
+    tint: float | None
+    alpha: float
+
+    def of(self, part: MeshPart) -> tuple[Rgba, bool]:
+        """Return the colour of a part, and whether it has its texture."""
+        own = GREY if part.rgba is None else part.rgba
+        red, green, blue = (c / 255 for c in self.color)
+        if self.tint is None or (part.rgba is None and self.tint):
+            return (red, green, blue, self.alpha), False
+        textured = part.texture is not None
+        base = WHITE if textured and part.rgba is None else own
+        # RViz draws the mesh, and the colour over it once more.
+        own_part = self.alpha * (1 - self.tint)
+        alpha = own_part + self.tint
+        if not self.tint:
+            alpha = own_part = self.alpha * own[3]
+        mixed = [
+            (c * own_part + new * self.tint) / alpha if alpha > 0 else c
+            for c, new in zip(base[:3], (red, green, blue), strict=True)
+        ]
+        return (mixed[0], mixed[1], mixed[2], alpha), textured
+
+
+def look_of(marker: Any) -> _Look:
+    """Return how the mesh of a marker is coloured."""
+    color, alpha = rgb_of(marker.color), alpha_of(marker.color)
+    if not marker.mesh_use_embedded_materials:
+        return _Look(color, None, alpha)
+    if color == (0, 0, 0) and alpha == 0.0:
+        return _Look(color, 0.0, 1.0)
+    return _Look(color, min(alpha, _STRONGEST_TINT), alpha)
+
+
+class MeshNodes:
+    """The parts of one mesh file, each a node.
+
+    Args:
+        context: the scene and the files.
+        name: of the first node.
+
+    Attributes:
+        finder: knows the file; set by whoever draws.
+    """
+
+    def __init__(self, context: DisplayContext, name: str) -> None:
+        self.finder: MeshFinder | None = None
+        self.asset: Asset | None = None
+        self._context = context
+        self._name = name
+        self._nodes = NodeCache()
+        self._content: Content | None = None
+        context.assets.register(self)
+
+    @property
+    def is_missing(self) -> bool:
+        """Whether the file is known to be missing or unreadable."""
+        finder = self.finder
+        if finder is None or not finder.is_done:
+            return False
+        return finder.asset is None or (
+            self._content is not None and not isinstance(self._content, Mesh)
+        )
+
+    def draw(self, marker: Any, wxyz: Wxyz, position: Vector3) -> None:
+        """Draw the mesh of a marker, if it is read.
+
+        Args:
+            marker: names it.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
+        self.asset = None if self.finder is None else self.finder.asset
+        content = None
+        if self.asset is not None:
+            content = self._context.assets.content(self.asset)
+        self._content = content
+        if not isinstance(content, Mesh):
+            self._nodes.remove()
+            return
+        mesh, look, pose = content, look_of(marker), placed(wxyz, position)
+        scale = (
+            float(marker.scale.x),
+            float(marker.scale.y),
+            float(marker.scale.z),
+        )
+        self._nodes.show(
+            (id(mesh), look, pose, scale), lambda: self._add(mesh, look, pose, scale)
+        )
+
+    def remove(self) -> None:
+        """Take it out of the scene."""
+        self._nodes.remove()
+
+    def _add(
+        self, mesh: Mesh, look: _Look, pose: tuple[Wxyz, Vector3], scale: Vector3
+    ) -> list[Handle]:
+        handles: list[Handle] = []
+        for number, own in enumerate(mesh.parts):
+            part = apply_scale(own, scale)
+            rgba, textured = look.of(part)
+            name = self._name if number == 0 else f"{self._name}.{number}"
+            handles.append(self._add_part(name, part, rgba, textured, pose))
+        return handles
+
+    def _add_part(
+        self,
+        name: str,
+        part: MeshPart,
+        rgba: Rgba,
+        textured: bool,
+        pose: tuple[Wxyz, Vector3],
+    ) -> Handle:
+        scene = self._context.scene
+        if textured:
+            return scene.add_glb(
+                name,
+                to_glb(part, rgba=rgba),
+                wxyz=pose[0],
+                position=pose[1],
+                cast_shadow=False,
+                receive_shadow=False,
+            )
+        handle = scene.add_mesh_simple(
+            name,
+            part.vertices,
+            part.faces,
+            color=rgb255(rgba),
+            opacity=rgba[3] if rgba[3] < OPAQUE_FROM else None,
+            flat_shading=part.normals is None,
+            wxyz=pose[0],
+            position=pose[1],
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+        viser_private.share_arrays(handle, vertices=part.vertices, faces=part.faces)
+        return handle

@@ -1,0 +1,289 @@
+"""Nodes of markers: batches of solids, and one node for each of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from sambot_viz.displays.data.markers.checks import (
+    CUBE_LIST,
+    LINE_LIST,
+    LINES,
+    LISTS,
+    MESH,
+    POINTS,
+    SOLIDS,
+    SPHERE_LIST,
+    TEXT,
+)
+from sambot_viz.displays.data.markers.fields import (
+    MarkerPose,
+    alpha_of,
+    points_of,
+    rgb_of,
+    rgba_of,
+)
+from sambot_viz.displays.data.markers.meshes import MeshFinder, MeshNodes
+from sambot_viz.displays.data.markers.solids import solids_of
+from sambot_viz.displays.data.markers.triangles import TrianglesNode
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.nodes import short_id
+from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
+from sambot_viz.displays.scene.ribbons import RibbonNode
+from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
+from sambot_viz.displays.scene.texts import TextNode
+from sambot_viz.meshes.glb import OPAQUE_FROM
+
+Key = tuple[str, int]
+"""Namespace and id."""
+BATCH = 500
+"""So many solids are in one batch: more are sent when one of them changes."""
+ALONE = 100
+"""So many that can be seen through have nodes of their own, which browsers sort."""
+_SHAPES: Mapping[int, PointShape] = {
+    CUBE_LIST: "Boxes",
+    SPHERE_LIST: "Spheres",
+    POINTS: "Squares",
+}
+
+
+@dataclass(slots=True, eq=False)
+class Shown:
+    """A marker that is shown.
+
+    Attributes:
+        marker: the message.
+        frame: the frame that it follows; None when it stays where it was.
+        place: where the frame was; that frame itself when it follows it.
+        until_ns: when it vanishes [ns]; None when it stays.
+        slot: a small number that no other one has.
+    """
+
+    marker: Any
+    frame: str | None
+    place: MarkerPose
+    until_ns: int | None
+    slot: int
+
+
+class MarkerNode(Protocol):
+    """What draws one marker that is no solid."""
+
+    def remove(self) -> None:
+        """Take it out of the scene."""
+        ...
+
+
+@dataclass(slots=True, eq=False)
+class _Batch:
+    """Solids that are drawn together."""
+
+    node: SolidsNode
+    members: dict[Key, tuple[Solid, ...]]
+
+
+class MarkerNodes:
+    """The nodes of the markers of one display.
+
+    Args:
+        context: what to draw with.
+        key: what the names of nodes begin with.
+    """
+
+    def __init__(self, context: DisplayContext, key: str) -> None:
+        self._context = context
+        self._key = key
+        self._batches: dict[Hashable, _Batch] = {}
+        self._batch_of: dict[Key, Hashable] = {}
+        self._single: dict[Key, tuple[Hashable, MarkerNode]] = {}
+
+    @property
+    def meshes(self) -> Mapping[Key, MeshNodes]:
+        """What draws mesh files."""
+        singles = self._single.items()
+        return {k: node for k, (_, node) in singles if isinstance(node, MeshNodes)}
+
+    def update(
+        self,
+        shown: Mapping[Key, Shown],
+        changed: Iterable[Key],
+        finder: Callable[[str], MeshFinder],
+    ) -> None:
+        """Draw what has changed, and remove what is shown no longer.
+
+        Args:
+            shown: all that is to be shown.
+            changed: what is other than at the last call.
+            finder: returns what knows the file of a mesh resource.
+        """
+        dirty: dict[Hashable, None] = {}
+        todo: list[tuple[Key, Shown, str]] = []
+        for key in changed:
+            one = shown.get(key)
+            above = None if one is None else self._above(one)
+            if one is None or above is None:
+                self._forget(key, dirty)
+            elif int(one.marker.type) in SOLIDS:
+                self._drop_single(key)
+                self._into_batch(key, one, above, dirty)
+            else:
+                self._leave_batch(key, dirty)
+                kind = int(one.marker.type), above, one.slot
+                if key in self._single and self._single[key][0] != kind:
+                    self._drop_single(key)
+                todo.append((key, one, above))
+        for group in dirty:
+            self._draw_batch(group)
+        # Names of nodes are free again when all that is gone has been removed.
+        for key, one, above in todo:
+            self._draw_single(key, one, above, finder)
+
+    def remove(self) -> None:
+        """Take everything out of the scene."""
+        for batch in self._batches.values():
+            batch.node.remove()
+        for _, node in self._single.values():
+            node.remove()
+        self._batches.clear()
+        self._batch_of.clear()
+        self._single.clear()
+
+    def _above(self, one: Shown) -> str | None:
+        """Return the node that a marker hangs below; None when it has no place."""
+        if one.frame is None or one.frame == self._context.fixed_frame:
+            return ""
+        return self._context.nodes.path(one.frame)
+
+    def _forget(self, key: Key, dirty: dict[Hashable, None]) -> None:
+        self._leave_batch(key, dirty)
+        self._drop_single(key)
+
+    # Solids
+
+    def _into_batch(
+        self, key: Key, one: Shown, above: str, dirty: dict[Hashable, None]
+    ) -> None:
+        solids = solids_of(one.marker, one.place)
+        blended = any(solid.alpha < OPAQUE_FROM for solid in solids)
+        number = one.slot // BATCH
+        if blended and one.slot < ALONE:
+            number = one.slot
+        kind = "c" if not blended else "t" if one.slot < ALONE else "u"
+        group = (above, kind, number)
+        if self._batch_of.get(key, group) != group:
+            self._leave_batch(key, dirty)
+        batch = self._batches.get(group)
+        if batch is None:
+            name = f"{above}/{self._key}{kind}{short_id(number)}"
+            batch = _Batch(SolidsNode(self._context.scene, name), {})
+            self._batches[group] = batch
+        batch.members[key] = solids
+        self._batch_of[key] = group
+        dirty[group] = None
+
+    def _leave_batch(self, key: Key, dirty: dict[Hashable, None]) -> None:
+        group = self._batch_of.pop(key, None)
+        if group is not None:
+            del self._batches[group].members[key]
+            dirty[group] = None
+
+    def _draw_batch(self, group: Hashable) -> None:
+        batch = self._batches[group]
+        members = batch.members.values()
+        if members:
+            batch.node.draw([solid for solids in members for solid in solids])
+        else:
+            batch.node.remove()
+            del self._batches[group]
+
+    # The others
+
+    def _drop_single(self, key: Key) -> None:
+        found = self._single.pop(key, None)
+        if found is not None:
+            found[1].remove()
+
+    def _draw_single(
+        self,
+        key: Key,
+        one: Shown,
+        above: str,
+        finder: Callable[[str], MeshFinder],
+    ) -> None:
+        scene, kind = self._context.scene, int(one.marker.type)
+        _, node = self._single.get(key, (None, None))
+        name = f"{above}/{self._key}m{short_id(one.slot)}"
+        if kind in LISTS:
+            node = node if isinstance(node, PointNode) else PointNode(scene, name)
+            draw_list(node, one)
+        elif kind in LINES:
+            node = node if isinstance(node, RibbonNode) else RibbonNode(scene, name)
+            draw_lines(node, one)
+        elif kind == TEXT:
+            node = node if isinstance(node, TextNode) else TextNode(scene, name)
+            draw_text(node, one)
+        elif kind == MESH:
+            if not isinstance(node, MeshNodes):
+                node = MeshNodes(self._context, name)
+            node.finder = finder(str(one.marker.mesh_resource))
+            node.draw(one.marker, *one.place.of(one.marker.pose))
+        else:
+            if not isinstance(node, TrianglesNode):
+                node = TrianglesNode(scene, name)
+            node.draw(one.marker, *one.place.of(one.marker.pose))
+        self._single[key] = ((kind, above, one.slot), node)
+
+
+def draw_list(node: PointNode, one: Shown) -> None:
+    """Draw the copies of a list, all along the axes of its pose."""
+    marker = one.marker
+    scale, alpha = marker.scale, 1.0
+    if len(marker.colors) == len(marker.points):
+        colors = rgba_of(marker.colors)
+        if (colors[:, 3] == 255).all():
+            colors = colors[:, :3]
+    else:
+        alpha = alpha_of(marker.color)
+        colors = rgba_of([marker.color])
+        colors = colors if alpha < OPAQUE_FROM else colors[:, :3]
+    style = PointStyle(
+        _SHAPES[int(marker.type)],
+        (float(scale.x), float(scale.y), float(scale.z)),
+        alpha,
+        is_twice=True,
+    )
+    node.draw(points_of(marker), colors, style, *one.place.of(marker.pose))
+
+
+def draw_lines(node: RibbonNode, one: Shown) -> None:
+    """Draw the lines, which face the view."""
+    marker = one.marker
+    count = len(marker.points)
+    own = len(marker.colors) == count
+    wxyz, position = one.place.of(marker.pose)
+    node.draw(
+        points_of(marker),
+        float(marker.scale.x),
+        rgba_of(marker.colors) if own else np.array(rgb_of(marker.color)),
+        counts=[2] * (count // 2) if int(marker.type) == LINE_LIST else None,
+        alpha=1.0 if own else alpha_of(marker.color),
+        wxyz=wxyz,
+        position=position,
+    )
+
+
+def draw_text(node: TextNode, one: Shown) -> None:
+    """Draw the text, which faces the view."""
+    marker = one.marker
+    _, position = one.place.of(marker.pose)
+    node.draw(
+        str(marker.text),
+        float(marker.scale.z),
+        rgb_of(marker.color),
+        alpha=alpha_of(marker.color),
+        space=float(marker.scale.x) / 2 if marker.scale.x else None,
+        position=position,
+    )

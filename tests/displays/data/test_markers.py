@@ -1,0 +1,151 @@
+"""Markers are added, replaced, deleted and refused as in RViz."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+Make = Callable[[Any], tuple[str, str, object]]
+Open = Callable[..., Any]
+CUBE, LINE_LIST, TRIANGLES = 1, 5, 11
+ADD, DELETE, DELETE_ALL = 0, 2, 3
+
+
+def built(
+    types: Any,
+    number: int,
+    ns: str = "a",
+    *,
+    kind: int = CUBE,
+    action: int = ADD,
+    frame: str = "map",
+    scale: float = 1.0,
+    x: float = 0.0,
+    lifetime: int = 0,
+    points: int = 0,
+) -> object:
+    time, point = types["builtin_interfaces/msg/Time"], types["geometry_msgs/msg/Point"]
+    turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
+    picture = types["sensor_msgs/msg/CompressedImage"]
+    header = types["std_msgs/msg/Header"]
+    return types["visualization_msgs/msg/Marker"](
+        header(time(0, 0), frame),
+        ns,
+        number,
+        kind,
+        action,
+        types["geometry_msgs/msg/Pose"](point(x, 0.0, 0.0), turn),
+        types["geometry_msgs/msg/Vector3"](scale, scale, scale),
+        types["std_msgs/msg/ColorRGBA"](1.0, 0.0, 0.0, 1.0),
+        types["builtin_interfaces/msg/Duration"](lifetime, 0),
+        False,
+        [point(float(n), 0.0, 0.0) for n in range(points)],
+        [],
+        "",
+        picture(header(time(0, 0), ""), "", np.zeros(0, np.uint8)),
+        [],
+        "",
+        "",
+        types["visualization_msgs/msg/MeshFile"]("", np.zeros(0, np.uint8)),
+        False,
+    )
+
+
+def marker(number: int, ns: str = "a", **values: Any) -> Make:
+    def make(types: Any) -> tuple[str, str, object]:
+        return "/a", "visualization_msgs/msg/Marker", built(types, number, ns, **values)
+
+    return make
+
+
+def array(*numbers: int) -> Make:
+    def make(types: Any) -> tuple[str, str, object]:
+        name = "visualization_msgs/msg/MarkerArray"
+        return "/a", name, types[name]([built(types, number) for number in numbers])
+
+    return make
+
+
+def names(shown: Any) -> set[tuple[str, int]]:
+    """The markers that are drawn."""
+    return set(shown.display._markers.shown)  # pyright: ignore[reportPrivateUsage]
+
+
+def test_a_marker_is_known_by_its_namespace_and_its_number(messages: Open) -> None:
+    shown = messages("Marker", marker(0), marker(0), marker(1), marker(0, "b"))
+    assert names(shown) == {("a", 0), ("a", 1), ("b", 0)}
+    # All boxes are one node.
+    assert len(shown.node_names()) == 1
+
+
+def test_deleted_markers_are_gone(messages: Open) -> None:
+    shown = messages("Marker", marker(0), marker(1), marker(0, action=DELETE))
+    assert names(shown) == {("a", 1)}
+
+
+@pytest.mark.parametrize(("ns", "left"), [("a", {("b", 0)}), ("", set())])
+def test_all_markers_of_a_namespace_or_of_all_are_deleted(
+    messages: Open, ns: str, left: set[tuple[str, int]]
+) -> None:
+    of_all = marker(7, ns, action=DELETE_ALL)
+    shown = messages("Marker", marker(0), marker(0, "b"), of_all)
+    assert names(shown) == left
+
+
+def test_a_marker_vanishes_after_its_lifetime(messages: Open) -> None:
+    made = [marker(0, lifetime=1), *(marker(1) for _ in range(20))]
+    shown = messages("Marker", *made)
+    assert names(shown) == {("a", 1)}
+    shown.viz.player.jump(0.5)
+    assert names(shown) == {("a", 0), ("a", 1)}
+
+
+def test_a_namespace_that_is_off_shows_nothing(messages: Open) -> None:
+    off = {"Namespaces": {"a": False}}
+    shown = messages("Marker", marker(0), marker(0, "b"), **off)
+    assert names(shown) == {("b", 0)}
+    (entries,) = shown.display.entries()
+    assert sorted(entries.names) == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("made", "text"),
+    [
+        (marker(0, x=float("nan")), "invalid floating point values"),
+        (marker(0, kind=LINE_LIST, points=3), "multiple of 2"),
+        (marker(0, kind=TRIANGLES, points=4), "multiple of 3"),
+        (marker(0, scale=0.0), "0.0 in x, y or z"),
+        (marker(0, frame="nowhere"), "nowhere"),
+        (marker(0, kind=99), "99"),
+    ],
+)
+def test_what_cannot_be_drawn_is_said(messages: Open, made: Make, text: str) -> None:
+    shown = messages("MarkerArray", _in_array(made))
+    said = " ".join(text for _, text in shown.statuses.values())
+    assert text in said
+    assert {level for level, _ in shown.statuses.values()} - {"Ok"}
+
+
+def _in_array(made: Make) -> Make:
+    def make(types: Any) -> tuple[str, str, object]:
+        name = "visualization_msgs/msg/MarkerArray"
+        return "/a", name, types[name]([made(types)[2]])
+
+    return make
+
+
+def test_two_markers_of_one_array_with_the_same_number_are_doubtful(
+    messages: Open,
+) -> None:
+    shown = messages("MarkerArray", array(0, 1, 0))
+    assert "(a, 0)" in shown.statuses["Duplicate Marker Check"][1]
+    assert names(shown) == {("a", 0), ("a", 1)}
+
+
+def test_a_thousand_markers_are_few_nodes(messages: Open) -> None:
+    shown = messages("MarkerArray", array(*range(1000)))
+    assert len(names(shown)) == 1000
+    assert len(shown.node_names()) < 10
