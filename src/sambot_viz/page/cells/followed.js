@@ -36,7 +36,8 @@ export function Slide({ look, off, children }) {
     if (event.key.length === 1 || CHANGES.has(event.key)) setTried(true);
     else if (event.key === "Escape" || event.key === "Tab") setTried(false);
   };
-  const listens = why && !off ? { onPointerDown: () => setTried(true), onKeyDown: key } : {};
-  return html`<span class=${look} ref=${element} title=${off || !why ? undefined : why}
+  const followed = why !== "" && !off;
+  const listens = followed ? { onPointerDown: () => setTried(true), onKeyDown: key } : {};
+  return html`<span class=${followed ? `${look} followed` : look} ref=${element} title=${off || !why ? undefined : why}
     ...${listens}>${children}${told && html`<${ValidationMessage} text=${why} />`}</span>`;
 }
