@@ -257,7 +257,10 @@ def test_a_mere_remark_takes_no_room(own: Own) -> None:
 
 def test_the_row_that_is_selected_is_seen(desk: Desk) -> None:
     user = desk.user
-    grid, tf = user.row("Displays", "Grid"), user.row("Displays", "TF")
-    user.click_on(grid)
+
+    def color(name: str) -> str:
+        return user.color_behind(user.row("Displays", name))
+
+    user.click_on(user.row("Displays", "Grid"))
     user.until(lambda: user.row("Displays", "Grid").state("selected"))
-    assert user.color_behind(grid) != user.color_behind(tf)
+    user.until(lambda: color("Grid") != color("TF"))
