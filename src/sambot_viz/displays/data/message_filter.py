@@ -95,7 +95,7 @@ class MessageFilterDisplay(TopicDisplay):
         return came
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw a message.
+        """Take a message; `show` draws what several have brought.
 
         Args:
             message: with its fields.
@@ -105,6 +105,10 @@ class MessageFilterDisplay(TopicDisplay):
         Raises:
             MessageRefused: it cannot be drawn, and why.
         """
+        raise NotImplementedError
+
+    def show_taken(self) -> None:
+        """Draw what was taken as it looks now; what is the same is not sent again."""
         raise NotImplementedError
 
     def drop(self) -> None:
@@ -132,16 +136,14 @@ class MessageFilterDisplay(TopicDisplay):
             self.status.remove(key)
 
     def redraw(self) -> None:
-        """Place what is drawn again when the fixed frame is another one."""
+        """Draw again; in another fixed frame what is drawn gets other places."""
         if self.context.fixed_frame != self._drawn_in:
-            self.draw_again()
-
-    def draw_again(self) -> None:
-        """Draw what is drawn again, with other properties."""
-        again = [*self._drawn, *self._held]
-        self.forget()
-        self._held.extend(again)
-        self._try()
+            again = [*self._drawn, *self._held]
+            self.forget()
+            self._held.extend(again)
+            self._try()
+        else:
+            self.show_taken()
 
     def messages_came(self) -> None:
         """Draw what has a place, and hold the rest."""
@@ -159,13 +161,16 @@ class MessageFilterDisplay(TopicDisplay):
             self._report_waiting()
 
     def _try(self) -> None:
-        last_only = self.needs_last_only
+        last_only, is_new = self.needs_last_only, False
         for one in reversed(self._held) if last_only else tuple(self._held):
             one.refused = None
             if self._is_done(one):
                 self._drawn.append(one)
+                is_new = True
                 if last_only:
                     break
+        if is_new:
+            self.show_taken()
         self._leave_waiting(last_only)
         if self.subscription is not None:
             self.subscription.waits = bool(self._held)
@@ -186,7 +191,7 @@ class MessageFilterDisplay(TopicDisplay):
         self._held = deque(reversed(kept[:size]))
 
     def _is_done(self, one: _Held) -> bool:
-        """Draw a message if it has a place; return whether that was done."""
+        """Take a message if it has a place; return whether that was done."""
         try:
             message = one.message
             T_fixed_frame = self.place(message)

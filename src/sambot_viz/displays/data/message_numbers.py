@@ -84,6 +84,15 @@ def poses_of(poses: Any) -> tuple[Floats, Floats]:
     return (turns if len(turns) else np.zeros((0, 4))), places
 
 
+def covariance_of(pose: Any) -> Floats:
+    """Return the covariance of a PoseWithCovariance, (36,) [m², rad²].
+
+    Raises:
+        ValueError: it has another length.
+    """
+    return np.reshape(np.array(pose.covariance, np.float64), 36)
+
+
 def require_few(count: int) -> None:
     """Refuse a message with more than can be drawn.
 

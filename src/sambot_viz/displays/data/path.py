@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.message_filter import MessageFilterDisplay
+from sambot_viz.displays.data.kept_messages import KeptMessagesDisplay
 from sambot_viz.displays.data.message_numbers import poses_of
 from sambot_viz.displays.data.poses.pose_shapes import metres
 from sambot_viz.displays.data.topic_display import topic_property
@@ -61,12 +61,13 @@ class _Path:
             node.remove()
 
 
-class PathDisplay(MessageFilterDisplay):
+class PathDisplay(KeptMessagesDisplay):
     """The poses of nav_msgs/Path as a line, with axes or arrows."""
 
     kind = "rviz_default_plugins/Path"
     help = "The path that a robot is to follow."
     types = frozenset({"nav_msgs/msg/Path"})
+    length = "Buffer Length"
     properties = (
         topic_property(),
         EnumProperty(
@@ -124,28 +125,13 @@ class PathDisplay(MessageFilterDisplay):
         self._paths: list[_Path] = []
         self._made = 0
 
-    @property
-    def needs_last_only(self) -> bool:
-        """Whether one path is shown."""
-        return self._most == 1
-
-    @property
-    def depth_s(self) -> float:
-        """How far back paths count after a jump in a recording [s]."""
-        return 1.0 if self._most == 1 else 60.0
-
-    @property
-    def _most(self) -> int:
-        return int(self.config.acting("Buffer Length"))
-
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw a path; the oldest one that is too many goes."""
+        """Take a path; the oldest one that is too many goes."""
         turns, points = poses_of([one.pose for one in message.poses])
-        # With one path its nodes are used again.
-        while len(self._paths) > self._most:
-            self._paths.pop(0).remove()
+        self._limit()
         T = T_fixed_frame.matrix
-        if len(self._paths) == self._most:
+        # The nodes of a path that goes are used again.
+        if len(self._paths) == self.most:
             old = self._paths.pop(0)
             nodes = (old.lines, old.ribbon, old.axes, old.arrows)
         else:
@@ -158,7 +144,6 @@ class PathDisplay(MessageFilterDisplay):
                 ArrowsNode(scene, f"{name}a"),
             )
         self._paths.append(_Path(turns, points, T, *nodes))
-        self._show(self._paths[-1])
 
     def drop(self) -> None:
         """Take all paths out of the scene."""
@@ -166,13 +151,15 @@ class PathDisplay(MessageFilterDisplay):
             path.remove()
         self._paths.clear()
 
-    def redraw(self) -> None:
+    def show_taken(self) -> None:
         """Draw the paths as they look now."""
-        super().redraw()
-        while len(self._paths) > self._most:
-            self._paths.pop(0).remove()
+        self._limit()
         for path in self._paths:
             self._show(path)
+
+    def _limit(self) -> None:
+        while len(self._paths) > self.most:
+            self._paths.pop(0).remove()
 
     def _show(self, path: _Path) -> None:
         get = self.config.get

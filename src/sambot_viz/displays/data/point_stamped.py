@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from sambot_viz.displays.data.kept_solids import KeptSolidsDisplay
+from sambot_viz.displays.data.kept_messages import KeptSolidsDisplay
 from sambot_viz.displays.data.message_numbers import UPRIGHT, point_of
 from sambot_viz.displays.data.poses.pose_shapes import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property

@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from sambot_viz.displays.data.cloud.cloud import Cloud
 from sambot_viz.displays.data.cloud.colors import (
+    Colors,
     colors_of,
     intensities_of,
     transformer_of,
@@ -54,14 +53,27 @@ class _Shown:
         T_fixed_cloud: (4, 4), where they are drawn.
         came_ns: when they came [ns].
         node: draws them.
-        colors: of each point, as they are drawn.
+        colors: of each point.
+        drawn: the colours and the style that they were drawn with last.
     """
 
     cloud: Cloud
     T_fixed_cloud: Matrix
     came_ns: int
     node: PointNode
-    colors: Any = None
+    colors: Colors
+    drawn: tuple[Colors, PointStyle] | None = None
+
+    def draw(self, style: PointStyle) -> None:
+        """Draw the points, unless they look like that already."""
+        if self.drawn is not None and not self.node.is_gone:
+            colors, before = self.drawn
+            if colors is self.colors and before == style:
+                return
+        T = self.T_fixed_cloud
+        place = wxyz_from_matrix(T), position_of(T)
+        self.node.draw(self.cloud.points, self.colors, style, *place)
+        self.drawn = self.colors, style
 
 
 class CloudDisplay(MessageFilterDisplay):
@@ -102,7 +114,7 @@ class CloudDisplay(MessageFilterDisplay):
         return float(self.config.get("Decay Time"))
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw the points of a message."""
+        """Take the points of a message."""
         cloud, T_fixed_cloud = self.cloud_of(message, T_fixed_frame)
         last_only = self.needs_last_only
         if last_only and self._clouds:
@@ -113,28 +125,30 @@ class CloudDisplay(MessageFilterDisplay):
             self._made += 1
             name = f"/{self.key}p{short_id(self._made)}"
             node = PointNode(self.context.scene, name)
-        shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node)
+        colors = colors_of(cloud, color_options(self.config), T_fixed_cloud)
+        shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node, colors)
         self._clouds.append(shown)
-        self._color(shown)
-        self._draw_cloud(shown)
+
+    def show_taken(self) -> None:
+        """Draw those points that look otherwise now, without what is too old."""
+        if not self._clouds:
+            return
         self._let_decay()
+        style = self._style()
+        for shown in self._clouds:
+            shown.draw(style)
 
     def drop(self) -> None:
         """Take all points out of the scene."""
         self._remove_clouds()
         self.status.remove(POINTS)
 
-    def redraw(self) -> None:
-        """Draw what is shown, if anything of it has changed."""
-        super().redraw()
-        for shown in self._clouds:
-            self._draw_cloud(shown)
-
     def property_changed(self, path: str) -> None:
         """Colour the points again, where that is what has changed."""
         if self.shown and path not in _LOOKS:
+            options = color_options(self.config)
             for shown in self._clouds:
-                self._color(shown)
+                shown.colors = colors_of(shown.cloud, options, shown.T_fixed_cloud)
         super().property_changed(path)
 
     def time_passed(self) -> None:
@@ -167,21 +181,12 @@ class CloudDisplay(MessageFilterDisplay):
             return {CHANNEL: f"The points have no {channel}, so all are white: {known}"}
         return {}
 
-    def _color(self, shown: _Shown) -> None:
-        options = color_options(self.config)
-        shown.colors = colors_of(shown.cloud, options, shown.T_fixed_cloud)
-
     def _style(self) -> PointStyle:
         get = self.config.get
         style = str(get("Style"))
         shape = _SHAPES.get(style, "Points")
         edge = float(get("Size (Pixels)" if shape == "Points" else "Size (m)"))
         return PointStyle(shape, (edge, edge, edge), float(get("Alpha")))
-
-    def _draw_cloud(self, shown: _Shown) -> None:
-        T = shown.T_fixed_cloud
-        place = wxyz_from_matrix(T), position_of(T)
-        shown.node.draw(shown.cloud.points, shown.colors, self._style(), *place)
 
     def _let_decay(self) -> None:
         messages, decay = self.context.messages, self._decay_s
@@ -197,8 +202,3 @@ class CloudDisplay(MessageFilterDisplay):
         for shown in self._clouds:
             shown.node.remove()
         self._clouds.clear()
-
-
-def identity() -> Matrix:
-    """Return the pose of points that are in the fixed frame already, (4, 4)."""
-    return np.eye(4)

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.cloud.cloud import Cloud, Values, finite_cloud
-from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay, identity
+from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
 from sambot_viz.displays.data.message_filter import frame_and_stamp
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
@@ -44,7 +44,7 @@ class LaserScanDisplay(CloudDisplay):
         values = np.asarray(message.intensities, np.float32)
         if len(values) == count:
             fields["intensity"] = values[kept]
-        return finite_cloud(in_fixed.astype(np.float32), fields), identity()
+        return finite_cloud(in_fixed.astype(np.float32), fields), np.eye(4)
 
     def _end(self, message: Any) -> Transform:
         """Return where the scanner was at the last reading."""

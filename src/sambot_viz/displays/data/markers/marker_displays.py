@@ -119,17 +119,18 @@ class MarkerDisplay(MessageFilterDisplay):
         return done
 
     def messages_came(self) -> None:
-        """Apply what has come, and draw the markers that are other ones."""
+        """Apply what has come; markers vanish also when nothing has."""
         super().messages_came()
-        self._draw_now()
+        self.show_taken()
 
     def time_passed(self) -> None:
         """Let markers vanish after their lifetime."""
         super().time_passed()
         if self.shown:
-            self._draw_now()
+            self.show_taken()
 
-    def _draw_now(self) -> None:
+    def show_taken(self) -> None:
+        """Draw the markers that are other ones, without those that are too old."""
         messages = self.context.messages
         if messages is not None:
             self._markers.expire(messages.now_ns())

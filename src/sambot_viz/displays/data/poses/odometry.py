@@ -12,7 +12,11 @@ from sambot_viz.displays.data.message_filter import (
     MessageFilterDisplay,
     MessageRefused,
 )
-from sambot_viz.displays.data.message_numbers import point_of, require_finite
+from sambot_viz.displays.data.message_numbers import (
+    covariance_of,
+    point_of,
+    require_finite,
+)
 from sambot_viz.displays.data.poses.covariance import COVARIANCE, covariance_look
 from sambot_viz.displays.data.poses.pose_shapes import (
     ARROW,
@@ -152,10 +156,9 @@ class OdometryDisplay(MessageFilterDisplay):
         wxyz = (w, x, y, z)
         if self._kept and not self._is_apart(wxyz, position):
             return
-        covariance = np.array(message.pose.covariance, np.float64)
+        covariance = covariance_of(message.pose)
         self._kept.append(_PastPose(wxyz, position, T_fixed_frame.matrix, covariance))
-        self._limit()
-        self._show()
+        del self._kept[: -self._most]
 
     def drop(self) -> None:
         """Take all poses out of the scene."""
@@ -163,15 +166,9 @@ class OdometryDisplay(MessageFilterDisplay):
         self._shapes.remove()
         self._solids.remove()
 
-    def redraw(self) -> None:
-        """Draw the poses as they look now."""
-        super().redraw()
-        self._limit()
-        self._show()
-
-    def _limit(self) -> None:
-        keep = int(self.config.get("Keep")) or MOST_KEPT
-        del self._kept[: -min(keep, MOST_KEPT)]
+    @property
+    def _most(self) -> int:
+        return min(int(self.config.get("Keep")) or MOST_KEPT, MOST_KEPT)
 
     def _is_apart(self, wxyz: Wxyz, position: Vector3) -> bool:
         last = self._kept[-1]
@@ -184,10 +181,10 @@ class OdometryDisplay(MessageFilterDisplay):
     def _tolerance(self, of: str) -> float:
         return float(self.config.get(f"{of} Tolerance"))
 
-    def _show(self) -> None:
+    def show_taken(self) -> None:
+        """Draw the poses as they look now."""
+        del self._kept[: -self._most]
         if not self._kept:
-            self._shapes.remove()
-            self._solids.remove()
             return
         turns, places = zip(*(one.fixed for one in self._kept), strict=True)
         self._shapes.draw(look_of(self.config, "Shape/"), turns, places)

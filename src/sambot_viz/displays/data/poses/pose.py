@@ -6,8 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from sambot_viz.displays.data.message_filter import MessageFilterDisplay
-from sambot_viz.displays.data.message_numbers import point_of, wxyz_of
+from sambot_viz.displays.data.message_numbers import (
+    Floats,
+    covariance_of,
+    point_of,
+    wxyz_of,
+)
+from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.poses.covariance import COVARIANCE, covariance_look
 from sambot_viz.displays.data.poses.pose_shapes import (
     ARROW,
@@ -22,13 +27,13 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.covariance import covariance_solids
-from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import SolidsNode
-from sambot_viz.frames import Transform
-from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import DisplayConfig, EnumProperty
-from sambot_viz.sources.message import Recorded
 
+PoseRead = tuple[Wxyz, Vector3, Floats]
+"""Rotation and position [m] of a pose in its frame, and its covariance, (36,)."""
+NO_COVARIANCE = np.zeros(36)
 _IF_ARROW, _IF_AXES = ("Shape", ARROW), ("Shape", AXES)
 POSE_PROPERTIES = (
     topic_property(),
@@ -42,7 +47,7 @@ POSE_PROPERTIES = (
 )
 
 
-class PoseDisplay(MessageFilterDisplay):
+class PoseDisplay(NewestMessageDisplay[PoseRead]):
     """The pose of geometry_msgs/PoseStamped."""
 
     kind = "rviz_default_plugins/Pose"
@@ -54,31 +59,20 @@ class PoseDisplay(MessageFilterDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._shapes = PoseShapes(context.scene, f"/{key}")
-        self._pose: tuple[Wxyz, Vector3] | None = None
-        self._frame = Transform.identity()
 
-    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw a pose in the place of the one before."""
-        self._pose = wxyz_of(message.pose.orientation), point_of(message.pose.position)
-        self._frame = T_fixed_frame
-        self._show()
+    def read(self, message: Any) -> PoseRead:
+        """Return the pose."""
+        pose = message.pose
+        return wxyz_of(pose.orientation), point_of(pose.position), NO_COVARIANCE
 
-    def drop(self) -> None:
-        """Take the pose out of the scene."""
-        self._pose = None
-        self._shapes.remove()
-
-    def redraw(self) -> None:
+    def draw_read(self, read: PoseRead, wxyz: Wxyz, position: Vector3) -> None:
         """Draw the pose as it looks now."""
-        super().redraw()
-        self._show()
+        turn, at, _ = read
+        self._shapes.draw(look_of(self.config), [turn], [at], wxyz, position)
 
-    def _show(self) -> None:
-        if self._pose is not None:
-            wxyz, position = self._pose
-            T = self._frame.matrix
-            place = wxyz_from_matrix(T), position_of(T)
-            self._shapes.draw(look_of(self.config), [wxyz], [position], *place)
+    def remove(self) -> None:
+        """Take the pose out of the scene."""
+        self._shapes.remove()
 
 
 class PoseWithCovarianceDisplay(PoseDisplay):
@@ -93,23 +87,21 @@ class PoseWithCovarianceDisplay(PoseDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._solids = SolidsNode(context.scene, f"/{key}c")
-        self._covariance = np.zeros(36)
 
-    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw a pose in the place of the one before."""
-        self._covariance = np.array(message.pose.covariance, np.float64)
-        super().process(message.pose, T_fixed_frame, came)
+    def read(self, message: Any) -> PoseRead:
+        """Return the pose and its covariance."""
+        turn, at, _ = super().read(message.pose)
+        return turn, at, covariance_of(message.pose)
 
-    def drop(self) -> None:
+    def draw_read(self, read: PoseRead, wxyz: Wxyz, position: Vector3) -> None:
+        """Draw the pose and its covariance as they look now."""
+        super().draw_read(read, wxyz, position)
+        turn, at, covariance = read
+        look = covariance_look(self.config)
+        solids = covariance_solids(covariance, turn, at, look)
+        self._solids.draw(solids, wxyz=wxyz, position=position)
+
+    def remove(self) -> None:
         """Take the pose out of the scene."""
-        super().drop()
+        super().remove()
         self._solids.remove()
-
-    def _show(self) -> None:
-        super()._show()
-        if self._pose is not None:
-            T = self._frame.matrix
-            look = covariance_look(self.config)
-            solids = covariance_solids(self._covariance, *self._pose, look)
-            wxyz, position = wxyz_from_matrix(T), position_of(T)
-            self._solids.draw(solids, wxyz=wxyz, position=position)

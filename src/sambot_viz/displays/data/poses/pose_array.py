@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from sambot_viz.displays.data.message_filter import MessageFilterDisplay
-from sambot_viz.displays.data.message_numbers import poses_of
+from sambot_viz.displays.data.message_numbers import Floats, poses_of
+from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.poses.pose_shapes import (
     AXES,
     FLAT_ARROW,
@@ -23,17 +21,17 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 )
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.scene.nodes import position_of
-from sambot_viz.frames import Transform
-from sambot_viz.geometry import wxyz_from_matrix
+from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import DisplayConfig, EnumProperty
-from sambot_viz.sources.message import Recorded
 
 _IF_ARROW = ("Shape", (FLAT_ARROW, SOLID_ARROW))
 _IF_SOLID = ("Shape", SOLID_ARROW)
 
 
-class PoseArrayDisplay(MessageFilterDisplay):
+Poses = tuple[Floats, Floats]
+
+
+class PoseArrayDisplay(NewestMessageDisplay[Poses]):
     """The poses of geometry_msgs/PoseArray; the newest message alone."""
 
     kind = "rviz_default_plugins/PoseArray"
@@ -60,28 +58,17 @@ class PoseArrayDisplay(MessageFilterDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._shapes = PoseShapes(context.scene, f"/{key}")
-        self._poses = np.zeros((0, 4)), np.zeros((0, 3))
-        self._frame = Transform.identity()
 
-    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw the poses in the place of those before."""
-        self._poses = poses_of(message.poses)
-        self._frame = T_fixed_frame
-        self._show()
+    def read(self, message: Any) -> Poses:
+        """Return the rotations, (N, 4), and the positions, (N, 3) [m]."""
+        return poses_of(message.poses)
 
-    def drop(self) -> None:
-        """Take the poses out of the scene."""
-        self._poses = np.zeros((0, 4)), np.zeros((0, 3))
-        self._shapes.remove()
-
-    def redraw(self) -> None:
+    def draw_read(self, read: Poses, wxyz: Wxyz, position: Vector3) -> None:
         """Draw the poses as they look now."""
-        super().redraw()
-        self._show()
-
-    def _show(self) -> None:
-        T = self._frame.matrix
         look = look_of(self.config)
         look = replace(look, flat=float(self.config.get("Arrow Length")))
-        place = wxyz_from_matrix(T), position_of(T)
-        self._shapes.draw(look, *self._poses, *place)
+        self._shapes.draw(look, *read, wxyz, position)
+
+    def remove(self) -> None:
+        """Take the poses out of the scene."""
+        self._shapes.remove()

@@ -1,4 +1,4 @@
-"""Displays that draw one solid for each message, and keep the newest ones."""
+"""Displays that draw some of the newest messages, such as a solid for each."""
 
 from __future__ import annotations
 
@@ -13,11 +13,30 @@ from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
 
 
-class KeptSolidsDisplay(MessageFilterDisplay):
-    """Draws what each of the newest messages measures as a solid."""
+class KeptMessagesDisplay(MessageFilterDisplay):
+    """Draws so many of the newest messages as a property says."""
 
     length: ClassVar[str]
-    """The property that says how many messages are shown."""
+    """The property that says how many."""
+
+    @property
+    def needs_last_only(self) -> bool:
+        """Whether one message is shown."""
+        return self.most == 1
+
+    @property
+    def depth_s(self) -> float:
+        """How far back messages count after a jump in a recording [s]."""
+        return 1.0 if self.most == 1 else 60.0
+
+    @property
+    def most(self) -> int:
+        """So many messages are shown."""
+        return int(self.config.acting(self.length))
+
+
+class KeptSolidsDisplay(KeptMessagesDisplay):
+    """Draws what each of the newest messages measures as a solid."""
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
@@ -42,36 +61,17 @@ class KeptSolidsDisplay(MessageFilterDisplay):
         """
         raise NotImplementedError
 
-    @property
-    def needs_last_only(self) -> bool:
-        """Whether one message is shown."""
-        return self._most == 1
-
-    @property
-    def depth_s(self) -> float:
-        """How far back messages count after a jump in a recording [s]."""
-        return 1.0 if self._most == 1 else 60.0
-
-    @property
-    def _most(self) -> int:
-        return int(self.config.acting(self.length))
-
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Draw a message."""
+        """Keep what a message measures."""
         self._kept.append((self.measured(message), T_fixed_frame.matrix))
-        self._show()
+
+    def show_taken(self) -> None:
+        """Draw what is kept as it looks now."""
+        del self._kept[: -self.most]
+        solids = (self.solid(*one) for one in self._kept)
+        self._node.draw([solid for solid in solids if solid is not None])
 
     def drop(self) -> None:
         """Take all out of the scene."""
         self._kept.clear()
         self._node.remove()
-
-    def redraw(self) -> None:
-        """Draw what is kept as it looks now."""
-        super().redraw()
-        self._show()
-
-    def _show(self) -> None:
-        del self._kept[: -self._most]
-        solids = (self.solid(*one) for one in self._kept)
-        self._node.draw([solid for solid in solids if solid is not None])
