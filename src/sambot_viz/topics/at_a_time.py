@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import DURATION
 from sambot_viz.topics import reasons
+from sambot_viz.topics.decoding import frame_and_stamp
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.subscriber import jump
 from sambot_viz.topics.survey import Survey
@@ -58,11 +56,10 @@ class PlaceInTime:
         if message is None:
             return "", 0
         try:
-            header: Any = recorded.decode(message).header
-            stamp = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
-            return plain_name(str(header.frame_id)), int(stamp)
-        except (DecodeError, AttributeError):
+            frame, stamp_ns = frame_and_stamp(recorded.decode(message))
+        except DecodeError:
             return "", 0
+        return frame, stamp_ns or 0
 
     def _tree_at(self, at_ns: int) -> FrameTree:
         if self._tree is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from sambot_viz.errors import DecodeError
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.messages import MessageTypes, TransformDecoder
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.transforms import Transforms
@@ -54,3 +55,17 @@ class Decoding:
         if decoder is None:
             decoder = self._transforms[encoding] = TransformDecoder(encoding)
         return decoder.decode(message.payload)
+
+
+def frame_and_stamp(message: Any) -> tuple[str, int | None]:
+    """Return frame and stamp [ns] of a header; None for 0, the latest time.
+
+    Raises:
+        DecodeError: the message has no header.
+    """
+    try:
+        header = message.header
+        stamp = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
+        return plain_name(str(header.frame_id)), stamp or None
+    except AttributeError:
+        raise DecodeError("it has no header") from None

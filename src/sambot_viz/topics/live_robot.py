@@ -9,11 +9,11 @@ from pathlib import Path
 from sambot_viz.frames import FrameHistory
 from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.messages import MessageTypes
+from sambot_viz.messages import Decoder, MessageTypes
 from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.recorder import SourceRecorder
-from sambot_viz.sources.source import Source
+from sambot_viz.sources.source import Source, SourceTopic
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.robot_topics import (
     RobotTopics,
@@ -106,6 +106,10 @@ class LiveRobot:
             )
         return f"{status.sentence}; waiting for {self.topics.description}"
 
+    def decoder(self, topic: SourceTopic) -> Decoder:
+        """Return the decoder of a topic, with the reason when there is none."""
+        return self.decoding.types.decoder(topic.schema, topic.message_encoding)
+
     def root_and_top(self, robot: Robot, timeout: float) -> tuple[str, str]:
         """Return the frame of a robot's root link, and the one at the top of its tree.
 
@@ -128,9 +132,8 @@ class LiveRobot:
         return root, top_frame(root, pairs)
 
     def _look(self) -> None:
-        types = self.decoding.types
         known = {
-            name: types.decoder(topic.schema, topic.message_encoding).type_name
+            name: self.decoder(topic).type_name
             for name, topic in self.source.topics().items()
             if topic.reason is None
         }

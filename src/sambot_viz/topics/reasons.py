@@ -6,11 +6,11 @@ several hold is the order in `report.py`.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.errors import Severity, did_you_mean
+from sambot_viz.errors import Severity, did_you_mean, nearest
 from sambot_viz.frames.errors import LookupRefused
 from sambot_viz.topics.robot_topics import (
     DESCRIPTION_TYPES,
@@ -110,6 +110,14 @@ def no_such_topic(name: str, known: Iterable[str]) -> TopicReason:
     """Say that a topic that was named is not there, and which one was meant."""
     there = did_you_mean(name, known)
     return TopicReason("no-such-topic", f"there is no topic {name}; {there}")
+
+
+def meant_topic(name: str, known: Sequence[str]) -> str:
+    """Return the topic that was meant by a name that is none; empty for no idea.
+
+    One that is not like it is meant all the same where there is no other.
+    """
+    return nearest(name, known) or (known[0] if len(known) == 1 else "")
 
 
 def wrong_type(wanted: str, type_name: str) -> TopicReason:

@@ -20,7 +20,7 @@ from sambot_viz.displays.data.cloud.colors import (
     rainbow,
     transformer_of,
 )
-from sambot_viz.displays.data.message_filter import MessageRefused
+from sambot_viz.displays.data.refusals import MessageRefused
 
 F = np.float32
 

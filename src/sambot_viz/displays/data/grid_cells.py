@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from sambot_viz.displays.data.message_filter import MessageRefused
 from sambot_viz.displays.data.message_numbers import (
     Floats,
     points_of,
@@ -14,6 +13,7 @@ from sambot_viz.displays.data.message_numbers import (
 )
 from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.poses.pose_shapes import alpha_property
+from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.points import PointNode, PointStyle

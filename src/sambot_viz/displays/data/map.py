@@ -8,14 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.message_filter import (
-    MALFORMED,
-    MESSAGE,
-    TRANSFORM,
-    MessageRefused,
-    frame_and_stamp,
-)
+from sambot_viz.displays.data.message_filter import TRANSFORM
 from sambot_viz.displays.data.message_numbers import point_of, require_finite, wxyz_of
+from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import (
     TOPIC,
     TopicDisplay,
@@ -24,7 +19,6 @@ from sambot_viz.displays.data.topic_display import (
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.maps import SCHEMES, MapNode, palette
 from sambot_viz.displays.scene.nodes import position_of
-from sambot_viz.errors import DecodeError
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
 from sambot_viz.rviz import (
@@ -35,6 +29,7 @@ from sambot_viz.rviz import (
     IntProperty,
 )
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.decoding import frame_and_stamp
 
 MAP, UPDATE = "Map", "Update"
 """Keys of statuses."""
@@ -217,17 +212,14 @@ class MapDisplay(TopicDisplay):
         is_map = one.topic == self.topic
         key = MAP if is_map else UPDATE
         try:
-            message = self.subscription.decode(one)
-            if is_map:
-                self._take_map(message)
-            else:
-                self._take_update(message)
+            with refusing(key):
+                message = self.subscription.decode(one)
+                if is_map:
+                    self._take_map(message)
+                else:
+                    self._take_update(message)
         except MessageRefused as refused:
             self.status.set(refused.key, "Error", refused.text)
-        except DecodeError as error:
-            self.status.set(key, "Error", f"It cannot be decoded: {error}")
-        except MALFORMED as error:
-            self.status.set(key, "Error", f"It cannot be drawn: {error}")
 
     def _take_map(self, message: Any) -> None:
         info, data = message.info, np.asarray(message.data, np.int8)

@@ -6,40 +6,24 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import (
     MOST_WAITING,
     TOPIC,
     TopicDisplay,
 )
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.errors import DecodeError
 from sambot_viz.frames import LookupRefused, Transform
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.decoding import frame_and_stamp
 
-MESSAGE, TRANSFORM = "Message", "Transform"
-"""Keys of statuses."""
-INVALID_FLOATS = "Message contained invalid floating point values (nans or infs)"
+TRANSFORM = "Transform"
+"""Key of a status."""
 LONGEST_WAIT_NS = 1_000_000_000
 """What has waited so long while nothing is shown is said to wait [ns]."""
-MALFORMED = (AttributeError, TypeError, ValueError, IndexError, OverflowError)
-"""What comes of a message that is defined otherwise than ROS's own of its type."""
 _NEVER = ("extrapolation-past", "empty-name")
 """What will not be known later either."""
-
-
-class MessageRefused(Exception):
-    """A message that cannot be drawn.
-
-    Args:
-        text: the sentence of the status, RViz's where it has one.
-        key: of the status.
-    """
-
-    def __init__(self, text: str, key: str = MESSAGE) -> None:
-        super().__init__(text)
-        self.text, self.key = text, key
 
 
 class _Held:
@@ -193,26 +177,17 @@ class MessageFilterDisplay(TopicDisplay):
     def _is_done(self, one: _Held) -> bool:
         """Take a message if it has a place; return whether that was done."""
         try:
-            message = one.message
-            T_fixed_frame = self.place(message)
+            with refusing():
+                T_fixed_frame = self.place(one.message)
+                self.process(one.message, T_fixed_frame, one.recorded)
         except LookupRefused as refused:
             if refused.reason in _NEVER:
                 self.status.set(TRANSFORM, "Error", refused.rviz_text)
             else:
                 one.refused = refused
             return False
-        except DecodeError as error:
-            text = f"It cannot be decoded: {error}"
-            self.status.set(MESSAGE, "Error", text)
-            return False
-        try:
-            self.process(message, T_fixed_frame, one.recorded)
         except MessageRefused as refused:
             self.status.set(refused.key, "Error", refused.text)
-            return False
-        except MALFORMED as error:
-            text = f"It cannot be drawn: {error}"
-            self.status.set(MESSAGE, "Error", text)
             return False
         finally:
             one.forget()
@@ -230,17 +205,3 @@ class MessageFilterDisplay(TopicDisplay):
         waited = messages.now_ns() - oldest.recorded.log_ns
         if oldest.refused is not None and waited > LONGEST_WAIT_NS:
             self.status.set(TRANSFORM, "Warn", oldest.refused.rviz_text)
-
-
-def frame_and_stamp(message: Any) -> tuple[str, int | None]:
-    """Return frame and stamp [ns] of a header; None for 0, the latest time.
-
-    Raises:
-        DecodeError: the message has no header.
-    """
-    try:
-        header = message.header
-        stamp = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
-        return plain_name(str(header.frame_id)), stamp or None
-    except AttributeError:
-        raise DecodeError("it has no header") from None

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.message_filter import INVALID_FLOATS, MessageRefused
+from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
 from sambot_viz.geometry import Vector3, Wxyz
 
 Floats = npt.NDArray[np.float64]

@@ -8,7 +8,6 @@ from functools import partial
 from typing import Literal
 
 from sambot_viz.displays.robot_display import Description, WantedQos
-from sambot_viz.errors import nearest
 from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
@@ -141,9 +140,9 @@ class LiveDescriptions:
             return not_there(topic, self.topics(), missing, "Warn")
         if known.reason is not None:
             return _trouble(topic, known.reason)
-        kind = live.decoding.types.decoder(known.schema, known.message_encoding)
-        if kind.type_name not in DESCRIPTION_TYPES:
-            return _trouble(topic, reasons.wrong_type(STRING, kind.type_name).text)
+        type_name = live.decoder(known).type_name
+        if type_name not in DESCRIPTION_TYPES:
+            return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
         refused = qos_mismatch(known.qos, wanted_qos(qos))
         if topic == main:
             has_come = live.has_description
@@ -231,10 +230,8 @@ def not_there(
     """
     if not known:
         return _trouble(topic, f"there is no topic {topic}: {missing}", level)
-    # One that is not like it is meant all the same where there is no other.
-    instead = nearest(topic, known) or (known[0] if len(known) == 1 else "")
     text = reasons.no_such_topic(topic, known).text
-    return _trouble(topic, text, level, instead)
+    return _trouble(topic, text, level, reasons.meant_topic(topic, known))
 
 
 def _missing_in(name: str, topic: str) -> str:

@@ -8,12 +8,10 @@ from typing import Any, Literal
 
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
-from sambot_viz.errors import nearest
 from sambot_viz.session.data.descriptions import wanted_qos
 from sambot_viz.session.data.player import Player
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.source import SourceTopic
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
 from sambot_viz.topics.decoding import Decoding
@@ -155,7 +153,9 @@ class LiveDisplayTopics(DisplayTopics):
 
     def types(self) -> Mapping[str, str]:
         """Return the types of the messages of all topics, by their names."""
-        return {name: self._type_of(one) for name, one in self._topics().items()}
+        live = self._live
+        known = live.source.topics().items()
+        return {name: live.decoder(one).type_name for name, one in known}
 
     def offered(self, topic: str) -> WantedQos | None:
         """Return the quality of service that suits a topic; None if not known."""
@@ -174,18 +174,14 @@ class LiveDisplayTopics(DisplayTopics):
             return not_there(topic, types, self.types(), "Warn")
         if known.reason is not None:
             return TopicDoubt("Error", capitalized(known.reason))
-        if (type_name := self._type_of(known)) not in types:
-            return wrong_type(types, type_name)
+        decoder = self._live.decoder(known)
+        if decoder.type_name not in types:
+            return wrong_type(types, decoder.type_name)
+        if decoder.reason is not None:
+            return TopicDoubt("Error", capitalized(decoder.reason.text))
         why = no_publisher(topic, known.publishers)
         why = why or qos_mismatch(known.qos, wanted_qos(qos))
         return None if why is None else TopicDoubt("Warn", capitalized(why.text))
-
-    def _topics(self) -> Mapping[str, SourceTopic]:
-        return self._live.source.topics()
-
-    def _type_of(self, topic: SourceTopic) -> str:
-        types = self._live.decoding.types
-        return types.decoder(topic.schema, topic.message_encoding).type_name
 
     def _begin(self, subscription: Subscription) -> None:
         receive = partial(self._receive, subscription)
@@ -226,9 +222,8 @@ def not_there(
         level: of the status.
     """
     fitting = topics_of_types(known, wanted)
-    instead = nearest(topic, fitting) or (fitting[0] if len(fitting) == 1 else "")
     text = reasons.no_such_topic(topic, fitting or known).text
-    return TopicDoubt(level, capitalized(text), instead)
+    return TopicDoubt(level, capitalized(text), reasons.meant_topic(topic, fitting))
 
 
 def wrong_type(types: Collection[str], type_name: str) -> TopicDoubt:

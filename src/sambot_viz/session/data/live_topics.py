@@ -121,8 +121,7 @@ class LiveTopics:
     def status(self, name: str) -> TopicStatus:
         """Return what is to be said of a topic."""
         topic = self._known[name]
-        types = self._live.decoding.types
-        decoder = types.decoder(topic.schema, topic.message_encoding)
+        decoder = self._live.decoder(topic)
         heard = self._heard.get(name)
         reason = unreadable(topic)
         if reason is None and decoder.reason is not None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.message_filter import MessageRefused
+from sambot_viz.displays.data.refusals import MessageRefused
 
 Points = npt.NDArray[np.float32]
 Values = npt.NDArray[Any]

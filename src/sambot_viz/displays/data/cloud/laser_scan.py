@@ -9,9 +9,9 @@ import numpy.typing as npt
 
 from sambot_viz.displays.data.cloud.cloud import Cloud, Values, finite_cloud
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
-from sambot_viz.displays.data.message_filter import frame_and_stamp
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
+from sambot_viz.topics.decoding import frame_and_stamp
 
 SCAN_TIME = "Scan Time"
 _LONG_SCAN_NS = 1_000_000_000

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.message_filter import MessageRefused
+from sambot_viz.displays.data.refusals import MessageRefused
 
 IMAGE = "Image"
 """The key of the status."""

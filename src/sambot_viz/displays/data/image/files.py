@@ -16,7 +16,7 @@ from sambot_viz.displays.data.image.encodings import (
     Values,
     require_size,
 )
-from sambot_viz.displays.data.message_filter import MessageRefused
+from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.pictures import CameraPicture
 
 FEW_PIXELS = 100_000

@@ -7,11 +7,10 @@ from typing import Any
 from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values, read_image
 from sambot_viz.displays.data.image.files import compressed, file_of
 from sambot_viz.displays.data.image.ranges import MOST_FRAMES, Ranges, scaled
-from sambot_viz.displays.data.message_filter import MALFORMED, MessageRefused
+from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.pictures import NO_PICTURE
-from sambot_viz.errors import DecodeError
 from sambot_viz.rviz import BoolProperty, DisplayConfig, FloatProperty, IntProperty
 from sambot_viz.sources.message import Recorded
 
@@ -112,14 +111,11 @@ class ImageDisplay(TopicDisplay):
             return
         self._made = made
         try:
-            self._show(self._newest)
+            # Files of pictures break in more ways than those of a message.
+            with refusing(IMAGE, "shown", OSError, SyntaxError):
+                self._show(self._newest)
         except MessageRefused as refused:
             self._refuse(refused.text)
-        except DecodeError as error:
-            self._refuse(f"It cannot be decoded: {error}")
-        # Files of pictures break in more ways than those of a message.
-        except (*MALFORMED, OSError, SyntaxError) as error:
-            self._refuse(f"It cannot be shown: {error}")
         else:
             self.status.remove(IMAGE)
 

@@ -8,16 +8,14 @@ from typing import Any, ClassVar
 
 from sambot_viz.displays.data.markers.markers import Markers
 from sambot_viz.displays.data.markers.namespaces import NAMESPACES, Namespaces
-from sambot_viz.displays.data.message_filter import (
-    TRANSFORM,
-    MessageFilterDisplay,
-    MessageRefused,
-)
+from sambot_viz.displays.data.message_filter import TRANSFORM, MessageFilterDisplay
+from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList
 from sambot_viz.frames import Transform
 from sambot_viz.rviz import DisplayConfig, GroupProperty, Property
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.decoding import frame_and_stamp
 
 DUPLICATES = "Duplicate Marker Check"
 DEPTH_S = 60.0
@@ -106,11 +104,11 @@ class MarkerDisplay(MessageFilterDisplay):
 
     def _arrived(self, message: Any, came: Recorded) -> int:
         """Return when a marker came [ns]; one of the future waited for its time."""
-        messages, stamp = self.context.messages, message.header.stamp
-        stamp_ns = stamp.sec * 1_000_000_000 + stamp.nanosec
-        if messages is not None and came.log_ns < stamp_ns <= messages.now_ns():
-            return stamp_ns
-        return came.log_ns
+        messages, (_, stamp_ns) = self.context.messages, frame_and_stamp(message)
+        if messages is None or stamp_ns is None:
+            return came.log_ns
+        waited = came.log_ns < stamp_ns <= messages.now_ns()
+        return stamp_ns if waited else came.log_ns
 
     def _is_done(self, one: Any) -> bool:
         done = super()._is_done(one)

@@ -11,9 +11,9 @@ from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.namespaces import Namespaces
 from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes, Shown
-from sambot_viz.displays.data.message_filter import frame_and_stamp
 from sambot_viz.displays.display import DisplayContext, StatusList
 from sambot_viz.frames import LookupRefused, Transform
+from sambot_viz.topics.decoding import frame_and_stamp
 
 ADD, DELETE, DELETE_ALL = 0, 2, 3
 _NS = 1_000_000_000

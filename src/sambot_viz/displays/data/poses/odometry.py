@@ -8,10 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.message_filter import (
-    MessageFilterDisplay,
-    MessageRefused,
-)
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import (
     covariance_of,
     point_of,
@@ -28,6 +25,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     color_property,
     look_of,
 )
+from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids

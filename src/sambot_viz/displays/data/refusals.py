@@ -1,0 +1,49 @@
+"""Messages that cannot be drawn, and the sentence that the status has for each."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from contextlib import contextmanager
+
+from sambot_viz.errors import DecodeError
+
+MESSAGE = "Message"
+"""The status that says so, where a display has no other one for it."""
+INVALID_FLOATS = "Message contained invalid floating point values (nans or infs)"
+_MALFORMED = (AttributeError, TypeError, ValueError, IndexError, OverflowError)
+"""What comes of a message that is defined otherwise than ROS's own of its type."""
+
+
+class MessageRefused(Exception):
+    """A message that cannot be drawn.
+
+    Args:
+        text: the sentence of the status, RViz's where it has one.
+        key: of the status.
+    """
+
+    def __init__(self, text: str, key: str = MESSAGE) -> None:
+        super().__init__(text)
+        self.text, self.key = text, key
+
+
+@contextmanager
+def refusing(
+    key: str = MESSAGE, verb: str = "drawn", *others: type[Exception]
+) -> Generator[None]:
+    """Refuse a message whatever is wrong with it.
+
+    Args:
+        key: of the status.
+        verb: what is done with the message inside.
+        others: errors that say that it is broken, beside those of any message.
+
+    Raises:
+        MessageRefused: it cannot be decoded, or what was done with it has failed.
+    """
+    try:
+        yield
+    except DecodeError as error:
+        raise MessageRefused(f"It cannot be decoded: {error}", key) from error
+    except (*_MALFORMED, *others) as error:
+        raise MessageRefused(f"It cannot be {verb}: {error}", key) from error
