@@ -57,6 +57,11 @@ class TopicMessages(Protocol):
         """Ask for them no longer."""
         ...
 
+    @property
+    def has_news(self) -> bool:
+        """Whether something has come, or waits for a transform."""
+        ...
+
     def deliver(self) -> None:
         """Let those draw for whom something has come, or who wait for a transform."""
         ...

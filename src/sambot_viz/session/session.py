@@ -128,7 +128,6 @@ class Session:
                 change,
                 worker,
                 scene.fault_of,
-                scene.messages_came,
             )
         elif isinstance(moved_by, RecordedRobot) and frames is not None:
             self.data = RecordedData(
@@ -139,7 +138,6 @@ class Session:
                 change,
                 worker,
                 clock,
-                scene.messages_came,
             )
         if self.data is not None:
             scene.context.now = self.data.time_s

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from collections.abc import Callable, Collection
 from typing import Any
@@ -60,37 +61,41 @@ class Subscription:
         self._waiting: deque[Recorded] = deque(maxlen=size)
         self._last: dict[str, Recorded] = {}
         self._begin_ns: int | None = None
+        # The thread of a source adds, the worker takes.
+        self._lock = threading.Lock()
 
     @property
     def has_news(self) -> bool:
-        """Whether something is to be drawn."""
-        return self.is_outdated or bool(self._waiting)
+        """Whether something is to be drawn, or waits for a transform."""
+        return self.waits or self.is_outdated or bool(self._waiting)
 
     def take(self, message: Recorded) -> None:
         """Keep a message; the oldest one that waits goes when there are too many."""
-        last = self._last.get(message.topic)
-        if last is not None and _is_same(last, message):
-            # A latched message comes once for that, and once as the last one.
-            return
-        if self._begin_ns is None:
-            self._begin_ns = message.log_ns
-        self._last[message.topic] = message
-        self.count[message.topic] += 1
-        if self._waiting.maxlen == len(self._waiting) and self.base:
-            # The oldest of the changes goes, not what they are made to.
-            del self._waiting[1]
-        self._waiting.append(message)
+        with self._lock:
+            last = self._last.get(message.topic)
+            if last is not None and _is_same(last, message):
+                # A latched message comes once for that, and once as the last one.
+                return
+            if self._begin_ns is None:
+                self._begin_ns = message.log_ns
+            self._last[message.topic] = message
+            self.count[message.topic] += 1
+            if self._waiting.maxlen == len(self._waiting) and self.base:
+                # The oldest of the changes goes, not what they are made to.
+                del self._waiting[1]
+            self._waiting.append(message)
 
     def take_older(self, message: Recorded) -> None:
         """Leave out what is older than what counts."""
 
     def clear(self) -> None:
         """Forget all messages: the time has jumped."""
-        self._waiting.clear()
-        self._last.clear()
-        self._begin_ns = None
-        self.count = dict.fromkeys(self.topics, 0)
-        self.is_outdated = True
+        with self._lock:
+            self._waiting.clear()
+            self._last.clear()
+            self._begin_ns = None
+            self.count = dict.fromkeys(self.topics, 0)
+            self.is_outdated = True
 
     def lacks(self) -> bool:
         """Return False: the last message of each topic is enough."""
@@ -98,11 +103,10 @@ class Subscription:
 
     def drain(self) -> list[Recorded]:
         """Return the messages that wait, the oldest first; they wait no longer."""
-        self.is_outdated = False
-        drained: list[Recorded] = []
-        # The thread of a source may add more meanwhile.
-        while self._waiting:
-            drained.append(self._waiting.popleft())
+        with self._lock:
+            self.is_outdated = False
+            drained = list(self._waiting)
+            self._waiting.clear()
         return drained
 
     def rate(self, topic: str, now_ns: int) -> float:

@@ -54,10 +54,15 @@ class DisplayTopics:
         self._subscriptions.remove(subscription)
         self._end(subscription)
 
+    @property
+    def has_news(self) -> bool:
+        """Whether something has come, or waits for a transform."""
+        return any(one.has_news for one in self._subscriptions)
+
     def deliver(self) -> None:
         """Let those draw for whom something has come, or who wait for a transform."""
         for one in list(self._subscriptions):
-            if one.has_news or one.waits:
+            if one.has_news:
                 one.came()
 
     def reset(self) -> None:

@@ -6,7 +6,6 @@ import re
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
 from functools import partial
 
 from sambot_viz.frames.data_frames import DataFrames
@@ -44,7 +43,6 @@ class LiveData(RobotData):
         change: tells how the source is.
         worker: takes the messages.
         fault_of: says why a frame has no place in the picture; None when it has one.
-        deliver: lets displays draw what has come for them.
 
     Attributes:
         status: told when the source is doing otherwise.
@@ -62,12 +60,11 @@ class LiveData(RobotData):
         change: Change,
         worker: Worker,
         fault_of: FaultOf,
-        deliver: Callable[[], None],
     ) -> None:
         decoding = Decoding(live.decoding.types)
         transforms = TransformTopics(history, (), (), decoding.transforms)
         states = JointStateTopics((), decoding.decode)
-        super().__init__(live.name, transforms, states, frames, robot, change, deliver)
+        super().__init__(live.name, transforms, states, frames, robot, change)
         self.live = live
         self.status = Signal(change, None)
         self.topics = self._topics = LiveTopics(live, fault_of, change, worker)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.session.data.display_topics import RecordedDisplayTopics
@@ -27,7 +25,6 @@ class RecordedData(RobotData):
         change: tells what the player does.
         worker: takes its steps.
         clock: the time of the computer.
-        deliver: lets displays draw what has come for them.
     """
 
     def __init__(
@@ -39,12 +36,9 @@ class RecordedData(RobotData):
         change: Change,
         worker: Worker,
         clock: Clock,
-        deliver: Callable[[], None],
     ) -> None:
         transforms, states = recorded.transforms(history), recorded.joint_states()
-        super().__init__(
-            recorded.name, transforms, states, frames, robot, change, deliver
-        )
+        super().__init__(recorded.name, transforms, states, frames, robot, change)
         self.recorded = recorded
         topics = recorded.topics
         if topics.moving or topics.joint_states:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames.data_frames import DataFrames
@@ -35,7 +34,6 @@ class RobotData:
         frames: those of the session, as they are drawn.
         robot: is moved.
         change: tells what is wrong.
-        deliver: lets displays draw what has come for them.
 
     Attributes:
         name: as given.
@@ -63,9 +61,9 @@ class RobotData:
         frames: DataFrames,
         robot: RobotState,
         change: Change,
-        deliver: Callable[[], None],
     ) -> None:
         self.name = name
+        self._change = change
         self.problems = Signal[tuple[Problem, ...]](change, ())
         self._turned_back_by = 0
         self._looked = float("-inf")
@@ -74,7 +72,6 @@ class RobotData:
         self._joint_states = joint_states
         self._frames = frames
         self._robot = robot
-        self._deliver = deliver
         frames.changed = transforms.changed
         frames.pairs = transforms.pairs
 
@@ -106,11 +103,13 @@ class RobotData:
             )
         self._robot.note_followed(self._joint_states.changed())
         self._frames.waiting = True
-        if jumped:
-            self._robot.after_jump()
-        else:
-            self._robot.draw_moved()
-        self._deliver()
+        # One picture is one change.
+        with self._change():
+            if jumped:
+                self._robot.after_jump()
+            else:
+                self._robot.draw_moved()
+            self._robot.messages_came()
         self._look_at_time(jumped)
 
     def _look_at_time(self, jumped: bool = False) -> None:

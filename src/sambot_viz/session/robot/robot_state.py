@@ -296,6 +296,10 @@ class RobotState:
         """Let frames grow old that messages bring no more."""
         self._scene.time_passed()
 
+    def messages_came(self) -> None:
+        """Let displays draw what has come for them."""
+        self._scene.messages_came()
+
     def draw_moved(self) -> None:
         """Send the poses of all that moved since the last time; `move` does it soon."""
         with self._change.lock:

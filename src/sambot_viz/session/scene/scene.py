@@ -158,9 +158,10 @@ class Scene:
 
     def messages_came(self) -> None:
         """Let displays draw what has come for them; else nothing is sent."""
-        if self.context.messages is not None:
+        messages = self.context.messages
+        if messages is not None and messages.has_news:
             with self._change(), self._telling_statuses():
-                self.context.messages.deliver()
+                messages.deliver()
 
     @contextmanager
     def _telling_statuses(self) -> Generator[None]:
